@@ -79,10 +79,9 @@ def inertias() -> dict[str, float]:
 
 def scene() -> Scene:
     """Vessel, crane, payload, sea; drives by state feedback around the loads that hold each pose at rest."""
-    database = shipped_database()
     out = Scene(name="case2_by_hand")
-    out.add_vessel(database, name="vessel", memory="per-pair")
-    out.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+    out.add_vessel(shipped_database(), name="vessel", memory="per-pair")
+    out.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
     start = {"theta": 0.0, "s1": 0.0, "s2": 0.0}
     add_bodies(out, **start)
     add_joints(out, "vessel", **start)

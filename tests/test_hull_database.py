@@ -111,7 +111,7 @@ def test_the_memory_of_a_strip_database_has_no_surge(kind: str) -> None:
 def test_a_run_in_a_low_sea_follows_the_summed_response() -> None:
     scene = Scene(name="hull")
     scene.add_vessel(replace(ship_database(), memory=ship_memory("passive")), memory="passive")
-    scene.add_sea(ship_database(), hs=0.02, tp=8.0, direction_deg=150.0, count=60)
+    scene.add_sea(hs=0.02, tp=8.0, direction_deg=150.0, count=60)
     linear = linear_model(scene)
     summed = response_summed(linear, body="vessel")
     start = linear.full_state(summed.state_at(0.0))

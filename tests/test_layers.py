@@ -16,9 +16,7 @@ FLOORS = """
     lazy
     inputs
     files
-    plotting
-    description
-    validity sea
+    plotting sea
     hydro.data
     hydro.memory
     hydro.vessel
@@ -26,6 +24,8 @@ FLOORS = """
     hydro.readers
     hydro.hull
     hydro
+    description
+    validity
     crane
     analysis
     scene

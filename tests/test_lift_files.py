@@ -140,7 +140,7 @@ systems = [
     lift = lift_of(text, tmp_path)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
-    scene.add_sea(database, vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
+    scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
     assert lift.scene() == scene
 
 
@@ -310,7 +310,7 @@ BUILT = {
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
     "a joint that is not there": (HEAD + '[wire]\njoint = "rope"\n', "[wire]", "there is no joint 'rope'"),
-    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "no [vessel] named 'barge'"),
+    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
     "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),

@@ -42,7 +42,7 @@ def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: f
     scene = Scene(name="lift")
     scene.add_vessel(database)
     if sea is not None:
-        scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=sea, seed=1)
+        scene.add_sea(hs=2.0, tp=8.0, direction_deg=sea, seed=1)
     scene.add_crane(base="vessel", theta=theta, payload=Payload(mass=mass))
     for name, joint in JOINTS.items():
         scene.record_coordinate(joint=joint)

@@ -233,9 +233,9 @@ def w_method() -> Section:
         title="W-method with stiff lines only",
         text=(
             f"{T_END:g} s of case 2 with a line of EA for its link, by ROS34PW2 in maximal coordinates. "
-            "The table has the largest error of the payload's place until 10 s and until the end, against the elastic line "
-            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}). `line only`: the matrix "
-            "holds the line's part of the Jacobian and the kinematics. Matrices are made "
+            "The table has the largest error of the payload's place until 10 s and until the end, against "
+            f"the elastic line solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}). `line only`: the "
+            "matrix holds the line's part of the Jacobian and the kinematics. Matrices are made "
             "anew in every step, and are not counted."
         ),
         head=["EA, N", "matrix", "projected", "setting", "evaluations", "to 10 s, mm", "to the end, mm"],

@@ -17,7 +17,7 @@ from seacrane.sea.systems import SeaState as SeaState
 from seacrane.sea.systems import WaveSystem as WaveSystem
 from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
-from seacrane.scene.motion_raos import MotionRaos as MotionRaos
+from seacrane.hydro.data.motion_raos import MotionRaos as MotionRaos
 from seacrane import scene as scene
 from seacrane import crane as crane
 from seacrane import hydro as hydro

@@ -12,6 +12,9 @@ from typing import Any, TypeVar
 
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
+# What was given by its place has the name BY_PLACE.
+BY_PLACE = "by place"
+KEPT = "the scene keeps the database of each vessel since it was added; leave it out"
 SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 BOUNDS = {"max": "maximum", "min": "minimum"}
 PASSED = {"above": "minimum", "below": "maximum"}
@@ -31,7 +34,13 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "Stage": {"longest": "maximum_duration"},
     "WaveSystem": BAND,
     "MeasuredWaves": BAND,
-}
+    **{name: {"database": KEPT, BY_PLACE: KEPT} for name in (
+        "add_sea", "add_drift", "use_actual_position", "use_slow_position",
+    )},
+    **{name: {"database": KEPT} for name in (
+        "ensemble", "allowable_hs", "trade", "model_error", "plot_rao", "LinearControl", "HookLoadControl",
+    )},
+}  # fmt: skip
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {"plot_history": "Result.plot"}
 
@@ -58,9 +67,12 @@ def refusing(call: Call) -> Call:
     name = call.__qualname__
     older = KEYWORDS[name]
     inner: Any = call.__init__ if isinstance(call, type) else call  # type: ignore[misc]
+    places = inner.__code__.co_argcount
 
     @wraps(inner)
     def checked(*args: Any, **given: Any) -> Any:
+        if len(args) > places and BY_PLACE in older:
+            raise TypeError(f"{name}() takes no {type(args[places]).__name__} since 0.3; {older[BY_PLACE]}")
         for keyword in given.keys() & older.keys():
             raise TypeError(f"{name}() has no keyword {keyword!r} since 0.3; {instead(older[keyword])}")
         return inner(*args, **given)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.analysis.frequency_domain import linear_of, require_same_speed
+from seacrane.analysis.frequency_domain import excitation_of, linear_of
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import natural_modes
 from seacrane.description.scene import Description
@@ -20,7 +20,7 @@ from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
@@ -111,7 +111,6 @@ class ResponseStatistics:
 def response_statistics(
     scene: Description | LinearModel,
     *,
-    database: HydroDatabase,
     spectrum: _core.Spectrum,
     heading: float,
     body: str,
@@ -119,6 +118,7 @@ def response_statistics(
     duration: float = 10800.0,
     state: _core.State | None = None,
     memory: str = "scene",
+    database: HydroDatabase | None = None,
     spreading: Spreading | None = None,
 ) -> ResponseStatistics:
     """Response spectrum, significant and most probable largest motion of a point of any body.
@@ -129,7 +129,7 @@ def response_statistics(
 
     Parameters
     ----------
-    scene, database, body, point, state, memory
+    scene, body, point, state, memory, database
         As `motion_rao`.
     spectrum : Spectrum
     heading : float
@@ -153,13 +153,11 @@ def response_statistics(
     EncounterFrequencyWarning
         At forward speed more than 10 % of the energy is met outside the table of the matrices.
     """
-    span = number_of("duration", duration)
-    if not (np.isfinite(span) and span > 0.0):
-        raise SceneError(f"duration is {span} s; give a finite positive number")
+    span = positive_of("duration", duration, "s")
     if spreading is not None and not isinstance(spreading, Spreading):
         raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
     linear = linear_of(scene, state, memory, database)
-    require_same_speed(linear, database)
+    database = excitation_of(linear, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
     if database.trusted_band is not None and database.trusted_band[0] > low:
         below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(

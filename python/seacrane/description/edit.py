@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.databases import require_alike
 from seacrane.description.loads import named
 from seacrane.description.range import Range
 from seacrane.description.scene import ELEMENTS, KINDS, Description
@@ -42,8 +43,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     Raises
     ------
     SceneError
-        For a name that is not there or is of several kinds, a name that would change, or arguments that this
-        kind does not have; values are checked at compile().
+        For a name that is not there or is of several kinds, a name that would change, arguments that this
+        kind does not have, or a database that the vessel is not from; values are checked at compile().
     """
     key = _table_of(scene, name, kind)
     table = getattr(scene, key)
@@ -55,6 +56,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     if unknown or "name" in changes:
         known = ", ".join(argument for argument in arguments if argument != "name")
         raise SceneError(f"{what}: cannot change {[*unknown, 'name'][0]!r}; it has {known}")
+    if changes.get("database") is not None:
+        require_alike(scene, old, changes["database"])
     for argument, value in changes.items():
         if isinstance(arguments[argument], _core.Curve):
             changes[argument] = curve_of(f"{what}: {argument}", value)

@@ -12,7 +12,7 @@ from seacrane.description.channels import attributes
 from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.result import Result
@@ -74,14 +74,12 @@ class Kept:
             raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
         if not isinstance(self.names, Mapping):
             raise SceneError(f"kept {self.channel}: names is {shown(self.names)}; give names by dimension")
-        if not np.isfinite(number_of(f"kept {self.channel}: after", self.after)):
-            raise SceneError(f"kept {self.channel}: after is {self.after}; give a finite time in s")
+        finite_of(f"kept {self.channel}: after", self.after, "s")
         if self.interval is None:
             return
         if self.what != "series":
             raise SceneError(f"kept {self.channel}: interval is for a series; leave it out of {self.what!r}")
-        if not number_of(f"kept {self.channel}: interval", self.interval) > 0.0:
-            raise SceneError(f"kept {self.channel}: interval is {self.interval}; give a positive number of s")
+        positive_of(f"kept {self.channel}: interval", self.interval, "s")
 
     @classmethod
     def of_text(cls, text: str) -> Kept:

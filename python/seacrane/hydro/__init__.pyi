@@ -52,4 +52,4 @@ from seacrane.hydro.vessel.time_domain import vessel_parameters as vessel_parame
 from seacrane._core import RetardationFunctions as RetardationFunctions
 from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory
-from seacrane._core import VesselHydrodynamics as VesselHydrodynamics
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics as VesselHydrodynamics

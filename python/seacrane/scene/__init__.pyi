@@ -11,7 +11,7 @@ from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
 from seacrane.scene.mooring import MooringSpring as MooringSpring
 from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
-from seacrane.scene.motion_raos import MotionRaos as MotionRaos
+from seacrane.hydro.data.motion_raos import MotionRaos as MotionRaos
 from seacrane.analysis.tanks import Tank as Tank
 from seacrane.analysis.ballast import Ballast as Ballast
 from seacrane.description.roles import CraneRoles as CraneRoles

@@ -10,8 +10,8 @@ from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.inputs.caller import warn_caller
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.vessel import add_vessel
 from seacrane.scene.wave_force import force_of_components
 from seacrane.warnings import OutsideRaosWarning

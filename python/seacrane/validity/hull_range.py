@@ -214,7 +214,7 @@ def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Fin
         (
             NoWaveLoadsWarning,
             f"vessel {name!r}: rests in the sea that {', '.join(map(repr, waves.hulls))} meets, and would "
-            f"follow its RAOs there; call scene.add_sea(raos, vessel={body!r}) with its database or table",
+            f"follow its RAOs there; call scene.add_sea(vessel={body!r})",
         )
     ]
 
@@ -222,5 +222,5 @@ def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Fin
 def _unloaded(name: str, waves: Waves) -> str:
     return (
         f"vessel {name!r}: floats in the sea that loads {', '.join(map(repr, waves.hulls))}, and has no wave "
-        f"loads itself; call scene.add_sea(database, vessel={name!r}) with its database"
+        f"loads itself; call scene.add_sea(vessel={name!r})"
     )
