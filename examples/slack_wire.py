@@ -20,7 +20,7 @@ scene.add_joint(
     kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
     second_point=(0.0, 0.0, -LENGTH),
 )  # fmt: skip
-scene.add_wire(joint="wire")
+scene.add_line(joint="wire", rung="rigid")
 result = simulate(scene, t_end=3.0, dt_out=0.005, rtol=1e-9)
 x, z = (result.select("position", body="ball", axis=axis) for axis in "xz")
 tension = result.select("tension", link="wire")

@@ -194,9 +194,9 @@ def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     assert np.array_equal(rest.core.state.values, whole.core.state.values)
 
 
-def stiff(stiffness: float, stretch: str, **change: Any) -> Scene:
+def stiff(stiffness: float, rung: str, **change: Any) -> Scene:
     """`slewing` with a taut line of that EA, which starts with 8 kN."""
-    scene = slewing(stiffness=stiffness, stretch=stretch, **change)
+    scene = slewing(EA=stiffness, rung=rung, **change)
     line: Any = scene.loads["hoist"]
     scene.replace("hoist", length=path_length(scene, line) / (1.0 + 8e3 / stiffness))
     return scene
@@ -273,7 +273,7 @@ def test_two_slings_share_a_load_by_statics() -> None:
     scene = Scene(name="two")
     scene.add_body(name="load", mass=2e3, inertia=(100.0, 100.0, 100.0), position=(0.0, 0.0, -3.0))
     scene.add_bridle(
-        name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], stiffnesses=5e7
+        name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], EA=5e7
     )
     tensions = simulate(scene, 0.01, start=equilibrium(scene), dt_out=0.01)["line_tension"][0]
     assert_allclose(tensions, 2e3 * G / 2.0 / (2.8 / np.hypot(1.5, 2.8)), rtol=1e-3)
@@ -337,7 +337,7 @@ def test_files_hold_sheaves(tmp_path: Path) -> None:
         ({"slip_speed": 0.0}, "slip_speed is 0 m/s; give a positive one"),
         ({"points": [(0.1, 0, 0), (0, 0, 0), (0, 0, 0)]}, "points 0 and 1 of body 'ground' within a rim"),
         (
-            {"stretch": "quasi-static", "strains": [0, 1], "tensions": [0, 1]},
+            {"rung": "quasi-static", "strains": [0, 1], "tensions": [0, 1]},
             "a quasi-static stretch takes EA, no table",
         ),
         ({"strains": [0.0], "tensions": [0.0]}, "has 1 strains and 1 tensions; give as many of both"),
@@ -358,7 +358,7 @@ def test_a_line_has_a_stiffness_or_a_table() -> None:
     with pytest.raises(SceneError, match="line 'a': has no stiffness; give EA in N, or strains and tensions"):
         scene.add_line(name="a", **given)
     with pytest.raises(SceneError, match="line 'a': has a stiffness and a table; give one of them"):
-        scene.add_line(name="a", stiffness=1e3, strains=[0, 1], tensions=[0, 1], **given)
+        scene.add_line(name="a", EA=1e3, strains=[0, 1], tensions=[0, 1], **given)
 
 
 def test_bridles_that_cannot_be_are_told() -> None:

@@ -22,15 +22,15 @@ class LuffingRope:
         Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
     falls : int
         Parts of rope between the blocks; all carry the same tension.
-    stiffness : float
-        EA of one fall, N.
+    EA : float
+        Axial stiffness of one fall, N.
     first, second : (str, (float, float, float))
         Body and point in its coordinates, m; the second one moves with the hinge.
     """
 
     name: str
     falls: int
-    stiffness: float
+    EA: float
     first: Block
     second: Block
 

@@ -31,7 +31,6 @@ from seacrane.scene import (
     drift,
     given_vessel,
     heave,
-    heavy_line,
     hydraulics,
     limits,
     lines,
@@ -92,12 +91,10 @@ class Scene(Description):
     add_pendulum_damping = damping.add_pendulum_damping
     add_air_drag = damping.add_air_drag
 
-    add_wire = limits.add_wire
     add_end_stop = limits.add_end_stop
     add_seat = limits.add_seat
     add_soft_stop = limits.add_soft_stop
     add_line = lines.add_line
-    add_heavy_line = heavy_line.add_heavy_line
     add_winch = lines.add_winch
     add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
