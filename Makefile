@@ -36,7 +36,7 @@ STAMPS := build/stamps
 PACKAGE_BUILD := build/package
 SANITIZE_BUILD := build/sanitize
 TSAN_BUILD := build/tsan
-CPP_FILES = $(shell find cpp -name '*.hpp' -o -name '*.cpp')
+CPP_FILES = $(shell find cpp docs/additions -name '*.hpp' -o -name '*.cpp')
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 system-packages:

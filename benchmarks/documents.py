@@ -18,7 +18,7 @@ from pathlib import Path
 from measure.table import markdown, read
 
 ROOT = Path(__file__).resolve().parents[1]
-PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
+PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "studies/*/*.md", "notebooks/*.md")
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 BLOCK = re.compile(
     r"^<!-- table (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n(?P<table>.*?)<!-- end of table -->",

@@ -63,10 +63,10 @@ class Job:
         return self.title, str(lines), significant(self.wall, 2), significant(self.cpu, 2)
 
     def section(self) -> str:
-        """Its idea, what it printed, and itself."""
+        """Its idea, where it is, and what it printed."""
         idea = (ast.get_docstring(ast.parse(self.source)) or "").strip()
-        script = f"<details><summary>Script</summary>\n\n```python\n{self.source.rstrip()}\n```\n\n</details>"
-        return f"## {self.title}\n\n{idea}\n\n```text\n{self.printed.rstrip()}\n```\n\n{script}\n"
+        script = f"[{self.path.name}](../examples/jobs/{self.path.name})"
+        return f"## {self.title}\n\n{idea} Script: {script}.\n\n```text\n{self.printed.rstrip()}\n```\n"
 
 
 def run(path: Path) -> Job:

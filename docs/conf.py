@@ -36,6 +36,7 @@ include_patterns = [
     "docs/*.md",
     "docs/api/*.rst",
     "benchmarks/**.md",
+    "studies/**.md",
     "notebooks/*.md",
 ]
 exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]

@@ -6,7 +6,7 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene, gust_curve, spline_curve
 
-HEAD = 'format = "seacrane lift"\nversion = 1\n'
+HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
 PENDULUM = (
     HEAD

@@ -22,7 +22,7 @@ from seacrane.hydro.vessel.time_domain import MemoryFitWarning
 
 SHORT_LIFT = """
 format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
+PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "studies/*/*.md", "notebooks/*.md")
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)

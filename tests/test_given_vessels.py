@@ -292,7 +292,7 @@ def test_scene_files_hold_given_ships(database: HydroDatabase, tmp_path: Path) -
 
 LIFT = """
 format = "seacrane lift"
-version = 1
+version = 2
 [[given_vessel]]
 database = "hull_115"
 duration_s = 30

@@ -277,7 +277,7 @@ def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
     (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
     text = """
 format = "seacrane lift"
-version = 1
+version = 2
 
 [scene]
 name = "lattice"

@@ -284,7 +284,7 @@ MISTAKES = {
     ),
     "no pieces": (HEAD + '[driver]\njoint = "x"\ncurve_m = []', 5, "give a number or a table"),
     "a date": (HEAD + "[notes]\nday = 2026-01-01", 3, "notes are numbers, texts"),
-    "another version": ('format = "seacrane lift"\nversion = 2', 2, "this seacrane reads version = 1"),
+    "another version": ('format = "seacrane lift"\nversion = 3', 2, "this seacrane reads version = 2"),
     "half a line": (HEAD + "[sea]\nhs_m =", 4, "Invalid value"),
     "half a list": (HEAD + "[sea]\n\nx = [1,", 5, "at the end of the file; truncated or malformed TOML"),
     "a key twice": (HEAD + "[sea]\nhs_m = 1\nhs_m = 2", 5, "Cannot overwrite a value"),

@@ -214,7 +214,7 @@ def test_lift_files_hold_matrices_and_springs(tmp_path: Any) -> None:
     ):
         file = tmp_path / "lift.toml"
         file.write_text(
-            'format = "seacrane lift"\nversion = 1\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
+            'format = "seacrane lift"\nversion = 2\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
             f"{key}\n"
         )
         assert Lift.load(file).scene().springs == vessel(mooring=mooring).springs

@@ -45,6 +45,7 @@ def test_the_first_page_lists_every_document() -> None:
     docs = ROOT / "docs"
     listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
     there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
+    there |= {*(ROOT / "studies").glob("*/*.md")}
     assert listed == there - {docs / "index.md"}
 
 

@@ -30,7 +30,7 @@ from seacrane.study_files.study_file import StudyFile
 from seacrane.study_files.study_run import MEMBERS, run_study
 
 LIFT = """format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"
@@ -43,7 +43,7 @@ tp_s = 8
 count = 20
 """
 STUDY = """format = "seacrane study"
-version = 1
+version = 2
 lift = "ship.toml"
 
 [over]
@@ -238,7 +238,7 @@ def test_the_folder_of_another_study_is_refused(
 
 def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
     tables = (
-        LIFT.split("version = 1\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
+        LIFT.split("version = 2\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
     )
     study.write_text(STUDY.replace('lift = "ship.toml"\n', "") + tables)
     again = run_study(study, ran)
@@ -249,7 +249,7 @@ def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
     ("old", "new", "message"),
     [
         ("seacrane study", "seacrane studio", "names another format, no study file"),
-        ("version = 1", "version = 2", "heave.toml line 2: version is 2"),
+        ("version = 2", "version = 3", "heave.toml line 2: version is 3"),
         ('lift = "ship.toml"', "", "a study has a lift"),
         ("ship.toml", "shop.toml", r"heave.toml line 3: lift is 'shop.toml': there is no file .*shop.toml"),
         ("[over]", "[ovr]", r"line 5: ovr is unknown in a study; nearest: over"),

@@ -16,7 +16,7 @@ from seacrane.study_files.study_file import StudyFile
 from seacrane.study_files.study_run import MEMBERS, run_study
 
 BALANCED = """format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"
@@ -41,7 +41,7 @@ integrator = "dopri5"
 tolerance = 1e-3
 """
 STUDY = """format = "seacrane study"
-version = 1
+version = 2
 lift = "held.toml"
 
 [over]
@@ -58,7 +58,7 @@ what = "mean"
 t_end_s = 2
 """
 SWING = """format = "seacrane study"
-version = 1
+version = 2
 
 [lift.body]
 name = "bob"

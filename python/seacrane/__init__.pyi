@@ -120,6 +120,7 @@ from seacrane.operability.scatter import ScatterDiagram as ScatterDiagram
 from seacrane.operability.table import AllowableHs as AllowableHs
 from seacrane.operability.windows import WeatherWindows as WeatherWindows
 from seacrane.operability.windows import weather_windows as weather_windows
+from seacrane.renamed import RenamedKeysWarning as RenamedKeysWarning
 from seacrane.reporting import Report as Report
 from seacrane.reporting import report as report
 from seacrane.result import Event as Event

@@ -11,6 +11,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+from seacrane.renamed import NAMES
+
 Face = tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]
 
 
@@ -19,6 +21,10 @@ def face(package: str, file: str) -> Face:
     homes = _homes(f"{file}i")
 
     def get(name: str) -> Any:
+        if package == "seacrane" and name in NAMES:  # an AttributeError would lose its text in an import
+            raise ImportError(
+                f"{package} has no {name!r} since 0.3; it is 'seacrane.{NAMES[name]}'", name=name
+            )
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         home = homes[name]

@@ -1,4 +1,4 @@
-"""The summary that docs/extremes.md shows, from all runs of an atlas.
+"""The summary that README.md shows, from all runs of an atlas.
 
     PYTHONPATH=studies python -m stability_atlas.summary out/extremes/extremes.csv
 

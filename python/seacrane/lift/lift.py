@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -167,7 +167,7 @@ class Lift:
         return f"<Lift: {', '.join(held) or 'empty'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return lift_of, (self._document, self._folder)
+        return lift_of, (replace(self._document, told=True), self._folder)
 
 
 def lift_of(document: Document, folder: Path) -> Lift:

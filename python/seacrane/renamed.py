@@ -1,0 +1,63 @@
+"""Names of 0.1 and 0.2 that are called otherwise since 0.3; 1.0 drops this module.
+
+Scripts are refused with the new name in the message. Lift and study files with ``version = 1`` are read, with
+one warning that lists their old keys and the new ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from typing import Any, TypeVar
+
+# A new name with spaces is a sentence: what to write instead.
+# Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
+KEYWORDS: dict[str, dict[str, str]] = {}
+# Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
+NAMES: dict[str, str] = {}
+
+# Tables of lift files: the new table, and keys that say there what the old name said.
+LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
+# Keys of lift and study files without their units, by table, such as "limit_state" or "stage.until".
+LIFT_KEYS: dict[str, dict[str, str]] = {}
+STUDY_KEYS: dict[str, dict[str, str]] = {}
+# What leaving a key out meant in files of version 1, by table, where it means something else now.
+LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
+
+Call = TypeVar("Call", bound=Callable[..., Any])
+
+
+class RenamedKeysWarning(UserWarning):
+    """A lift or study file has keys that are called otherwise since 0.3."""
+
+
+def refusing(call: Call) -> Call:
+    """The function or class, which refuses its keywords of `KEYWORDS` by their new names."""
+    name = call.__qualname__
+    older = KEYWORDS[name]
+    inner: Any = call.__init__ if isinstance(call, type) else call  # type: ignore[misc]
+
+    @wraps(inner)
+    def checked(*args: Any, **given: Any) -> Any:
+        for keyword in given.keys() & older.keys():
+            raise TypeError(f"{name}() has no keyword {keyword!r} since 0.3; {instead(older[keyword])}")
+        return inner(*args, **given)
+
+    if not isinstance(call, type):
+        return checked  # type: ignore[return-value]
+    call.__init__ = checked  # type: ignore[misc]
+    return call
+
+
+def instead(new: str) -> str:
+    """What a message says of a new name."""
+    return new if " " in new else f"it is {new!r}"
+
+
+def new_spelling(
+    older: Mapping[str, Mapping[str, str]], table: str, spelling: str, known: Iterable[str]
+) -> str | None:
+    """The key that an old one, with its unit, is in a table now; None where it is no old one."""
+    names = older.get(table, {})
+    found = (new + spelling[len(old) :] for old, new in names.items() if spelling.startswith(old))
+    return next((new for new in found if new in known), None)
