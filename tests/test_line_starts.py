@@ -153,7 +153,7 @@ def test_a_winch_on_a_line_with_mass_is_refused() -> None:
         name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8, length=100.0,
         mass_per_length=12.0, segments=4,
     )  # fmt: skip
-    words = r"line 'wire\.1': is a segment of heavy line 'wire', and what a winch pays out has no mass"
+    words = r"line 'wire\.1': is a segment of line 'wire'; rung 'with mass' takes no winch"
     with pytest.raises(SceneError, match=words):
         scene.add_winch(line="wire.1", rate=0.1)
     scene.replace("wire.1", kind="load", winch=True)

@@ -352,22 +352,22 @@ def test_sheaves_that_cannot_be_are_told(change: dict[str, Any], message: str) -
         scene.compile()
 
 
-def test_a_line_has_a_stiffness_or_a_table() -> None:
+def test_a_line_has_ea_or_a_table() -> None:
     given: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "length": 1.0}
     scene = corded(0.1)
-    with pytest.raises(SceneError, match="line 'a': has no stiffness; give EA in N, or strains and tensions"):
+    with pytest.raises(SceneError, match="line 'a': has no EA; give it in N, or strains and tensions"):
         scene.add_line(name="a", **given)
-    with pytest.raises(SceneError, match="line 'a': has a stiffness and a table; give one of them"):
+    with pytest.raises(SceneError, match="line 'a': has EA and a table; give one of them"):
         scene.add_line(name="a", EA=1e3, strains=[0, 1], tensions=[0, 1], **given)
 
 
 def test_bridles_that_cannot_be_are_told() -> None:
     scene = four_legs(stiffnesses=(1e6,))
-    given: dict[str, Any] = {"name": "more", "hook": "ground", "load": "load", "stiffnesses": 1e6}
+    given: dict[str, Any] = {"name": "more", "hook": "ground", "load": "load", "EA": 1e6}
     points = [(1, 0, 0), (0, 1, 0)]
     with pytest.raises(SceneError, match="bridle 'more': has 1 points; give two or more"):
         scene.add_bridle(points=[(1, 0, 0)], **given)
     with pytest.raises(SceneError, match="bridle 'more': hook 'block' is no body of the scene"):
         scene.add_bridle(points=points, **given | {"hook": "block"})
-    with pytest.raises(SceneError, match="bridle 'more': stiffnesses are 3 numbers; give one for each of 2"):
-        scene.add_bridle(points=points, **given | {"stiffnesses": (1e6, 1e6, 1e6)})
+    with pytest.raises(SceneError, match="bridle 'more': EA are 3 numbers; give one for each of 2"):
+        scene.add_bridle(points=points, **given | {"EA": (1e6, 1e6, 1e6)})

@@ -89,6 +89,7 @@ from seacrane.ensembles.sensitivity import sensitivity as sensitivity
 from seacrane.ensembles.store import LostMembersWarning as LostMembersWarning
 from seacrane.errors import ChatteringError as ChatteringError
 from seacrane.errors import FileFormatError as FileFormatError
+from seacrane.errors import LineSlackError as LineSlackError
 from seacrane.errors import SceneError as SceneError
 from seacrane.errors import SeacraneError as SeacraneError
 from seacrane.errors import SimulationError as SimulationError

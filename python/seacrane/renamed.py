@@ -12,14 +12,31 @@ from typing import Any, TypeVar
 
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "add_line": {"stiffness": "EA", "stretch": "rung"},
+    "add_bridle": {"stiffnesses": "EA", "stretch": "rung"},
+    "Line": {"stiffness": "EA", "stretch": "rung"},
+    "LuffingRope": {"stiffness": "EA"},
+}
+# Methods of `Scene`.
+METHODS: dict[str, str] = {
+    "add_wire": "write add_line(joint=..., rung='rigid')",
+    "add_heavy_line": "write add_line(..., rung='with mass'), with EA for stiffness, segment_rung for stretch",
+}
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
-LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
+LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {
+    "wire": ("line", {"rung": "rigid"}),
+    "heavy_line": ("line", {"rung": "with mass"}),
+}
 # Keys of lift and study files without their units, by table, such as "limit_state" or "stage.until".
-LIFT_KEYS: dict[str, dict[str, str]] = {}
+LIFT_KEYS: dict[str, dict[str, str]] = {
+    "line": {"stiffness": "EA", "stretch": "rung"},
+    "heavy_line": {"stiffness": "EA", "stretch": "segment_rung"},
+    "bridle": {"stiffnesses": "EA", "stretch": "rung"},
+}
 STUDY_KEYS: dict[str, dict[str, str]] = {}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}

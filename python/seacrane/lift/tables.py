@@ -371,6 +371,7 @@ _ALL = (
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
         sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
         density={"unit": "kg/m3"}, flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        rung={"choices": lines.RUNGS}, segment_rung={"type": "text", "choices": lines.STRETCHING},
     ),
     _call("winch", lines.add_winch, _core.Line),
     Table(
@@ -387,7 +388,7 @@ _ALL = (
     ),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
-        hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
+        hook_point=POINT, EA=ROW | {"unit": "N"}, rung={"choices": lines.STRETCHING}, lengths=ROW | {"unit": "m"},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),

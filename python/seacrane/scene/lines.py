@@ -27,6 +27,7 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.scene.heavy_line import CYLINDER_DRAG, chain_of_segments
 from seacrane.scene.limits import STICKING_SPEED, add_wire
 from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
@@ -47,6 +48,7 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
 }  # fmt: skip
 
 
+@refusing
 def add_line(
     scene: Description,
     *,

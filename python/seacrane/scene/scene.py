@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.scene_report import scene_report
@@ -25,6 +25,7 @@ from seacrane.description import (
 )
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import heard
+from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
     compiling,
@@ -130,6 +131,12 @@ class Scene(Description):
             return NotImplemented
         alike = file.described(self) == file.described(other)
         return alike and self.function_forces == other.function_forces
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            gone = f" since 0.3; {METHODS[name]}" if name in METHODS else ""
+            raise AttributeError(f"{type(self).__name__} has no {name!r}{gone}", name=name, obj=self)
 
     __hash__ = None  # type: ignore[assignment]  # what changes has no hash
 
