@@ -18,9 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from measure.machine import machine
+import documents
 from measure.section import significant
-from measure.table import markdown, write
+from measure.table import write
 
 from seacrane.files.atomic import atomic_write
 
@@ -85,8 +85,7 @@ def run(path: Path) -> Job:
 
 def document(jobs: Sequence[Job]) -> str:
     """All jobs as one Markdown text."""
-    table = markdown(HEAD, [job.cells for job in jobs])
-    head = f"{INTRODUCTION}Machine: {machine()}\n\n<!-- table {TABLE} -->\n{table}\n<!-- end of table -->\n"
+    head = f"{INTRODUCTION}<!-- table {TABLE} -->\n<!-- end of table -->\n"
     return "\n".join([head, *(job.section() for job in jobs)])
 
 
@@ -106,6 +105,8 @@ def main() -> None:
     write(results, HEAD, [job.cells for job in jobs])
     with atomic_write(folder / "jobs.md") as draft:
         draft.write_text(document(jobs), encoding="utf-8")
+    if publish:
+        documents.fill()
 
 
 if __name__ == "__main__":

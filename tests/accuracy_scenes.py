@@ -5,7 +5,6 @@ And judges of what `simulate(accuracy=...)` promises on them.
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -260,7 +259,7 @@ def word(number: int, *, seed: int) -> Word:
             return Word(number=number, scene=scene.name, end="refused", limit=limit, why=str(refused))
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])
-        judges = judged(scene, method, json.loads(str(result.stats["settings"]))["rtol"], span)
+        judges = judged(scene, method, result.settings["rtol"], span)
     known: dict[str, Any] = {
         "number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method,
     }  # fmt: skip

@@ -465,6 +465,12 @@ def every_table() -> Scene:
         strains=[0, 0.1], tensions=[0, 1000], length=12, radii=[0, 0.3, 0],
         axes=[(0, 0, 0), (0, 1, 0), (0, 0, 0)], efficiencies=[1, 0.98, 1], slip_speed=0.02,
     )  # fmt: skip
+    scene.add_line(
+        name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
+        length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
+        diameter=0.02, flow=(1, 0, 0),
+    )  # fmt: skip
+    scene.add_line(joint="rope", rung="rigid", restitution=0.2)
     scene.add_winch(
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
@@ -486,15 +492,10 @@ def every_table() -> Scene:
         name="sling", hook="ground", load="box", hook_point=(0, 0, 9), EA=[1e6],
         points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
     )  # fmt: skip
-    scene.add_line(
-        name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
-        length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3, diameter=0.02, flow=(1, 0, 0),
-    )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)
-    scene.add_line(joint="rope", rung="rigid", restitution=0.2)
     scene.add_end_stop(
         joint="sleeve", coordinate="angle", minimum=np.radians(-90), maximum=np.radians(90),
         sticking_speed=0.01,

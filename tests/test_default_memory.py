@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import warnings
 from pathlib import Path
 
@@ -65,7 +64,7 @@ def test_what_was_reached_is_told() -> None:
     scene = afloat(shipped_database())
     scene.add_sea(shipped_database(), hs=1.0, tp=8.0, count=20)
     result = simulate(scene, t_end=1.0)
-    settings = json.loads(str(result.stats["settings"]))
+    settings = result.settings
     assert settings["memory"] == "by-motion"
     assert settings["memory_error"] == scene.provenance["vessel"].memory_error
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +33,7 @@ from seacrane.figures.findings import amplitude_at, slew_stop
 from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_lines
 from seacrane.plotting.panel import draw
 from seacrane.result import MOTIONS, Result
+from seacrane.result.about import About
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -68,8 +68,8 @@ def posed_case2(*, dt: float = 1.0) -> Result:
     run["arrays"] |= {"vessel_motion": still}
     scene = Scene()
     scene.add_crane(crane, base="ground", payload=payload)
-    run["stats"]["cranes"] = json.dumps([roles_to_data(roles) for roles in scene.roles.values()])
-    return Result.from_arrays(**run)
+    about = About(cranes=[roles_to_data(roles) for roles in scene.roles.values()])
+    return Result.from_arrays(**run | {"about": about})
 
 
 @pytest.fixture(scope="module")

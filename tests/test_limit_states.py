@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from seacrane import (
     simulate_to_file,
     summary,
 )
+from seacrane.result.about import About
 
 TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 
@@ -56,9 +56,9 @@ def test_utilisation_by_hand(swinging: Result) -> None:
 def states_of(low: float | None, high: float | None, values: list[float]) -> float:
     run = crane_run(t_end=1.0)
     tension = np.resize(np.array(values), run["time"].size)
-    state = {"name": "t", "channel": "link_tension", "maximum": high, "minimum": low, "where": {}}
-    stats = {**run["stats"], "limit_states": json.dumps([state])}
-    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "stats": stats})
+    state = LimitState(name="t", channel="link_tension", maximum=high, minimum=low)
+    about = About(limit_states=(state,))
+    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "about": about})
     return result.utilisation[0].utilisation
 
 
@@ -92,10 +92,10 @@ def test_it_is_in_files_summaries_and_reports(swinging: Result, tmp_path: Path) 
     assert told.load().utilisation == swinging.utilisation
 
 
-@pytest.mark.parametrize("noted", ["{", "[1]", '[{"name": "a"}]', '[{"channel": "tension", "where": 5}]'])
-def test_a_result_with_notes_that_no_run_writes_is_refused_by_name(noted: str) -> None:
+def test_a_limit_state_that_no_scene_has_is_refused_by_name() -> None:
     run = crane_run(t_end=1.0)
-    broken = Result.from_arrays(**run | {"stats": {**run["stats"], "limit_states": noted}})
+    about = About(limit_states=(LimitState(name="t", channel="link_tension"),))
+    broken = Result.from_arrays(**run | {"about": about})
     with pytest.raises(FileFormatError, match="limit states are none that a run writes"):
         broken.utilisation.largest  # noqa: B018 - the property itself is asked for
 

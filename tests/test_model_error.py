@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -95,8 +94,8 @@ def test_results_and_files_state_what_the_memory_changes(tmp_path: Path) -> None
     assert known is not None
     assert 0.0 < known <= 0.01
     result = simulate(scene, t_end=1.0)
-    assert json.loads(result.stats["settings"])["memory_error"] == known
-    assert "memory_error" not in json.loads(simulate(cases.vessel(**SEA), t_end=1.0).stats["settings"])
+    assert result.settings["memory_error"] == known
+    assert "memory_error" not in simulate(cases.vessel(**SEA), t_end=1.0).settings
     scene.save(tmp_path / "by_motion.json")
     assert Scene.load(tmp_path / "by_motion.json").provenance["vessel"].memory_error == known
     cases.vessel(**SEA).save(tmp_path / "per_pair.json")

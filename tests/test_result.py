@@ -15,6 +15,7 @@ import pytest
 
 from seacrane.errors import FileFormatError
 from seacrane.result import CHANNELS, Result
+from seacrane.result.about import About
 
 BODIES = [
     "vessel",
@@ -141,7 +142,6 @@ def crane_run(
         "scene": scene,
         "formulation": "redundant",
         "integrator": "dopri5",
-        "settings": {"relative_tolerance": 1e-6, "memory": "per-pair" if memory else "none"},
         "simulated_s": t_end,
         "wall_s": 0.25 if memory else 0.2,
         "evaluations": 12000,
@@ -164,6 +164,7 @@ def crane_run(
         "arrays": arrays,
         "coords": {"body": names, "joint": joints, "cylinder": CYLINDERS},
         "stats": stats,
+        "about": About(settings={"relative_tolerance": 1e-6, "memory": "per-pair" if memory else "none"}),
     }
 
 
@@ -189,7 +190,7 @@ def vessel_result(*, memory: bool = True, t_end: float = 100.0, dt: float = 0.1)
     counts = {"coordinates": 6, "constraints": 0, "degrees_of_freedom": 6}
     counts |= {f"compiled_{name}": counts[name] for name in ("coordinates", "constraints")}
     return Result.from_arrays(time=run["time"], arrays=arrays, coords={"body": ["vessel"]},
-                              stats=run["stats"] | counts)  # fmt: skip
+                              stats=run["stats"] | counts, about=run["about"])  # fmt: skip
 
 
 @pytest.fixture
@@ -263,7 +264,7 @@ def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, b
     if backend == "own reader":
         again = Result.load(path)
         assert again.dims == result.dims and again.coords == result.coords
-        assert dict(again.stats) == dict(result.stats)
+        assert dict(again.stats) == dict(result.stats) and again.about == result.about
         assert {k: type(v) for k, v in again.stats.items()} == {k: type(v) for k, v in result.stats.items()}
         values = {"time": again.time, **again.channels}
     else:
@@ -382,6 +383,10 @@ BAD_INPUT = {
     "a body named twice": (lambda r: r["coords"].update(body=["vessel"] * 2), "more than once: vessel"),
     "a counter missing": (lambda r: r.update(stats=without(r["stats"], "steps")), "stats lack steps"),
     "a counter not a number": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s' is not a number"),
+    "what is structured": (
+        lambda r: r["stats"].update(bounds="[]"),
+        r"numbers and words; give 'bounds' in about=About\(bounds=...\)",
+    ),
     "a counter of no plain kind": (lambda r: r["stats"].update(steps=[1]), "'steps' is a list"),
 }
 

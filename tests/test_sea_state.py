@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from pathlib import Path
 from typing import Any
 
@@ -379,7 +378,7 @@ def test_the_command_line_chooses_the_sea(tmp_path: Path, capsys: pytest.Capture
 
     options = "--t-end 1 --integrator rk4 --dt 0.1 --memory none --spectrum torsethaugen --spreading 4"
     assert main(["run", "vessel", "--out", str(tmp_path), *options.split()]) == 0
-    settings = json.loads(str(Result.load(tmp_path / "vessel.nc").stats["settings"]))
+    settings = Result.load(tmp_path / "vessel.nc").settings
     assert settings["spectrum"] == "torsethaugen"
     assert settings["spreading"] == {"kind": "cos-2s", "exponent": 4.0}
     assert main(["run", "vessel", "--out", str(tmp_path), "--spectrum", "torsethaugen", "--gamma", "2"]) == 1

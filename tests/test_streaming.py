@@ -27,6 +27,7 @@ from seacrane import (
     simulate_to_file,
 )
 from seacrane.result import stream
+from seacrane.result.about import About
 from seacrane.result.partial_file import PartialFile, Piece
 from seacrane.sea.spectra import SteepSeaWarning
 
@@ -460,10 +461,10 @@ def test_what_version_0_1_wrote_as_zero_is_a_setting_left_out() -> None:
     stats = {stream.DIGEST: "of the scene", "formulation": "recursive", "integrator": "rk4"}
     before = {"t_end": 1.0, "dt_out": 0.1, "rtol": 1e-6, "dt": 0.0, "max_step": 0.0, "baumgarte": 0.0}
     now = {name: value for name, value in before.items() if name not in ("dt", "max_step")}
-    old, new = ({**stats, "settings": json.dumps(settings)} for settings in (before, now))
-    assert stream.difference(old, [], new, []) == ""
-    given = {**stats, "settings": json.dumps({**before, "dt": 0.05})}
-    assert stream.difference(given, [], new, []) == "has dt 0.05, this run None"
+    given = {**before, "dt": 0.05}
+    old, new, other = (stream.Told(stats=stats, about=About(settings=one)) for one in (before, now, given))
+    assert stream.difference(old, new) == ""
+    assert stream.difference(other, new) == "has dt 0.05, this run None"
 
 
 def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from seacrane import (
     statics,
     summary,
 )
+from seacrane.result.about import About
 
 G = 9.80665
 MASS, LENGTH = 2000.0, 5.0
@@ -114,7 +116,7 @@ def test_a_record_too_short_and_a_transient_are_told() -> None:
     run: dict[str, Any] = crane_run(t_end=60.0)
     steady = 1e5 + 5e3 * np.sin(2.0 * np.pi * run["time"] / 8.0)
     run["arrays"] = {"link_tension": steady.copy()}
-    run["stats"] = {**run["stats"], "settings": {"tp": 8.0, "hs": 2.0}}
+    run["about"] = About(settings={"tp": 8.0, "hs": 2.0})
     (short,) = summary(Result.from_arrays(**run)).remarks
     assert short.startswith("Too short") and "60 s are 8 peak periods" in short and "800 s" in short
     run["arrays"] = {"link_tension": steady + 4e4 * np.exp(-run["time"] / 5.0)}
@@ -141,12 +143,16 @@ def test_static_values_come_from_statics() -> None:
         summary(result, static={})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("note", ["hanging_weight", "cranes", "outline", "settings"])
-def test_notes_that_no_run_writes_are_refused_by_name(note: str, swinging: Result) -> None:
-    broken = Result(
-        time=swinging.time, channels=swinging.channels, coords=swinging.coords,
-        stats={**swinging.stats, note: "[5"},
-    )  # fmt: skip
+BROKEN: list[dict[str, Any]] = [
+    {"hanging_weight": 5},
+    {"cranes": [5]},
+    {"outline": {"links": [5]}},
+]
+
+
+@pytest.mark.parametrize("notes", BROKEN)
+def test_notes_that_no_run_writes_are_refused_by_name(notes: dict[str, Any], swinging: Result) -> None:
+    broken = replace(swinging, about=replace(swinging.about, **notes))
     with pytest.raises(FileFormatError, match="notes are none that a run writes"):
         summary(broken)
 

@@ -183,7 +183,7 @@ def test_a_file_without_roles_takes_those_of_the_papers_names(tmp_path: Path) ->
     assert old.provenance["vessel"].memory == "passive"
     result = simulate(old, t_end=0.2)
     assert {"slew_angle", "stroke", "cylinder_force", "link_tension"} <= set(result)
-    settings = json.loads(str(result.stats["settings"]))
+    settings = result.settings
     assert settings["hs"] == 2.0 and settings["memory"] == "passive" and settings["notes"] == old.notes
 
 

@@ -13,10 +13,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import documents
 import numpy as np
 from batches import batches
 from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
-from measure.machine import machine
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
 
@@ -181,17 +181,19 @@ def main() -> int:
     if drivers is None:
         drivers = HERE.parents[1] / "out" / "bench-peers" / "drivers"
         subprocess.run([HERE / "build_drivers.sh", options.peers, drivers], check=True)
-    head = f"{INTRODUCTION}\nMachine: {machine()}\n"
     points, uncertainty = measure(drivers, options.peers, options.repeats)
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
     together = batches(drivers, options.peers, repeats=min(options.repeats, 3))
-    sections = (ratios(points), together, table(points, uncertainty))
-    for section in sections:
+    shown, last = (ratios(points), together), table(points, uncertainty)
+    for section in (*shown, last):
         section.save(folder / "results")
-    parts = [head, picture, *(section.markdown() + "\n" for section in sections)]
+    sections = (*(section.marked() for section in shown), last.marked(shown=False))
+    parts = [INTRODUCTION, picture, *(f"{section}\n" for section in sections)]
     with atomic_write(folder / "README.md") as draft:
         draft.write_text("\n".join(parts), encoding="utf-8")
+    if options.publish:
+        documents.fill()
     print(f"written to {folder}", file=sys.stderr)
     return 0
 

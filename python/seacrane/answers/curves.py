@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,8 +111,7 @@ def _load(result: Result, one: Trace) -> Curve:
 
 def _hanging_weight(result: Result, one: Trace) -> float | None:
     """Of the load on a link, N, as the run noted it."""
-    weights = json.loads(str(result.stats.get("hanging_weight", "{}")))
-    on_lines = json.loads(str(result.stats.get("line_weight", "{}")))
+    weights, on_lines = result.about.hanging_weight, result.about.line_weight
     name = one.names[0] if one.names else ""
     if one.channel == "line_tension":
         weight = on_lines[name][0] / on_lines[name][1] if name in on_lines else None
@@ -122,10 +120,9 @@ def _hanging_weight(result: Result, one: Trace) -> float | None:
     elif one.channel in ("tension", "hook_load"):
         weight = weights.get(name)
     else:
-        cranes = json.loads(str(result.stats.get("cranes", "[]")))
-        links = {f"{crane['prefix']}hook": crane["link"] for crane in cranes if crane["link"]}
+        links = {f"{one['prefix']}hook": one["link"] for one in result.about.cranes if one["link"]}
         link = links.get(name) if one.names else next(iter(links.values()), None)
-        weight = weights.get(link)
+        weight = weights.get(link or "")
     return None if weight is None else float(weight)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 import numpy as np
@@ -23,7 +22,7 @@ def hanging_vectors(result: Result) -> dict[str, Array]:
     """
     if not set(POSES) <= set(result.channels):
         return {}
-    links = json.loads(str(result.stats.get("outline", "{}"))).get("links", [])
+    links = result.about.outline.get("links", [])
     found = {}
     for body in payload_bodies(result):
         own = [link for link in links if link[2] == body]

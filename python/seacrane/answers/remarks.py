@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.answers.curves import Curve
-from seacrane.errors import FileFormatError
 from seacrane.result import Result
 
 Array = NDArray[np.float64]
@@ -27,20 +25,13 @@ def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str
 
 
 def _short(result: Result, time: Array) -> list[str]:
-    period, span = _peak_period(result), float(time[-1] - time[0])
+    period, span = result.settings.get("tp"), float(time[-1] - time[0])
     if not isinstance(period, (int, float)) or not period or span >= ENOUGH_WAVES * period:
         return []
     return [
         f"Too short for statistics: {span:g} s are {span / period:.0f} peak periods. Largest and smallest "
         f"are those of these waves alone; run {ENOUGH_WAVES * period:g} s or more, or several seeds."
     ]
-
-
-def _peak_period(result: Result) -> object:
-    try:
-        return json.loads(str(result.stats["settings"])).get("tp")
-    except (ValueError, AttributeError) as error:
-        raise FileFormatError(f"the result's notes are none that a run writes: {error}") from error
 
 
 def _transient(time: Array, curves: Sequence[Curve]) -> list[str]:

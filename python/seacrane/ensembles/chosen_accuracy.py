@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -171,7 +170,7 @@ def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Val
     if result.interrupted:
         raise KeyboardInterrupt
     stats = result.stats
-    tolerance = float(json.loads(str(stats["settings"]))["rtol"])
+    tolerance = float(result.settings["rtol"])
     method = replace(study.method, integrator=str(stats["integrator"]), tolerance=tolerance)
     return Probe(
         method=method,

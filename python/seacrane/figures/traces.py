@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -93,7 +92,7 @@ def _unit(result: Result, channel: str, names: tuple[str, ...]) -> str:
 
 def _unit_of_limit(result: Result, name: str) -> str:
     """As the run noted its limits; stops of angles push with moments."""
-    for bound in json.loads(str(result.stats.get("bounds", "[]"))):
+    for bound in result.about.bounds:
         if name in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
             return "N m" if bound["kind"] == "stop" and bound["coordinate"] in ANGLES else "N"
     return CHANNELS["limit_force"].unit

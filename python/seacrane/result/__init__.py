@@ -2,8 +2,9 @@
 
 from seacrane.files.atomic import atomic_write
 from seacrane.inputs.frames import MOTIONS
+from seacrane.result.about import About
 from seacrane.result.channels import AXES, CHANNELS, Channel
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 
-__all__ = ["AXES", "CHANNELS", "MOTIONS", "Channel", "Event", "Result", "atomic_write"]
+__all__ = ["AXES", "CHANNELS", "MOTIONS", "About", "Channel", "Event", "Result", "atomic_write"]

@@ -50,7 +50,12 @@ class _Growth:
 
 
 def growing(
-    modes: Modes, stats: Mapping[str, Any], *, undamped: Collection[str] = (), near: float = 1.0
+    modes: Modes,
+    stats: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    *,
+    undamped: Collection[str] = (),
+    near: float = 1.0,
 ) -> list[Finding]:
     """The mode that a method feeds, looked for only where there are many steps.
 
@@ -63,8 +68,8 @@ def growing(
     ----------
     modes : Modes
         At rest in the poses of the states; the mode counts that grows most.
-    stats : mapping
-        Of the run: `Result.stats`.
+    stats, settings : mapping
+        Of the run: `Result.stats`, `Result.settings`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
     near : float
@@ -76,7 +81,7 @@ def growing(
     if not polynomial or steps < fewest_steps(states, FEWEST_STEPS) or states > LARGEST:
         return []
     duration = float(stats["simulated_s"])
-    step, tolerance = duration / steps, float(stats["settings"]["rtol"])
+    step, tolerance = duration / steps, float(settings["rtol"])
     judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")

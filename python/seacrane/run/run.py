@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
+from seacrane.result.about import About
 from seacrane.result.channels import CHANNELS, DERIVED
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
@@ -51,7 +52,7 @@ from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
+from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
@@ -338,12 +339,17 @@ class Run:
         return sorted([*met, *burst], key=lambda event: event.time)
 
     def stats(self) -> dict[str, Any]:
-        """Version, settings, counters so far, and warnings of the description: `Result.stats`."""
+        """Version, method, counters so far, and warnings of the description: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         waves = self.scene.waves
-        counted = stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
+        counted = stats_of(self._lasting.stats, waves, self.core, self.start.time)
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
         return told | counted | warned | self.lanes
+
+    @property
+    def about(self) -> About:
+        """What is structured: `Result.about`."""
+        return replace(self._lasting.about, settings=self.settings)
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -384,6 +390,7 @@ class Run:
                 coords=self._lasting.coords,
                 events=met,
                 stats=stats,
+                about=self.about,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,
                 scene=scene.copy(notes={}),
@@ -398,6 +405,7 @@ class Run:
         """What a result could not hold is refused now, not when the run is over."""
         try:
             checked_stats(self.stats())
+            self.about.to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
@@ -422,12 +430,15 @@ class _Lasting:
         Actuators whose inputs are not zero at the start.
     stats : mapping
         Of `lasting_stats`.
+    about : About
+        Of the scene; the settings differ by sea.
     """
 
     options: _core.RunOptions
     coords: Mapping[str, list[str]]
     steered: frozenset[str]
     stats: Mapping[str, Any]
+    about: About
 
     @classmethod
     def of(cls, run: Run) -> _Lasting:
@@ -437,6 +448,7 @@ class _Lasting:
             coords={**model.axes, **derived_coords(scene)},
             steered=frozenset(steered(scene, model, run.start.inputs)),
             stats=lasting_stats(scene, model, run.formulation, run.method),
+            about=about_of(scene),
         )
 
 

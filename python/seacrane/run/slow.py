@@ -31,7 +31,7 @@ def slow_findings(run: Run) -> list[Finding]:
 
 
 def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:
-    stats = run.stats()
+    stats, settings = run.stats(), run.settings
     remembering = [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
-    found = stiffness(run.scene.loads, modes, stats, near=near)
-    return found + growing(modes, stats, undamped=remembering, near=near)
+    found = stiffness(run.scene.loads, modes, stats, settings, near=near)
+    return found + growing(modes, stats, settings, undamped=remembering, near=near)

@@ -28,7 +28,12 @@ def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
 
 
 def stiffness(
-    loads: Mapping[str, Any], modes: Modes, stats: Mapping[str, Any], *, near: float = 1.0
+    loads: Mapping[str, Any],
+    modes: Modes,
+    stats: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    *,
+    near: float = 1.0,
 ) -> list[Finding]:
     """The mode that sets the steps of a slow run, looked for only where there are many steps.
 
@@ -38,8 +43,8 @@ def stiffness(
         Of the scene, by name.
     modes : Modes
         The fastest of them counts.
-    stats : mapping
-        Of the run: `Result.stats`.
+    stats, settings : mapping
+        Of the run: `Result.stats`, `Result.settings`.
     near : float
         Share of the limits from which on it is told.
     """
@@ -51,7 +56,7 @@ def stiffness(
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = modes.fastest.mode, modes.fastest.body, modes.fastest.time
-    shown = mode * float(stats["settings"]["dt_out"]) < near * UNSEEN
+    shown = mode * float(settings["dt_out"]) < near * UNSEEN
     if mode * step < near * NEAR_THE_LIMIT or shown:
         return []
     return [

@@ -14,9 +14,9 @@ from seacrane.description.loads import lines_of
 from seacrane.description.scene import LOADS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
-from seacrane.result.stages import StageSpan
 from seacrane.run.carried_state import carried
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
