@@ -22,8 +22,8 @@ def slung(count: int) -> Scene:
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 300.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
     scene.add_line(
-        name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9, length=900.0,
-        mass_per_length=1000.0 / G, segments=count,
+        name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9,
+        length=900.0, mass_per_length=1000.0 / G, segments=count,
     )  # fmt: skip
     return scene
 
@@ -53,8 +53,12 @@ def heaving(count: int, t_end: float, **more: Any) -> Scene:
     scene.add_driver(joint="guide", curve=heave(t_end))
     line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
     scene.add_line(
-        name="line", rung="with mass", bodies=["ground", "end"],
-        points=[(0, 0, -300), (0, 0, 0)], segments=count, **line
+        name="line",
+        rung="with mass",
+        bodies=["ground", "end"],
+        points=[(0, 0, -300), (0, 0, 0)],
+        segments=count,
+        **line,
     )
     return scene
 
@@ -70,7 +74,12 @@ def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any
         velocity=(velocity, 0.0, 0.0),
     )  # fmt: skip
     scene.add_line(
-        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), segments=count, **line
+        name="wire",
+        rung="with mass",
+        bodies=["ground", "load"],
+        points=np.zeros((2, 3)),
+        segments=count,
+        **line,
     )
     return scene
 

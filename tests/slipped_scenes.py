@@ -163,9 +163,7 @@ def tabled(numbers: Mapping[str, Any]) -> Scene:
 def weighed(numbers: Mapping[str, Any]) -> Scene:
     scene = Scene(name="sample")
     scene.add_body(name="load", **numbers)
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
     return scene
 
 

@@ -310,7 +310,9 @@ BUILT = {
         ARM.replace("reference_deg", "reference_m"), "reference_m", "give reference_rad or reference_deg"
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
-    "a joint that is not there": (HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"),
+    "a joint that is not there": (
+        HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
+    ),
     "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "no [vessel] named 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),

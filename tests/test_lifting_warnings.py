@@ -47,9 +47,7 @@ def test_a_swing_on_a_line_beyond_20_deg_warns(speed: float, warned: bool) -> No
     scene.add_body(
         name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(speed, 0, 0)
     )
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8, length=8.9991
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8, length=8.9991)
     found = told(scene, 3.0)
     assert (LargeSwingWarning in found) == warned
     assert not warned or "line 'wire': 'load' swings" in found[LargeSwingWarning]

@@ -364,7 +364,7 @@ def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
         warnings.simplefilter("ignore", StiffWarning)
         elastic = simulate(expected, 2.5, dt_out=0.1, rtol=1e-6)
         assert np.min(elastic["line_tension"]) == 0.0
-        with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*a second run from the same start"):
+        with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*a second run from"):
             result = simulate(over_the_top(), 2.5, dt_out=0.1, rtol=1e-6)
     assert np.array_equal(result["position"], elastic["position"])
     assert result.stats["line_rungs"].startswith(

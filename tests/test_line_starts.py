@@ -123,9 +123,7 @@ def test_a_load_on_its_seat_that_is_lifted_at_once_is_told() -> None:
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     scene.add_joint(kind="weld", name="deck", first="ground", second="load")
     scene.add_seat(joint="deck")
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=9.9
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=9.9)
     with pytest.warns(LiftedStartWarning, match="2.58 times its weight"):
         simulate(scene, 0.1, dt_out=0.1)
 
@@ -150,8 +148,8 @@ def test_a_winch_on_a_line_with_mass_is_refused() -> None:
     scene = Scene(name="deep")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -100.0))
     scene.add_line(
-        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8, length=100.0,
-        mass_per_length=12.0, segments=4,
+        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8,
+        length=100.0, mass_per_length=12.0, segments=4,
     )  # fmt: skip
     words = r"line 'wire\.1': is a segment of line 'wire'; rung 'with mass' takes no winch"
     with pytest.raises(SceneError, match=words):

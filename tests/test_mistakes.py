@@ -225,9 +225,7 @@ def a_slew_that_flings_its_load() -> None:
 def a_hook_on_a_wire_that_is_let_go() -> None:
     scene = Scene(name="hook")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(5.0, 0, 0))
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=8.99
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=8.99)
     simulate(scene, t_end=3.0)
 
 

@@ -272,9 +272,7 @@ def test_slings_share_a_load_by_their_stiffness() -> None:
 def test_two_slings_share_a_load_by_statics() -> None:
     scene = Scene(name="two")
     scene.add_body(name="load", mass=2e3, inertia=(100.0, 100.0, 100.0), position=(0.0, 0.0, -3.0))
-    scene.add_bridle(
-        name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], EA=5e7
-    )
+    scene.add_bridle(name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], EA=5e7)
     tensions = simulate(scene, 0.01, start=equilibrium(scene), dt_out=0.01)["line_tension"][0]
     assert_allclose(tensions, 2e3 * G / 2.0 / (2.8 / np.hypot(1.5, 2.8)), rtol=1e-3)
 

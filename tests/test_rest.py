@@ -86,9 +86,7 @@ def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
 def test_the_line_that_could_hold_a_load_is_named() -> None:
     scene = Scene(name="far")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0)
     with pytest.raises(SceneError, match=r"'load' .* line 'hoist', which could hold it, is slack by 4.99"):
         equilibrium(scene)
 

@@ -107,9 +107,7 @@ def test_a_block_that_lines_pass_often_is_drawn_once() -> None:
 def test_a_line_straight_down_has_a_level_drum(below: float) -> None:
     scene = Scene(name="down")
     scene.add_body(name="load", mass=2e3, inertia=(500.0, 500.0, 500.0), position=(0, 0, -below))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=9.0
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=9.0)
     scene.add_winch(line="hoist", rate=0.0, lag=0.1, drum_inertia=100.0, drum_radius=RADIUS)
     drawing = drawing_of(scene)
     (drum,) = drawing.wheels

@@ -49,8 +49,12 @@ def _row(result: Result, folder: Path) -> list[float]:
     _, writing = _timed(lambda: shown.save_gltf(model, overwrite=True))
     file = result.save(folder / "lift.nc")
     bare = Result.from_arrays(
-        time=result.time, arrays=result.channels, coords=result.coords, stats=result.stats,
-        about=result.about, state=result.state,
+        time=result.time,
+        arrays=result.channels,
+        coords=result.coords,
+        stats=result.stats,
+        about=result.about,
+        state=result.state,
     ).save(folder / "bare.nc")
     with netCDF4.Dataset(file) as opened:
         assert SCENE in opened.variables

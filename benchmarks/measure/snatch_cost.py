@@ -37,7 +37,9 @@ def dropped(stiffness: float | None) -> Scene:
             kind="distance", name="rope", first="ground", second="load", point=(0, 0, 0),
             second_point=place, length=LENGTH,
         )  # fmt: skip
-        scene.add_line(joint="rope", rung="rigid", restitution=np.exp(-np.pi * RATIO / np.sqrt(1.0 - RATIO**2)))
+        scene.add_line(
+            joint="rope", rung="rigid", restitution=np.exp(-np.pi * RATIO / np.sqrt(1.0 - RATIO**2))
+        )
     else:
         scene.add_line(
             name="rope", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,

@@ -21,7 +21,7 @@ KEYWORDS: dict[str, dict[str, str]] = {
 # Methods of `Scene`.
 METHODS: dict[str, str] = {
     "add_wire": "write add_line(joint=..., rung='rigid')",
-    "add_heavy_line": "write add_line(..., rung='with mass'), with EA for stiffness, segment_rung for stretch",
+    "add_heavy_line": "write add_line(..., rung='with mass'), with EA, segment_rung for stiffness, stretch",
 }
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {}

@@ -40,7 +40,7 @@ def named(element: Any, role: str) -> list[str]:
 
 def changed(element: Some, **entries: Any) -> Some:
     """An element of the core with other entries."""
-    return type(element)(**element.__getstate__() | entries)  # type: ignore[call-arg,attr-defined,operator]
+    return type(element)(**element.__getstate__() | entries)  # type: ignore[operator]
 
 
 def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:

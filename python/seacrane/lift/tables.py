@@ -388,7 +388,8 @@ _ALL = (
     ),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
-        hook_point=POINT, EA=ROW | {"unit": "N"}, rung={"choices": lines.STRETCHING}, lengths=ROW | {"unit": "m"},
+        hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
+        rung={"choices": lines.STRETCHING},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),

@@ -172,7 +172,8 @@ def add_line(
         that visits a point twice in a row; for values that are no numbers, or out of range; for a length
         beside a tension, or neither where a body of the path is not there yet.
     """
-    what = f"line {name_of('line', joint if name is None and joint is not None else name)!r}"
+    name = name_of("line", joint if name is None and joint is not None else name)
+    what = f"line {name!r}"
     _check_rung(
         what, rung, joint=joint, EA=EA, tension_at_start=tension_at_start, settling=settling,
         damping_ratio=damping_ratio, mass=mass, radii=radii, axes=axes, turns=turns,
@@ -185,22 +186,23 @@ def add_line(
     if joint is not None:
         _refuse_second(what, "a joint", *ends, bodies, points, length)
         return add_wire(scene, joint, restitution, sticking_speed, name)
-    if bodies is None and points is None:
-        bodies, points = path_between(scene, what, (first, second), (first_point, second_point))
-    else:
+    if bodies is not None or points is not None:
         _refuse_second(what, "bodies and points", *ends)
+        over: tuple[Any, Any] = (bodies, points)
+    else:
+        over = path_between(scene, what, (first, second), (first_point, second_point))
     if rung == RIGID:
-        return _wire(scene, what, str(name), bodies, points, length, restitution, sticking_speed)
+        return _wire(scene, what, name, *over, length, restitution, sticking_speed)
     if rung == WITH_MASS:
         return chain_of_segments(
-            scene, str(name), bodies, points, EA=EA, length=length, mass_per_length=mass_per_length,
+            scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
             segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
             diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow,
         )  # fmt: skip
     if length is not None and tension_at_start is not None:
         raise SceneError(f"{what}: has a length and a tension_at_start; give one of them")
     line = _core.Line(
-        name=name, bodies=bodies, points=points, EA=_axial_stiffness(what, EA, strains, tensions),
+        name=name, bodies=over[0], points=over[1], EA=_axial_stiffness(what, EA, strains, tensions),
         length=UNKNOWN_LENGTH if length is None else length, damping_ratio=damping_ratio, mass=mass,
         rung=rung, settling=settling, radii=radii, axes=axes, turns=turns, efficiencies=efficiencies,
         frictions=frictions, slip_speed=slip_speed, strains=strains, tensions=tensions,
