@@ -33,10 +33,10 @@ t_end_s = 2
 
 [method]
 integrator = "rk4"
-step_s = 0.01
+dt_s = 0.01
 
 [outputs]
-dt_s = 0.5
+dt_out_s = 0.5
 channels = ["position", "constraint_error", "energy_balance"]
 """
 )
@@ -595,6 +595,6 @@ duration_s = 0.5
 release = ["hoist"]
 
 [outputs]
-dt_s = 0.05
+dt_out_s = 0.05
 """
 )

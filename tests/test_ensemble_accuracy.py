@@ -44,7 +44,7 @@ def test_one_method_is_chosen_at_little_cost(chosen: Ensemble) -> None:
     assert len(told.checks) == 2
     assert not set(told.probes) & set(told.checks)
     same = ensemble(
-        pendulum, over=STARTS, integrator=told.method.integrator, rtol=told.method.used_tolerance, **GIVEN
+        pendulum, over=STARTS, integrator=told.method.integrator, rtol=told.method.used_rtol, **GIVEN
     )
     assert same.dataset.identical(chosen.dataset)
 

@@ -217,7 +217,7 @@ def apart(a: dict[str, Any], b: dict[str, Any]) -> float:
 
 # Tolerance or step at which a method's own error is below the agreement asked for.
 TIGHT: dict[str, dict[str, float]] = {
-    "bs32": {"rtol": 1e-3, "max_step": 2e-4},
+    "bs32": {"rtol": 1e-3, "maximum_step": 2e-4},
     "rk4": {"dt": 1e-3},
     "rk-low-storage": {"dt": 1e-3},
     "cvode-adams": {"rtol": 1e-11},

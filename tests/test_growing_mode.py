@@ -26,7 +26,7 @@ def swinging(damping_ratio: float = 0.0) -> Scene:
 
 
 def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
-    given = {"t_end": 6000.0, "dt_out": 1.0, "max_step": STEP, "rtol": 1e-2} | settings
+    given = {"t_end": 6000.0, "dt_out": 1.0, "maximum_step": STEP, "rtol": 1e-2} | settings
     return simulate(scene, integrator=integrator, **given)
 
 
@@ -53,14 +53,14 @@ def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(i
     ("damping_ratio", "integrator", "settings"),
     [
         (0.0, "verner65", {}),  # damps up to 2.5
-        (0.0, "rk4", {"max_step": None, "rtol": None, "dt": STEP}),
-        (0.0, "dopri5", {"max_step": 0.4}),
+        (0.0, "rk4", {"maximum_step": None, "rtol": None, "dt": STEP}),
+        (0.0, "dopri5", {"maximum_step": 0.4}),
         (0.001, "tsit5", {}),  # outweighs the growth
         (0.0, "tsit5", {"t_end": 1000.0, "rtol": 1e-4}),  # too short for the growth to matter
     ],
 )
 def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
-    given = {"max_step": STEP, "rtol": 1e-2} | settings
+    given = {"maximum_step": STEP, "rtol": 1e-2} | settings
     kept = {name: value for name, value in given.items() if value is not None}
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -120,8 +120,8 @@ def test_steps_equal_those_of_scipy(integrator: str, method: type[RungeKutta]) -
     """The same pair from SciPy's coefficients, on the same derivative: equal to rounding."""
     scene = tumbling()
     model = scene.compile()
-    h, steps = 1 / 64, 16  # short enough for the choice of the first step to be max_step
-    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, max_step=h,
+    h, steps = 1 / 64, 16  # short enough for the choice of the first step to be maximum_step
+    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, maximum_step=h,
               formulation="redundant")  # fmt: skip
     y = np.array(own.core.state.values)
     own.advance(h * steps)
@@ -138,10 +138,10 @@ def test_dense_output_equals_that_of_scipy(integrator: str, method: type[RungeKu
     scene = tumbling()
     model = scene.compile()
     h, n = 1 / 64, 5
-    own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, max_step=h,
+    own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, maximum_step=h,
               channels=["position", "velocity", "angular_velocity"])  # fmt: skip
     y = np.array(own.core.state.values)
-    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, max_step=h, rtol=0.1, atol=1e3)
+    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, maximum_step=h, rtol=0.1, atol=1e3)
     solver.step()
     own.advance(h)
     assert own.core.statistics()["steps"] == 1

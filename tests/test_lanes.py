@@ -248,7 +248,7 @@ def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) 
     ("other", "told"),
     [
         ({"rtol": 1e-5}, "different methods"),
-        ({"max_step": 0.01}, "different methods"),
+        ({"maximum_step": 0.01}, "different methods"),
         ({"t_end": 2.0}, "end at different times"),
         ({"integrator": "tsit5"}, "different methods"),
     ],

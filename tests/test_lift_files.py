@@ -100,8 +100,8 @@ def test_the_lift_with_every_table_has_every_table() -> None:
 
 def test_method_outputs_and_end_time(tmp_path: Path) -> None:
     lift = lift_of(PENDULUM, tmp_path)
-    assert lift.method == Method(integrator="rk4", step=0.01)
-    assert lift.outputs == Outputs(dt=0.5, channels=("position", "constraint_error", "energy_balance"))
+    assert lift.method == Method(integrator="rk4", dt=0.01)
+    assert lift.outputs == Outputs(dt_out=0.5, channels=("position", "constraint_error", "energy_balance"))
     assert lift.t_end == 2.0
     result = lift.simulate()
     other = simulate(lift.scene(), 2.0, method=lift.method, outputs=lift.outputs)
@@ -273,7 +273,7 @@ MISTAKES = {
     "a missing key": (HEAD + '[[body]]\nname = "a"', 3, "[[body]] 1 has no mass_kg; add it"),
     "an unknown choice": (HEAD + '[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
     "an unknown integrator": (HEAD + '[method]\nintegrator = "dopri6"', 4, "nearest: dopri5"),
-    "a tolerance out of range": (HEAD + "[method]\ntolerance = 3", 4, "tolerance is 3"),
+    "a tolerance out of range": (HEAD + "[method]\nrtol = 3", 4, "rtol is 3"),
     "a list for a table": (HEAD + "[[run]]\nt_end_s = 1", 3, "write [run], once"),
     "a number for a table": (HEAD + "line = 3", 3, "write [line], or [[line]] for each of several"),
     "an unknown curve": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "line" }', 5, "one of constant"),
@@ -505,7 +505,7 @@ def test_every_keyword_is_a_key(name: str) -> None:
 PLAIN = {
     "air", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
-    "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
+    "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "rtol",
     "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
     "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
     "drag_coefficient",

@@ -122,7 +122,7 @@ def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
     start = np.concatenate([body.position, body.velocity, [8.5, 0.0]])
     times = np.linspace(0.0, 5.0, 51)
     expected = solve_ivp(
-        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, max_step=2e-3
+        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, maximum_step=2e-3
     ).y.T
     out = record(scene, 5.0, dt_out=0.1, rtol=1e-9)
     assert_allclose(out["position"][:, 0], expected[:, :3], atol=2e-7)

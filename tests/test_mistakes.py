@@ -270,7 +270,7 @@ def hours_at_a_loose_tolerance() -> None:
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
     scene.add_spring(name="spring", first="ground", second="box", first_point=(-9, 0, 0), stiffness=5.0,
                      natural_length=9.0)  # fmt: skip
-    simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, max_step=0.5)
+    simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, maximum_step=0.5)
 
 
 def a_gain_beyond_what_oil_bears() -> None:

@@ -279,7 +279,7 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
     scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "max_step": 0.5}
+    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
     given |= {"integrator": "tsit5", "channels": ["position"]}
     there = ensemble(scene, over={"seed": [5]}, keep=PATH, database=database, **given)
     with warnings.catch_warnings():

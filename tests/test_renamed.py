@@ -28,7 +28,7 @@ def write(folder: Path, text: str) -> Path:
 @pytest.fixture
 def renamed_keys(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if 0.2 had had a table "stage_of_outputs" and the keys "weight" of a body and "end" of a run."""
-    monkeypatch.setitem(renamed.LIFT_TABLES, "recorded", ("outputs", {"dt_s": 0.5}))
+    monkeypatch.setitem(renamed.LIFT_TABLES, "recorded", ("outputs", {"dt_out_s": 0.5}))
     monkeypatch.setitem(renamed.LIFT_KEYS, "body", {"weight": "mass"})
     monkeypatch.setitem(renamed.LIFT_KEYS, "run", {"end": "t_end"})
     monkeypatch.setitem(renamed.LIFT_DEFAULTS, "body", {"gravity": False})
@@ -36,7 +36,7 @@ def renamed_keys(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def older_text() -> str:
     text = OLDER.replace("mass_kg", "weight_kg").replace("t_end_s", "end_s")
-    return text.replace("[outputs]\ndt_s = 0.5", "[recorded]")
+    return text.replace("[outputs]\ndt_out_s = 0.5", "[recorded]")
 
 
 @pytest.mark.usefixtures("renamed_keys")
@@ -46,10 +46,10 @@ def test_a_lift_of_before_is_read_with_one_warning_that_lists_old_and_new_keys(t
     assert len(told) == 1
     text = str(told[0].message)
     for part in ("older.toml", "weight_kg of [body] is mass_kg", "end_s of [run] is t_end_s", "version = 2",
-                 "[recorded] is [outputs] with dt_s = 0.5"):  # fmt: skip
+                 "[recorded] is [outputs] with dt_out_s = 0.5"):  # fmt: skip
         assert part in text
     now = Lift.load(write(tmp_path, PENDULUM.replace("mass_kg", "gravity = false\nmass_kg")))
-    assert lift == now and lift.outputs.dt == 0.5
+    assert lift == now and lift.outputs.dt_out == 0.5
 
 
 @pytest.mark.usefixtures("renamed_keys")
@@ -80,8 +80,8 @@ def test_a_lift_of_now_is_refused_its_old_keys_by_their_new_names(
 
 @pytest.mark.usefixtures("renamed_keys")
 def test_a_lift_of_now_is_refused_its_old_tables_by_their_new_names(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=r"\[recorded\] is \[outputs\] with dt_s = 0.5 since 0.3"):
-        Lift.load(write(tmp_path, PENDULUM.replace("[outputs]\ndt_s = 0.5", "[recorded]")))
+    with pytest.raises(FileFormatError, match=r"\[recorded\] is \[outputs\] with dt_out_s = 0.5 since 0.3"):
+        Lift.load(write(tmp_path, PENDULUM.replace("[outputs]\ndt_out_s = 0.5", "[recorded]")))
 
 
 @pytest.mark.usefixtures("renamed_keys")

@@ -355,7 +355,7 @@ def test_results_keep_their_stages(tmp_path: Path) -> None:
 
 def test_channels_are_recorded_in_the_stages_that_have_them() -> None:
     wanted = ["position", "line_tension"]
-    result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(tolerance=1e-5))
+    result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(rtol=1e-5))
     assert set(result) == {*wanted, "line_unstretched_length"}
 
 

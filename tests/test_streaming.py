@@ -459,8 +459,8 @@ def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_pa
 def test_what_version_0_1_wrote_as_zero_is_a_setting_left_out() -> None:
     """So that its files can be gone on with; a step that was given is still compared."""
     stats = {stream.DIGEST: "of the scene", "formulation": "recursive", "integrator": "rk4"}
-    before = {"t_end": 1.0, "dt_out": 0.1, "rtol": 1e-6, "dt": 0.0, "max_step": 0.0, "baumgarte": 0.0}
-    now = {name: value for name, value in before.items() if name not in ("dt", "max_step")}
+    before = {"t_end": 1.0, "dt_out": 0.1, "rtol": 1e-6, "dt": 0.0, "maximum_step": 0.0, "baumgarte": 0.0}
+    now = {name: value for name, value in before.items() if name not in ("dt", "maximum_step")}
     given = {**before, "dt": 0.05}
     old, new, other = (stream.Told(stats=stats, about=About(settings=one)) for one in (before, now, given))
     assert stream.difference(old, new) == ""

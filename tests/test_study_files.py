@@ -71,7 +71,7 @@ heave.mpm = 0.25
 t_end_s = 8
 
 [method]
-tolerance = 1e-2
+rtol = 1e-2
 """
 
 

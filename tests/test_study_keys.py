@@ -38,7 +38,7 @@ body = "vessel"
 
 [method]
 integrator = "dopri5"
-tolerance = 1e-3
+rtol = 1e-3
 """
 STUDY = """format = "seacrane study"
 version = 2
@@ -76,7 +76,7 @@ axis = [0, 1, 0]
 
 [lift.method]
 integrator = "rk4"
-step_s = 0.1
+dt_s = 0.1
 
 [over]
 body.position_m.1 = [1, 1.5]
@@ -163,11 +163,11 @@ def test_paths_go_by_names_numbers_and_units() -> None:
         ("payload.mass_kg", "payload.mas_kg", "line 6: .*nearest: 'crane.payload.mass_kg'"),
         ("payload.mass_kg", "payload.mass_t", "line 6: .*nearest: 'crane.payload.mass_kg'"),
         ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
-        ("crane.payload.mass_kg = [20e3, 100e3]", "method.step_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
+        ("crane.payload.mass_kg = [20e3, 100e3]", "method.dt_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
         ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: quantity 'heve' is unknown"),
         ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
         ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
-        ("[run]", "[method]\ntolerance = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
+        ("[run]", "[method]\nrtol = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
     ],
 )  # fmt: skip
 def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:

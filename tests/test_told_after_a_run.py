@@ -68,7 +68,7 @@ def test_a_summary_that_fails_does_not_lose_the_run(
 @pytest.mark.parametrize("channels", [None, [], ["energy_balance"]])
 @pytest.mark.parametrize("make", [weak, falling, on_deck, swinging])
 def test_every_run_is_told(make: Any, channels: list[str] | None, end: float) -> None:
-    result = simulate(make(), end, outputs=Outputs(dt=0.1, channels=channels))
+    result = simulate(make(), end, outputs=Outputs(dt_out=0.1, channels=channels))
     assert told(result).startswith(f"{result.stats['scene']}: {end:g} s in")
 
 

@@ -54,7 +54,7 @@ def word(rng: np.random.Generator, *, t_end: float) -> Word:
     while True:
         scene = random_kinked(rng)
         truth, other = (
-            np.asarray(simulate(scene, integrator=name, rtol=1e-11, max_step=0.05, **span)["position"])
+            np.asarray(simulate(scene, integrator=name, rtol=1e-11, maximum_step=0.05, **span)["position"])
             for name in ("dop853", "verner76")
         )
         size = max(float(np.abs(truth - truth[0]).max()), 0.01)

@@ -53,8 +53,8 @@ def lanes(*, repeats: int) -> Section:
 
 
 def _begun(scenes: Sequence[Scene], rtol: float) -> list[Run]:
-    method = Method(integrator="tsit5" if rtol > FINE else "dop853", tolerance=rtol, formulation="recursive")
-    outputs = Outputs(dt=1.0, channels=("position",))
+    method = Method(integrator="tsit5" if rtol > FINE else "dop853", rtol=rtol, formulation="recursive")
+    outputs = Outputs(dt_out=1.0, channels=("position",))
     return [Run(scene, END, method=method, outputs=outputs) for scene in scenes]
 
 

@@ -17,10 +17,10 @@ RATIO = 0.02  # of critical damping
 PERIODS = 5  # after the snatch
 DT_OUT = 400  # to a period
 METHODS = (
-    Method(integrator="dopri5", tolerance=1e-4),
-    Method(integrator="verner76", tolerance=1e-4),
-    Method(integrator="rosenbrock", tolerance=1e-3),
-    Method(integrator="cvode-bdf", tolerance=1e-4),
+    Method(integrator="dopri5", rtol=1e-4),
+    Method(integrator="verner76", rtol=1e-4),
+    Method(integrator="rosenbrock", rtol=1e-3),
+    Method(integrator="cvode-bdf", rtol=1e-4),
 )
 
 
@@ -70,7 +70,7 @@ def snatch_cost() -> Section:
             rows.append(
                 [
                     power_of_ten(stiffness),
-                    f"{method.integrator} {method.tolerance:g}",
+                    f"{method.integrator} {method.rtol:g}",
                     1e3 * period,
                     through,
                     int(run.core.statistics()["jacobians"]),

@@ -46,7 +46,7 @@ def timed_run(
 ) -> Timed:
     """Run a scene several times; compiling and preparing are not part of the wall time."""
     method, outputs = settled(None, None, settings)
-    case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt, compiled=model)
+    case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt_out, compiled=model)
     done = timed(case, method, outputs.channels, repeats=repeats)
     if done.stopped is not None:
         raise done.stopped

@@ -234,7 +234,7 @@ def w_method() -> Section:
         text=(
             f"{T_END:g} s of case 2 with a line of EA for its link, by ROS34PW2 in maximal coordinates: "
             "largest error of the payload's place until 10 s and until the end, against the elastic line "
-            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}). `line only`: the matrix "
+            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}). `line only`: the matrix "
             "holds the line's part of the Jacobian and the kinematics. Matrices are made "
             "anew in every step, and are not counted."
         ),

@@ -12,7 +12,10 @@ from typing import Any, TypeVar
 
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
+SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 KEYWORDS: dict[str, dict[str, str]] = {
+    "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "Outputs": {"dt": "dt_out"},
     "add_line": {"stiffness": "EA", "stretch": "rung"},
     "add_bridle": {"stiffnesses": "EA", "stretch": "rung"},
     "Line": {"stiffness": "EA", "stretch": "rung"},
@@ -36,6 +39,8 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
     "line": {"stiffness": "EA", "stretch": "rung"},
     "heavy_line": {"stiffness": "EA", "stretch": "segment_rung"},
     "bridle": {"stiffnesses": "EA", "stretch": "rung"},
+    "method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "outputs": {"dt": "dt_out"},
 }
 STUDY_KEYS: dict[str, dict[str, str]] = {}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.

@@ -55,10 +55,8 @@ def simulate(
     progress : bool
         Show a progress bar.
     **shorthand
-        Parts of `method` and `outputs` by name, for calls that name few of them. `integrator`,
-        `formulation`, `max_step`, `spectral_radius` and `energy_limit` are those of `Method`, `rtol` is its
-        `tolerance`, `dt` its `step` (s); `dt_out` (s) and `channels` are those of `Outputs`. One that
-        contradicts the object is refused.
+        Attributes of `Method` and `Outputs` by name, for calls that name few of them. One that contradicts
+        the object is refused.
 
     Returns
     -------

@@ -140,7 +140,7 @@ def _warn(told: EnsembleAccuracy, members: Members) -> None:
     warn_caller(
         f"accuracy: {beyond} of {len(told.checks)} members that were checked are beyond it; worst is member "
         f"{index} ({at}): {name} has an error of {errors[name]:.3g}, allowed are {told.limits[name]:g}. Give "
-        f"rtol={told.method.used_tolerance / 10.0:g} in its place",
+        f"rtol={told.method.used_rtol / 10.0:g} in its place",
         AccuracyNotHeldWarning,
     )
 
@@ -171,7 +171,7 @@ def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Val
         raise KeyboardInterrupt
     stats = result.stats
     tolerance = float(result.settings["rtol"])
-    method = replace(study.method, integrator=str(stats["integrator"]), tolerance=tolerance)
+    method = replace(study.method, integrator=str(stats["integrator"]), rtol=tolerance)
     return Probe(
         method=method,
         errors={name: float(stats[f"error_estimate_{name}"]) for name in accuracy},

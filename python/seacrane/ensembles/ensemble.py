@@ -216,7 +216,7 @@ def ensemble(
     )
     for what in wanted.values():
         if isinstance(what, Kept):
-            what.require_times(study.t_end, recorded.dt)
+            what.require_times(study.t_end, recorded.dt_out)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = _pack_size(pack, len(members), study.lanes)

@@ -124,4 +124,4 @@ def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
     if outputs.channels is not None or not all(isinstance(what, Kept) for what in keep.values()):
         return outputs
     channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
-    return Outputs(dt=outputs.dt, channels=tuple(channels))
+    return Outputs(dt_out=outputs.dt_out, channels=tuple(channels))

@@ -463,11 +463,11 @@ _ALL = (
     ),
     Table(
         name="method", several=False, text=_summary(Method),
-        keys=keys_of(Method, more=CHOSEN | {"step": TIME, "max_step": TIME}),
+        keys=keys_of(Method, more=CHOSEN | {"dt": TIME, "maximum_step": TIME}),
     ),
     Table(
         name="outputs", several=False, text=_summary(Outputs),
-        keys=keys_of(Outputs, more={"dt": TIME, "channels": {"type": "texts"}}),
+        keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",

@@ -135,7 +135,9 @@ def allowable_hs(
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
-    outputs = Outputs(dt=recorded.dt, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria)))
+    outputs = Outputs(
+        dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
+    )
     still = _Still.of(scene, database, asked.criteria, number_of("time", time), how, outputs)
     study = _Study(asked=asked, still=still, method=how, outputs=outputs, databases=database)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])

@@ -118,8 +118,8 @@ class Prober:
         scene = with_sea(self.scene, self.database, words)
         assert scene.waves is not None
         end = self.start + self.duration
-        steps = np.arange(round(self.duration / self.outputs.dt) + 1, dtype=float)
-        times: Array = self.start + steps * self.outputs.dt
+        steps = np.arange(round(self.duration / self.outputs.dt_out) + 1, dtype=float)
+        times: Array = self.start + steps * self.outputs.dt_out
         state, linear = self.linear.in_waves(scene.waves, self.start, times)
         probe = Probe(
             scene=scene, start=state, t_end=end, criteria=self.criteria, method=self.method,

@@ -34,7 +34,7 @@ VESSEL = {
 METHOD = {
     "rtol": "tolerance",
     "dt": "step [s]",
-    "max_step": "largest step [s]",
+    "maximum_step": "largest step [s]",
     "spectral_radius": "spectral radius",
     "t_end": "end time [s]",
     "dt_out": "output interval [s]",

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+from seacrane import renamed
 from seacrane.description.limit_state import LimitState
 
 SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
@@ -93,6 +94,8 @@ def _made(data: Mapping[str, Any]) -> About:
         kind = dict if isinstance(getattr(About(), name), dict) else list
         if not isinstance(value, kind):
             raise TypeError(f"{name} is a {type(value).__name__}")
+    settings = given.pop(SETTINGS, {})
+    given[SETTINGS] = {renamed.SETTINGS.get(name, name): value for name, value in settings.items()}
     stages = tuple(StageSpan(**one) for one in given.pop("stages", ()))
     limit_states = tuple(LimitState(**one) for one in given.pop("limit_states", ()))
     return About(**given, stages=stages, limit_states=limit_states)

@@ -143,7 +143,7 @@ def _advise(run: Run, error: BaseException) -> None:
     if not isinstance(error, SimulationError) or not integrator(method.integrator).stable_up_to:
         return
     taken = max(int(run.core.statistics()["steps"]), 1)
-    step = method.step or (run.core.time - run.start.time) / taken
+    step = method.dt or (run.core.time - run.start.time) / taken
     advice = step_advice(method.integrator, step, fastest_mode(run.model))
     if advice:
         error.args = (f"{error}. {advice}",)

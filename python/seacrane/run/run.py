@@ -459,11 +459,11 @@ def _options(run: Run) -> _core.RunOptions:
     asked = usual if outputs.channels is None else list(outputs.channels)
     channels = core_channels(asked, model.channel_names(defaults_only=False))
     times = output_times(
-        run.start.time, run.t_end, outputs.dt, first=run.first,
+        run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
     return _core.RunOptions(
-        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
-        fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
+        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
+        fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip

@@ -24,16 +24,16 @@ from seacrane.version import __version__
 def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) -> dict[str, Any]:
     """The settings of a run by the words of `simulate`; a word that is absent was left to its default."""
     given = {
-        "dt": method.step,
-        "max_step": method.max_step,
+        "dt": method.dt,
+        "maximum_step": method.maximum_step,
         "spectral_radius": method.spectral_radius,
         "energy_limit": method.energy_limit,
     }
     notes = plain_notes(scene.name, scene.notes)
     return {
         "t_end": t_end,
-        "dt_out": outputs.dt,
-        "rtol": method.used_tolerance,
+        "dt_out": outputs.dt_out,
+        "rtol": method.used_rtol,
         **{word: value for word, value in given.items() if value is not None},
         "orientation": scene.orientation,
         "baumgarte": scene.baumgarte,

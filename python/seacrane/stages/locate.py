@@ -130,7 +130,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
 
 def _next_look(course: Course, now: float) -> float:
     """The output that is so many outputs away, s."""
-    dt = course.outputs.dt
+    dt = course.outputs.dt_out
     return float(course.first + dt * (np.floor((now - course.first) / dt + 1e-6) + LOOK))
 
 

@@ -276,7 +276,7 @@ class StagedRun:
         if wanted is not None:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
-        outputs = Outputs(dt=self.outputs.dt, channels=wanted)
+        outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
         return Course(
             scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,

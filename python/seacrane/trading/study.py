@@ -75,8 +75,8 @@ class Trade:
             "formulation": [row.formulation for row in self.rows],
             "integrator": [row.method.integrator for row in self.rows],
             "setting": [row.method.setting for row in self.rows],
-            "rtol": [_or_nan(row.method.tolerance) for row in self.rows],
-            "dt": [_or_nan(row.method.step) for row in self.rows],
+            "rtol": [_or_nan(row.method.rtol) for row in self.rows],
+            "dt": [_or_nan(row.method.dt) for row in self.rows],
             **{name: [row.case[name] for row in self.rows] for name in self.full_case},
             **{name: [getattr(row, name) for row in self.rows] for name in MEASURED},
             "reason": [row.message for row in self.rows],
@@ -281,7 +281,7 @@ def trade(
         For an unknown quantity, or a scene of which no two tight runs work.
     """
     _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
-    case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt)
+    case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out)
     measured = quantities_of(scene, case.model, quantities)
     metadata = {
         "scene": scene.name, "seacrane_version": __version__, "t_end": case.t_end, "dt_out": case.dt_out,
