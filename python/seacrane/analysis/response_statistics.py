@@ -261,7 +261,7 @@ def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Arra
 
 
 def _met_frequencies(database: HydroDatabase, heading: float, about: Array) -> Array:
-    """Even over the band, and where waves of a direction are met at the frequencies ``about`` resonances.
+    """Wave frequencies: even over the band, and those that are met at the frequencies ``about`` resonances.
 
     In following seas the frequency of encounter rises, turns and falls: a resonance is met up to three times.
     """

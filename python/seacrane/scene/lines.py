@@ -172,16 +172,10 @@ def add_line(
         that visits a point twice in a row; for values that are no numbers, or out of range; for a length
         beside a tension, or neither where a body of the path is not there yet.
     """
+    told = locals().copy()
     name = name_of("line", joint if name is None and joint is not None else name)
     what = f"line {name!r}"
-    _check_rung(
-        what, rung, joint=joint, EA=EA, tension_at_start=tension_at_start, settling=settling,
-        damping_ratio=damping_ratio, mass=mass, radii=radii, axes=axes, turns=turns,
-        efficiencies=efficiencies, frictions=frictions, slip_speed=slip_speed, strains=strains,
-        tensions=tensions, restitution=restitution, sticking_speed=sticking_speed,
-        mass_per_length=mass_per_length, segments=segments, segment_rung=segment_rung, diameter=diameter,
-        drag_coefficient=drag_coefficient, density=density, flow=flow,
-    )  # fmt: skip
+    _check_rung(what, rung, {key: told[key] for key in TAKEN_BY})
     ends = first, second, first_point, second_point
     if joint is not None:
         _refuse_second(what, "a joint", *ends, bodies, points, length)
@@ -213,7 +207,7 @@ def add_line(
     return added
 
 
-def _check_rung(what: str, rung: str, **given: Any) -> None:
+def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:
     """Refuse a rung that there is not, and what it does not take."""
     if rung not in RUNGS:
         raise SceneError(f"{what}: rung is {shown(rung)}; choose one of {', '.join(map(repr, RUNGS))}")

@@ -66,7 +66,8 @@ class Scene(Description):
     ----------
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
-        Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
+        Elements by name, immutable; `loads` are all that puts forces on
+        bodies, by kind: wind, lines, springs, oil, friction and the rest.
     waves : Waves or None
     recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
