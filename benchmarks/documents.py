@@ -23,7 +23,8 @@ from measure.engine import record, words
 from measure.table import markdown, read
 
 ROOT = Path(__file__).resolve().parents[1]
-PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "studies/*/*.md", "notebooks/*.md")
+PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
+PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 BLOCK = re.compile(
     r"^<!-- (?P<word>table|place) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n.*?<!-- end of (?P=word) -->",

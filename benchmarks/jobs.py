@@ -1,8 +1,8 @@
 """Every script of examples/jobs, run as its user would: ``python benchmarks/jobs.py [--publish]``.
 
-Takes what each prints, its lines and its time, and writes ``jobs.md`` and ``results/jobs.csv`` to
-``out/bench``; with ``--publish`` to ``docs`` and ``benchmarks``. A script that fails or warns ends the call,
-and nothing is written.
+Takes what each prints, its lines and its time, and writes ``README.md`` and ``results/jobs.csv`` to
+``out/bench``; with ``--publish`` to ``examples/jobs`` and ``benchmarks``. A script that fails or warns ends
+the call, and nothing is written.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ LONGEST = 300.0  # s
 INTRODUCTION = """# Jobs
 
 Ordinary work of an offshore lift, each in a script that fits on a page and prints its numbers beside those by
-hand. `benchmarks/jobs.py --publish` runs the scripts in [`examples/jobs`](../examples/jobs), and writes this
-page from them and from what they printed. Times are those of the whole call, with the start of Python; other
-work may share the machine.
+hand. `benchmarks/jobs.py --publish` runs the scripts of this folder, and writes this page from them and from
+what they printed. Times are those of the whole call, with the start of Python; other work may share the
+machine.
 
 """
 
@@ -65,7 +65,7 @@ class Job:
     def section(self) -> str:
         """Its idea, where it is, and what it printed."""
         idea = (ast.get_docstring(ast.parse(self.source)) or "").strip()
-        script = f"[{self.path.name}](../examples/jobs/{self.path.name})"
+        script = f"[{self.path.name}]({self.path.name})"
         return f"## {self.title}\n\n{idea} Script: {script}.\n\n```text\n{self.printed.rstrip()}\n```\n"
 
 
@@ -94,16 +94,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--publish", action="store_true", help="write into docs and benchmarks")
+    parser.add_argument("--publish", action="store_true", help="write into examples and benchmarks")
     publish = parser.parse_args().publish
     jobs = []
     for path in sorted(SCRIPTS.glob("*.py")):
         jobs.append(run(path))
         print(f"{path.name}: {jobs[-1].wall:.1f} s\n{jobs[-1].printed}", flush=True)
-    folder = ROOT / "docs" if publish else ROOT / "out" / "bench"
+    folder = SCRIPTS if publish else ROOT / "out" / "bench" / "jobs"
     results = ROOT / TABLE if publish else folder / "results" / "jobs.csv"
     write(results, HEAD, [job.cells for job in jobs])
-    with atomic_write(folder / "jobs.md") as draft:
+    with atomic_write(folder / "README.md") as draft:
         draft.write_text(document(jobs), encoding="utf-8")
     if publish:
         documents.fill()

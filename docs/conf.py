@@ -37,7 +37,9 @@ include_patterns = [
     "docs/*.md",
     "docs/api/*.rst",
     "benchmarks/**.md",
+    "examples/**.md",
     "studies/**.md",
+    "tests/reference_problems/README.md",
     "notebooks/*.md",
 ]
 exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Move, Scene, Stage, Until, plot_history, simulate_stages
+from seacrane import Curve, Move, Scene, Stage, Until, simulate_stages
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 G, MASS, DECK, PLATFORM = 9.80665, 20e3, 2.0, 8.0  # m/s2, kg, m, m
@@ -56,4 +56,4 @@ print(f"lands at {landing.speed:.3f} m/s with {landing.energy_lost / 1e3:.2f} kJ
 
 if len(sys.argv) > 1:
     wanted = ("line_tension", "limit_force", "line_unstretched_length")
-    plot_history(result, *wanted).savefig(Path(sys.argv[1]) / "lift_in_stages.png", dpi=100)
+    result.plot(*wanted).savefig(Path(sys.argv[1]) / "lift_in_stages.png", dpi=100)

@@ -376,7 +376,7 @@ SAMPLES: Mapping[str, Sample] = {
         numbers={
             "mass": MASS, "inertia": INERTIA, "position": (0.0, 0.0, -15.0),
             "center_of_mass": (0.0, 0.0, -1.0), "velocity": (0.2, 0.0, 0.0),
-            "angular_velocity": (0.0, 0.0, 0.2),
+            "angular_velocity": (0.0, 0.0, 0.2), "size": (2.0, 2.0, 3.0),
         },
         scene=weighed,
     ),

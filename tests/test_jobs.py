@@ -1,4 +1,4 @@
-"""The jobs: short scripts, run as a user would run them, that print what docs/jobs.md shows."""
+"""The jobs: short scripts, run as a user would run them, that print what their page shows."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 JOBS = sorted((ROOT / "examples" / "jobs").glob("*.py"))
-DOCUMENT = ROOT / "docs" / "jobs.md"
+DOCUMENT = ROOT / "examples" / "jobs" / "README.md"
 SECTION = re.compile(
-    r"^## [^\n]+\n\n[^`]+\(\.\./examples/jobs/(?P<script>\w+\.py)\)\.\n\n```text\n(?P<printed>[^`]+)```\n",
+    r"^## [^\n]+\n\n[^`]+\((?P<script>\w+\.py)\)\.\n\n```text\n(?P<printed>[^`]+)```\n",
     re.MULTILINE,
 )
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?")
@@ -46,7 +46,7 @@ def test_a_job_prints_what_its_document_shows(job: Path, tmp_path: Path) -> None
     assert list(tmp_path.iterdir()) == []
     sections = SECTION.finditer(DOCUMENT.read_text(encoding="utf-8"))
     shown = {section["script"]: section["printed"] for section in sections}
-    assert job.name in shown, f"docs/jobs.md has no {job.name}"
+    assert job.name in shown, f"{DOCUMENT} has no {job.name}"
     assert words(done.stdout) == words(shown[job.name])
     assert numbers(done.stdout) == pytest.approx(numbers(shown[job.name]), rel=0.05, abs=ROUNDING)
 

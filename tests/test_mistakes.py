@@ -190,7 +190,7 @@ def strokes_out_of_range() -> None:
 
 def strokes_left_in_a_run() -> None:
     scene = Scene(name="no load along the cylinders")
-    scene.add_crane(base="ground", s1=1.0, s2=1.0)
+    scene.add_crane(base="ground", s1=1.0, s2=1.0, held=False)
     simulate(scene, t_end=3.0)
 
 
@@ -259,7 +259,7 @@ def a_link_down_to_the_keel() -> None:
 
 def a_crane_without_drives() -> None:
     scene = Scene(name="quay")
-    scene.add_crane(base="ground", payload=Payload(mass=20e3))
+    scene.add_crane(base="ground", payload=Payload(mass=20e3), held=False)
     simulate(scene, t_end=0.1)
 
 

@@ -17,7 +17,6 @@ from seacrane import (
     cases,
     ensemble,
     extremes,
-    plot_history,
     simulate,
 )
 from seacrane.result.channels import CHANNELS, FIXED
@@ -154,7 +153,7 @@ def test_criteria_conditions_extremes_and_plots_take_the_text(lift: Result) -> N
     assert Until.channel("position[load, z]", above=1.0) == Until.channel(
         "position", above=1.0, body="load", axis="z"
     )
-    figures = plot_history(lift, "roll"), plot_history(lift, "vessel_motion", motion="roll")
+    figures = lift.plot("roll"), lift.plot("vessel_motion", motion="roll")
     drawn = [figure.axes[0].lines[0].get_ydata() for figure in figures]
     assert np.array_equal(*drawn)
     several = simulate(cases.vessel(), t_end=200.0, dt_out=0.5)

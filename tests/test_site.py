@@ -45,7 +45,9 @@ def test_the_first_page_lists_every_document() -> None:
     docs = ROOT / "docs"
     listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
     there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
-    there |= {*(ROOT / "studies").glob("*/*.md")}
+    there |= {
+        path for folder in ("examples", "studies", "tests") for path in (ROOT / folder).glob("*/README.md")
+    }
     assert listed == there - {docs / "index.md"}
 
 

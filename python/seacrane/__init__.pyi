@@ -94,7 +94,6 @@ from seacrane.errors import SceneError as SceneError
 from seacrane.errors import SeacraneError as SeacraneError
 from seacrane.errors import SimulationError as SimulationError
 from seacrane.figures.overview import plot_overview as plot_overview
-from seacrane.figures.plots import plot_history as plot_history
 from seacrane.figures.plots import plot_rao as plot_rao
 from seacrane.figures.plots import plot_reactions as plot_reactions
 from seacrane.figures.plots import plot_spectrum as plot_spectrum

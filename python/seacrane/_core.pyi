@@ -36,6 +36,11 @@ class Curve:
         """
         From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both ends, held before and after. Raises SceneError when the times do not increase.
         """
+    @staticmethod
+    def table(times: typing.Any, values: typing.Any, *, between: str = 'linear') -> Curve:
+        """
+        Through samples (n,) of two or more: times in s that increase, values in the unit of what the curve drives, such as a channel of a result. `between`: "linear", whose rate jumps at the samples; or "cubic", whose rate and acceleration do not, at rest at both ends. Before the first sample it is held at its value, and after the last one at that. Steps end at its jumps.
+        """
     def __copy__(self) -> Curve:
         ...
     def __deepcopy__(self, memo: dict) -> Curve:
@@ -568,7 +573,7 @@ class Body:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ...) -> None:
+    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ..., size: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -611,6 +616,11 @@ class Body:
     def quaternion(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
         """
         w, x, y, z: body to inertial
+        """
+    @property
+    def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, edges of the box that it is, about its centre of mass, body axes
         """
     @property
     def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:

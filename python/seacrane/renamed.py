@@ -44,7 +44,7 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
 }
 STUDY_KEYS: dict[str, dict[str, str]] = {}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
-LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
+LIFT_DEFAULTS: dict[str, dict[str, Any]] = {"crane": {"held": False}}
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 

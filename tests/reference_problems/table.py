@@ -1,4 +1,4 @@
-"""Writes the tables of docs/reference-problems.md to benchmarks/results.
+"""Writes the tables of README.md to benchmarks/results.
 
 Usage, from the repository: PYTHONPATH=tests python -m reference_problems.table
 """

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.description.given import given_vessels
+from seacrane.description.holding import with_holds
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
@@ -143,7 +144,7 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
             )
         )
     driven = {actuator.joint for actuator in scene.actuators.values()}
-    driven |= {driver.joint for driver in scene.drivers.values()}
+    driven |= {driver.joint for driver in with_holds(scene).drivers.values()}
     if cylinders(scene) and driven.issuperset(cylinders(scene).values()):
         found.append(_channel("cylinder_force", unit="N"))
     if hooks(scene):

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from seacrane.answers.hanging import POSES, hanging_vectors, swing
 from seacrane.errors import FileFormatError
-from seacrane.figures.traces import NO_MOTION, Trace, beyond_rounding, traces
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
@@ -77,7 +77,13 @@ def reported_curves(result: Result) -> list[Curve]:
 def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
-    found = [_load(result, one) for name in loads for one in beyond_rounding(traces(result, name))]
+    links = set(result.coords[result.dims["tension"][1]]) if "tension" in held else set()
+    found = [
+        _load(result, one)
+        for name in loads
+        for one in beyond_rounding(traces(result, name))
+        if name != "hook_load" or one.names[0] not in links  # a link's is its tension
+    ]
     leads = [
         Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
         for name in LEADS

@@ -21,8 +21,8 @@ KNOTS = 36  # over the circle: a spline through them is a cosine to 3e-6
 
 def add_pendulum_damping(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     first_point: Any = (0.0, 0.0, 0.0),
@@ -76,8 +76,8 @@ def add_pendulum_damping(
 
 def add_air_drag(
     scene: Description,
-    *,
     body: str,
+    *,
     frontal_area: float,
     lateral_area: float,
     drag_coefficient: float = BOX_DRAG,

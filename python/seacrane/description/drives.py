@@ -9,8 +9,8 @@ from seacrane.inputs.checked import curve_of, name_of
 
 def add_driver(
     scene: Description,
-    *,
     joint: str,
+    *,
     curve: _core.Curve | float,
     coordinate: str | None = None,
     name: str | None = None,
@@ -30,8 +30,8 @@ def add_driver(
 
 def add_actuator(
     scene: Description,
-    *,
     joint: str,
+    *,
     name: str | None = None,
     coordinate: str | None = None,
     stiffness: float = 0.0,

@@ -35,6 +35,7 @@ from seacrane.description.file_origin import (
 from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
+from seacrane.description.holding import free_drives
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
@@ -191,6 +192,9 @@ def scene_digest(scene: Description) -> str:
     Notes, provenance, limit states, clearances and meshes do not count, and of C functions only their names.
     """
     data = described(scene.copy(notes={}, provenance={}, limit_states={}, clearances={}, meshes={}))
+    for roles in data["roles"]:
+        if not free_drives(scene, scene.roles[roles["prefix"]]):
+            roles.pop("held", None)  # nothing is, and scenes of before 0.3 have no such entry
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 

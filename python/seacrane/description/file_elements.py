@@ -15,6 +15,7 @@ from seacrane.files.node import Node
 # Entries that came after files with elements of their kind: written where they are not as usual, so that
 # older scenes keep their digests.
 _ADDED_LATER: Mapping[type, frozenset[str]] = {
+    _core.Body: frozenset(("size",)),
     _core.VesselHydrodynamics: frozenset(("floats",)),
     _core.Line: frozenset(
         ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",

@@ -9,6 +9,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
+from seacrane.description.holding import decided
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
@@ -36,6 +37,7 @@ def slide_of(scene: Description, cylinder: _core.HydraulicCylinder) -> str | Non
 
 def with_ideal_cylinders(scene: Some) -> Some:
     """The scene with an actuator of the same name in place of each cylinder that has a joint to act on."""
+    scene = decided(scene)
     found = hydraulic_cylinders(scene)
     slides = {name: slide for name, one in found.items() if (slide := slide_of(scene, one)) is not None}
     out = scene.copy(loads={name: load for name, load in scene.loads.items() if name not in slides})

@@ -18,9 +18,9 @@ Array = NDArray[np.float64]
 
 def add_joint(
     scene: Description,
+    name: str,
     *,
     kind: str,
-    name: str,
     first: str,
     second: str,
     point: Any = None,

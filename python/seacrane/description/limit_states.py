@@ -19,8 +19,8 @@ KEYS = ("name", "channel", "maximum", "minimum", "where")
 
 def add_limit_state(
     scene: Description,
-    *,
     channel: str,
+    *,
     max: float | None = None,
     min: float | None = None,
     where: Mapping[str, str] | None = None,

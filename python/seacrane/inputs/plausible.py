@@ -13,6 +13,7 @@ WHOLE = np.radians(1.0)  # and amplitudes of this
 EXACT = 1e-9
 COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
 LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
+HEAVIEST = 2.3e4  # kg/m3: osmium
 
 
 class AngleUnitWarning(UserWarning):
@@ -88,7 +89,13 @@ def warn_of_air(lowest: float, crest: float) -> None:
 
 
 def warn_of_density(what: str, mass: float, volume: float) -> None:
-    """Warn of a box lighter than foam."""
+    """Warn of a box lighter than foam, or heavier than any metal."""
+    if mass > HEAVIEST * volume:
+        warn_caller(
+            f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, heavier than any metal; masses are kilograms "
+            "and sizes metres: correct one of them",
+            MassUnitWarning,
+        )
     if mass < LIGHTEST * volume:
         warn_caller(
             f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, lighter than foam; masses are kilograms: if "

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from seacrane.description.holding import with_holds
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
@@ -164,6 +165,7 @@ def _of_commands(table: Mapping[str, Any]) -> list[tuple[str, str, Key]]:
 
 
 def _unit(scene: Scene, name: str) -> str:
+    scene = with_holds(scene)
     target = targets(scene)[name]
     if target.kind == "load":
         return OF_LOADS[target.attribute]

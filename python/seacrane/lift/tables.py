@@ -266,6 +266,7 @@ CRANE = keys_of(
         "crane": {"type": "file"},
         "foot": POINT,
         "payload": {"type": "table", "keys": PAYLOAD},
+        "payload_mass": {"unit": "kg"},
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
@@ -320,6 +321,14 @@ CURVES: Mapping[str, tuple[Key, ...]] = {
             "times": {"type": "array", "unit": "s", "shapes": ((-1,),)},
             "values": {"type": "array", "shapes": ((-1,),)},
         },
+    ),
+    "table": (
+        Key(name="times", type="array", unit="s", shapes=((-1,),), required=True, text="That increase."),
+        Key(name="values", type="array", shapes=((-1,),), required=True, text="At these times."),
+        Key(
+            name="between", type="text", choices=("linear", "cubic"),
+            text="Straight (default), or with continuous rate and acceleration, at rest at both ends.",
+        ),
     ),
     "gust": keys_of(
         gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}

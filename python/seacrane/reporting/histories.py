@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from seacrane.figures.overview import PANELS, overview_sheet, payload_bodies
-from seacrane.figures.plots import draw_track, history_sheet
+from seacrane.figures.plots import draw_track
 from seacrane.plotting.panel import draw
 from seacrane.reporting.blocks import drawn
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.history import history_sheet
 
 TENSIONS = ("link_tension", "limit_force")
 

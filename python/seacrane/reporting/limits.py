@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.figures.traces import ANGLES, NO_MOTION, shown_unit
 from seacrane.reporting.blocks import note, verdict
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
 
 OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
 

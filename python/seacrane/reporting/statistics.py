@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from seacrane.figures.traces import NO_MOTION
 from seacrane.plotting.html import table
 from seacrane.reporting.blocks import note
 from seacrane.reporting.measures import stated_traces, statistics_of
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION
 
 HEAD = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")
 

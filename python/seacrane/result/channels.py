@@ -100,7 +100,6 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "N",
             "load on the lower end of a link, a wire or a line, all its falls together",
             f"tension line_tension {_POSE}",
-            by_default=False,
         ),
         "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
         "tip_velocity": _derived(

@@ -16,6 +16,7 @@ from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import state_to_bytes
+from seacrane.plotting.panel import draw
 from seacrane.result.about import About, StageSpan
 from seacrane.result.channels import CHANNELS, FIXED, MOTIONS, attributes
 from seacrane.result.checked_parts import (
@@ -29,6 +30,7 @@ from seacrane.result.checked_parts import (
 from seacrane.result.dataframe import dataframe_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
+from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
@@ -39,6 +41,7 @@ from seacrane.result.utilisation import Utilisation, utilisation_of
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.figure import Figure
 
     from seacrane._core import State
     from seacrane.scene.scene import Scene
@@ -318,6 +321,31 @@ class Result(Mapping[str, Array]):
         if isinstance(channel, str) and "[" not in channel and channel not in MOTIONS:
             self[channel]
         return pick_of("select", channel, names)
+
+    def plot(self, *channels: str | Pick, **names: str) -> Figure:
+        """Draw channels over time, a panel for each channel and unit, with events and extremes marked.
+
+        `seacrane.plot_overview` draws what a run recorded, and more functions of that kind one thing each.
+
+        Parameters
+        ----------
+        *channels : str or Pick
+            As `select` takes them, such as "hook_load", "roll" or ``"position[load, z]"``.
+        **names : str
+            Pick one along a dimension, such as ``body="payload"``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            ``savefig(path)`` writes it; a notebook shows it.
+
+        Raises
+        ------
+        SceneError
+            For a channel or name that the result does not hold.
+        """
+        sheet = history_sheet(self, *channels, **names)
+        return draw(sheet, note=axes_note(self, [pick_of("plot", one).channel for one in channels]))
 
     def to_dataframe(self, *channels: str | Pick) -> pandas.DataFrame:
         """Curves as columns of a table, by time (s); SI units and radians.

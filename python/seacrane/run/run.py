@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane._core import integrator
 from seacrane.description.compilation import compiled, compiled_in_sea
+from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
@@ -126,6 +127,7 @@ class Run:
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = number_of("t_end", t_end)
+        scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = _checked_state(start), capacity, controlled
         self.rungs = self._chosen_rungs(model)

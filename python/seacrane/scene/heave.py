@@ -24,8 +24,8 @@ STOP_STIFFNESS = 1e8  # N/m
 
 def add_heave_compensation(
     scene: Description,
-    *,
     name: str,
+    *,
     body: str,
     point: Any = (0.0, 0.0, 0.0),
     winch: str | None = None,
@@ -138,8 +138,8 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
 
 def add_gas_spring(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     area: float,

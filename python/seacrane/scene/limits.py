@@ -43,8 +43,8 @@ def add_wire(
 
 def add_end_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
     maximum: float = NO_STOP,
@@ -89,7 +89,7 @@ def add_end_stop(
     )  # fmt: skip
 
 
-def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _core.Limit:
+def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _core.Limit:
     """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
 
     The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
@@ -118,8 +118,8 @@ def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _cor
 
 def add_soft_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     stiffness: float,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
@@ -172,8 +172,8 @@ def add_soft_stop(
 
 def add_friction(
     scene: Description,
-    *,
     joint: str,
+    *,
     load: float,
     speed: float,
     coordinate: str | None = None,

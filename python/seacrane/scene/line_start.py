@@ -36,11 +36,10 @@ def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
     That is the top centre of a body that has a size, else its origin.
     """
     described = scene.bodies.get(body)
-    size = getattr(described, "size", (0.0, 0.0, 0.0))
-    if described is None or not any(size):
+    if described is None or not np.any(described.size):
         return (0.0, 0.0, 0.0)
     x, y, z = map(float, described.center_of_mass)
-    return (x, y, z + 0.5 * float(size[2]))
+    return (x, y, z + 0.5 * float(described.size[2]))
 
 
 def starting_length(scene: Description, line: _core.Line, tension: float | None) -> float:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium
+from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import LOADS
 from seacrane.errors import SceneError
@@ -96,6 +97,7 @@ class StagedRun:
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
+        scene = decided(scene)
         every = checked_stages(scene, stages)
         self.stages, self._whole, time = planned_scene(scene, every, first)
         self._given, self._absent = scene, waiting(self.stages)

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.result import CHANNELS, Result
+from seacrane.result.about import About
+from seacrane.result.channels import CHANNELS
+from seacrane.result.events import Event
+from seacrane.result.pick import Pick
 from seacrane.result.units import unit_of
 
 Array = NDArray[np.float64]
@@ -20,6 +24,29 @@ ANGLES = ("angle", "roll", "pitch", "yaw")  # coordinates that are angles
 PREFIXES = ((1e6, "M"), (1e3, "k"))
 LOADS = ("N", "N m", "J", "N or N m")
 FEWEST_DIGITS = 1e4  # N: below it loads stay as they are
+
+
+class Record(Protocol):
+    """What curves are read from: a `Result`."""
+
+    @property
+    def time(self) -> Array: ...
+    @property
+    def channels(self) -> Mapping[str, Array]: ...
+    @property
+    def coords(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def dims(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def events(self) -> tuple[Event, ...]: ...
+    @property
+    def about(self) -> About: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def stats(self) -> Mapping[str, Any]: ...
+
+    def select(self, channel: str | Pick, /, **names: str) -> Array: ...
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,12 +79,12 @@ class Trace:
         return " ".join([self.channel.replace("_", " "), *self.names])
 
 
-def traces(result: Result, channel: str, **names: str) -> list[Trace]:
+def traces(result: Record, channel: str, **names: str) -> list[Trace]:
     """The curves of a channel, or those of them that names pick.
 
     Parameters
     ----------
-    result : Result
+    result : Record
     channel : str
     **names : str
         As of `Result.select`, such as ``body="payload"``.
@@ -83,14 +110,14 @@ def traces(result: Result, channel: str, **names: str) -> list[Trace]:
     return found
 
 
-def _unit(result: Result, channel: str, names: tuple[str, ...]) -> str:
+def _unit(result: Record, channel: str, names: tuple[str, ...]) -> str:
     """Of one curve."""
     if channel == "limit_force":
         return _unit_of_limit(result, names[-1])
     return unit_of(channel, names)
 
 
-def _unit_of_limit(result: Result, name: str) -> str:
+def _unit_of_limit(result: Record, name: str) -> str:
     """As the run noted its limits; stops of angles push with moments."""
     for bound in result.about.bounds:
         if name in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
