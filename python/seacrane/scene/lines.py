@@ -51,10 +51,10 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
 @refusing
 def add_line(
     scene: Description,
-    *,
     name: str | None = None,
     first: str | None = None,
     second: str | None = None,
+    *,
     first_point: ArrayLike | None = None,
     second_point: ArrayLike | None = None,
     bodies: Sequence[str] | None = None,
