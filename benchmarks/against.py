@@ -55,7 +55,7 @@ def measured() -> dict[str, float]:
 
 
 def _evaluation_ns(model: Any, formulation: str) -> float:
-    from seacrane import Evaluator
+    from seacrane.analysis import Evaluator
 
     evaluator, state = Evaluator(model, formulation), model.initial_state
     evaluator.repeat(0.0, state, EVALUATIONS // 10, STEP)

@@ -8,15 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    Curve,
-    Scene,
-    equilibrium,
-    heavy_line_tension,
-    natural_modes,
-    simulate,
-    spline_curve,
-)
+from seacrane import Curve, Scene, equilibrium, natural_modes, simulate
+from seacrane.result import heavy_line_tension
+from seacrane.scene import spline_curve
 
 LOAD, WIRE, LENGTH, EA = 24e3, 12.0, 1000.0, 2e8  # kg, kg/m, m, N
 G = 9.80665

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene, spline_curve
+from seacrane import Curve, Scene
+from seacrane.scene import spline_curve
 
 Array = NDArray[np.float64]
 G = 9.80665

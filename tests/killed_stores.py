@@ -24,7 +24,8 @@ import xarray
 import zarr  # noqa: F401
 from ensemble_studies import KEEP, fails_in_the_middle, lowest, storm
 
-from seacrane import Ensemble, Kept, ensemble
+from seacrane import Kept, ensemble
+from seacrane.ensembles import Ensemble
 
 STARTS: dict[str, Any] = {
     "source": fails_in_the_middle,

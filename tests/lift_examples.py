@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import Curve, FlowCoefficients, Frame, Scene, gust_curve, spline_curve
+from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane.scene import gust_curve, spline_curve
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 

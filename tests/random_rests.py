@@ -8,7 +8,8 @@ import numpy as np
 from hydraulic_scenes import SET
 from numpy.typing import NDArray
 
-from seacrane import Scene, Tank
+from seacrane import Scene
+from seacrane.scene import Tank
 
 Array = NDArray[np.float64]
 G = 9.80665

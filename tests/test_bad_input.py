@@ -14,26 +14,23 @@ from hypothesis import strategies as st
 
 from seacrane import (
     Curve,
-    Evaluator,
     Frame,
-    HullLoads,
     Run,
     SampledController,
     Scene,
     SceneError,
     SimulationError,
     State,
-    StateSpaceBlock,
-    Waves,
     _core,
-    inverse_dynamics,
     simulate,
-    spline_curve,
 )
+from seacrane.analysis import Evaluator, inverse_dynamics
 from seacrane.crane import Payload
+from seacrane.hydro import StateSpaceBlock
+from seacrane.scene import HullLoads, Waves, spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 NAN, INF = float("nan"), float("inf")
 KINDS = tuple(joint_examples.KINDS)

@@ -15,7 +15,7 @@ from seacrane.result import CHANNELS
 from seacrane.result.channels import DERIVED, FIXED, NAMED
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 TOOL = Path(__file__).parents[1] / "tools" / "channel_table.py"
 

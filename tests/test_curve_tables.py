@@ -115,7 +115,7 @@ def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks
 
 
 def test_a_driver_follows_a_linear_table_and_the_jumps_of_its_rate_are_told() -> None:
-    from seacrane import DriverImpulseWarning
+    from seacrane.warnings import DriverImpulseWarning
 
     scene = slider()
     scene.add_driver("rail", curve=Curve.table([0.0, 1.0, 3.0], [0.0, 0.0, 2.0]))

@@ -11,19 +11,10 @@ import pytest
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
-from seacrane import (
-    CompassDirectionWarning,
-    Curve,
-    Evaluator,
-    Run,
-    Scene,
-    SceneError,
-    _core,
-    cases,
-    natural_modes,
-    simulate,
-)
+from seacrane import Curve, Run, Scene, SceneError, _core, cases, natural_modes, simulate
+from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
+from seacrane.warnings import CompassDirectionWarning
 
 Array = NDArray[np.float64]
 G = 9.80665

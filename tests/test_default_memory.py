@@ -17,7 +17,7 @@ from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
-from seacrane.hydro.vessel.time_domain import MemoryFitWarning
+from seacrane.warnings import MemoryFitWarning
 
 SHORT_LIFT = """
 format = "seacrane lift"
@@ -62,7 +62,7 @@ def test_a_lift_file_has_it_too(tmp_path: Path) -> None:
 
 def test_what_was_reached_is_told() -> None:
     scene = afloat(shipped_database())
-    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, count=20)
+    scene.add_sea(hs=1.0, tp=8.0, count=20)
     result = simulate(scene, t_end=1.0)
     settings = result.settings
     assert settings["memory"] == "by-motion"

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, Run, Scene, State, StateSpaceBlock
+from seacrane import Curve, Run, Scene, State
+from seacrane.hydro import StateSpaceBlock
 
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 Array = NDArray[np.float64]

@@ -21,7 +21,7 @@ from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
 FORCELESS = ("heave compensator",)  # only its states are for others

@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from ensemble_studies import pendulum
 
-from seacrane import AccuracyNotHeldWarning, Ensemble, Kept, SceneError, ensemble, simulate
+from seacrane import Kept, SceneError, ensemble, simulate
 from seacrane.cases import vessel
-from seacrane.hydro import shipped_database
+from seacrane.ensembles import Ensemble
+from seacrane.warnings import AccuracyNotHeldWarning
 
 LIMIT = 1e-4
 TRACK = {"track": Kept(channel="position", at={"body": "bob"})}
@@ -51,7 +52,7 @@ def test_one_method_is_chosen_at_little_cost(chosen: Ensemble) -> None:
 
 def test_a_sea_is_as_cheap() -> None:
     """Of 25 storms one is the probe and one is checked."""
-    given: dict[str, Any] = {"over": {"seed": range(1, 26)}, "database": shipped_database()}
+    given: dict[str, Any] = {"over": {"seed": range(1, 26)}}
     roll = {"roll": Kept(channel="vessel_motion", what="maximum", at={"motion": "roll"})}
     told = ensemble(
         vessel(hs=1.0, memory="passive"), keep=roll, accuracy={"roll": 1e-3}, t_end=20.0, dt_out=0.5, **given

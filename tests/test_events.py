@@ -19,8 +19,9 @@ from event_scenes import (
     scipy_pendulum,
 )
 
-from seacrane import ChatteringError, Run, Scene, SceneError, State, cases, integrator_names, simulate
+from seacrane import Run, Scene, SceneError, State, cases, integrator_names, simulate
 from seacrane._core import Body
+from seacrane.errors import ChatteringError
 
 
 def bounces(restitution: float, count: int) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""Scripts that somebody writes who has read the README alone run as they stand, each in a fresh interpreter."""
+"""Scripts of somebody who has read the README alone run as they stand, each in a fresh interpreter."""
 
 from __future__ import annotations
 

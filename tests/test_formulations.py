@@ -20,10 +20,11 @@ from reference.mechanisms import SliderCrank
 from reference_problems import bricard
 from test_redundant_joints import bars
 
-from seacrane import Evaluator, Model, Run, Scene, SceneError, _core, cases, simulate
+from seacrane import Model, Run, Scene, SceneError, _core, cases, simulate
+from seacrane.analysis import Evaluator
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 AGREEMENT = 1e-9  # of the largest like quantity

@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from seacrane import Curve, GrowingModeWarning, Scene, _core, simulate, spline_curve
+from seacrane import Curve, Scene, _core, simulate
 from seacrane.run import modes
+from seacrane.scene import spline_curve
+from seacrane.warnings import GrowingModeWarning
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m

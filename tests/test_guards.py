@@ -21,25 +21,25 @@ from seacrane import (
     SceneError,
     SimulationError,
     State,
-    StiffWarning,
     _core,
     simulate,
 )
 from seacrane._core import integrators
 from seacrane.analysis import linearise
 from seacrane.cases import vessel
+from seacrane.errors import OutputMemoryError
 from seacrane.reporting import report
 from seacrane.reporting.paper import Study, study_report
 from seacrane.run import modes
-from seacrane.run.output_times import OutputMemoryError
-from seacrane.validity.hull_range import MeanHeadingWarning
-from seacrane.validity.range import (
+from seacrane.validity.range import findings
+from seacrane.warnings import (
     FullTurnWarning,
     LargeHeelWarning,
+    MeanHeadingWarning,
     NearSingularWarning,
     OutsideDatabaseWarning,
     PushingLinkWarning,
-    findings,
+    StiffWarning,
 )
 
 SIGNATURE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)

@@ -12,18 +12,8 @@ from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from seacrane import (
-    Curve,
-    Evaluator,
-    Result,
-    Run,
-    SampledController,
-    Scene,
-    SceneError,
-    State,
-    linear_model,
-    simulate,
-)
+from seacrane import Curve, Result, Run, SampledController, Scene, SceneError, State, linear_model, simulate
+from seacrane.analysis import Evaluator
 from seacrane.crane import KnuckleBoomCrane
 
 OMEGA = 0.7

@@ -19,21 +19,12 @@ from heavy_line_scenes import (
     weights_of_shape,
 )
 
-from seacrane import (
-    Curve,
-    LineLengthWarning,
-    Result,
-    Scene,
-    SceneError,
-    StiffWarning,
-    equilibrium,
-    fastest_mode,
-    heavy_line_tension,
-    natural_modes,
-    simulate,
-)
+from seacrane import Curve, Result, Scene, SceneError, equilibrium, natural_modes, simulate
+from seacrane.analysis import fastest_mode
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.result import heavy_line_tension
 from seacrane.scene.chain_shape import Chain
+from seacrane.warnings import LineLengthWarning, StiffWarning
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])

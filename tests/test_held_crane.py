@@ -14,7 +14,7 @@ from seacrane.crane import Payload, load_crane, shipped_cranes
 from seacrane.description.file import scene_digest
 from seacrane.description.holding import with_holds
 from seacrane.hydro import shipped_database
-from seacrane.validity.holding import FreeCraneWarning
+from seacrane.warnings import FreeCraneWarning
 
 
 def crane(*, prefix: str = "", **given: object) -> Scene:

@@ -11,22 +11,11 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, example, given, seed, settings
 from hypothesis import strategies as st
 
-from seacrane import (
-    Curve,
-    HullLoads,
-    MotionHistory,
-    MotionRaos,
-    Scene,
-    SceneError,
-    SimulationError,
-    Waves,
-    sea,
-    simulate,
-    spline_curve,
-)
+from seacrane import Curve, MotionHistory, MotionRaos, Scene, SceneError, SimulationError, sea, simulate
+from seacrane.scene import HullLoads, Waves, spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 NAN, INF = float("nan"), float("inf")
 SETTINGS = settings(

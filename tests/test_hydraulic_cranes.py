@@ -78,7 +78,7 @@ def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
             tension_at_start=20e3 * scene.gravity,
         )  # fmt: skip
         if in_a_sea:
-            scene.add_sea(database, hs=3.0, tp=7.0, seed=5)
+            scene.add_sea(hs=3.0, tp=7.0, seed=5)
         found.append([(one.pressure, one.pressure_rod) for one in scene.hold_pressures().values()])
     assert found[1] == found[0]
 

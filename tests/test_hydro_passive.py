@@ -17,12 +17,11 @@ from scipy.linalg import eig, expm, solve_continuous_lyapunov
 from seacrane import Scene, simulate
 from seacrane.cases import case1, vessel
 from seacrane.cli import main
+from seacrane.errors import PassivityError
 from seacrane.hydro import (
     HydroDatabase,
     MemoryBlock,
-    MemoryFitWarning,
     MemoryModel,
-    PassivityError,
     fit_memory,
     load_database,
     memory_rows,
@@ -38,6 +37,7 @@ from seacrane.hydro.memory.identification import r_squared
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, Problem, first_guess, fit_oscillators
 from seacrane.hydro.memory.passive import motion_groups
 from seacrane.hydro.memory.trade import memory_trade
+from seacrane.warnings import MemoryFitWarning
 
 Array = NDArray[np.float64]
 

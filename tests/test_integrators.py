@@ -12,10 +12,11 @@ from integrator_table import integrator_table
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_convergence import exact, payload_error, run
 
-from seacrane import Evaluator, Run, Scene, SceneError, _core, cases, integrator_names, simulate
+from seacrane import Run, Scene, SceneError, _core, cases, integrator_names, simulate
+from seacrane.analysis import Evaluator
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,7 @@ def afloat(rng: np.random.Generator) -> Callable[[], Scene]:
         scene: Scene = getattr(cases, name)(database=drifting(), seed=int(rng.integers(1, 9)), **other)
         if rng.random() < 0.5:
             words = {"hs": float(rng.uniform(1, 4)), "direction_deg": float(rng.uniform(0, 360))}
-            scene = with_sea(scene, drifting(), words)
+            scene = with_sea(scene, words)
         return scene
 
     return make

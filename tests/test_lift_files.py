@@ -16,7 +16,6 @@ import pytest
 from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 
 from seacrane import (
-    AngleUnitWarning,
     FileFormatError,
     Lift,
     Method,
@@ -38,7 +37,7 @@ from seacrane.lift.lines import lines_of
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import CURVES, TABLES
 from seacrane.sea import cos_2s, jonswap
-from seacrane.sea.spectra import SteepSeaWarning
+from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "lift-files.md"
@@ -141,7 +140,7 @@ systems = [
     lift = lift_of(text, tmp_path)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
-    scene.add_sea(database, vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
+    scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
     assert lift.scene() == scene
 
 
@@ -313,7 +312,7 @@ BUILT = {
     "a joint that is not there": (
         HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
     ),
-    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "no [vessel] named 'barge'"),
+    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
     "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),

@@ -15,14 +15,15 @@ import pytest
 from test_report import Page
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import Event, FileFormatError, Frame, Report, Result, Scene, SceneError, cases, report, simulate
+from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, report, simulate
+from seacrane.answers import Report
 from seacrane.reporting.limits import judged_bounds
 from seacrane.reporting.measures import statistics_of
 from seacrane.reporting.registry import SECTIONS
 from seacrane.reporting.section import Section, compose
-from seacrane.result.about import About
+from seacrane.result import About, Event
 
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")  # thrown on purpose
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose
 NASTY = "<img src=x onerror=alert(1)>&\"'"
 
 

@@ -8,20 +8,10 @@ import numpy as np
 import pytest
 from lift_examples import HEAD, ON_DECK
 
-from seacrane import (
-    Curve,
-    FileFormatError,
-    Lift,
-    Move,
-    Result,
-    Scene,
-    Stage,
-    Tank,
-    Until,
-    simulate_stages,
-)
+from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, Until, simulate_stages
 from seacrane.cli import main
 from seacrane.hydro import shipped_database
+from seacrane.scene import Tank
 
 STAGES = (
     Stage(name="hold", duration=1.05),

@@ -9,17 +9,10 @@ import numpy as np
 import pytest
 from test_summary import pendulum
 
-from seacrane import (
-    Curve,
-    LargeSwingWarning,
-    LoadInHullWarning,
-    OverloadWarning,
-    Scene,
-    simulate,
-    statics,
-)
+from seacrane import Curve, Scene, simulate, statics
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
 
 JOINTS = ("A", "main_cylinder", "knuckle_cylinder")
 

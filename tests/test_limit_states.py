@@ -14,7 +14,6 @@ from test_summary import LENGTH, MASS, G, pendulum
 from seacrane import (
     FileFormatError,
     Lift,
-    LimitState,
     Result,
     Scene,
     SceneError,
@@ -23,7 +22,8 @@ from seacrane import (
     simulate_to_file,
     summary,
 )
-from seacrane.result.about import About
+from seacrane.result import About
+from seacrane.scene import LimitState
 
 TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 

@@ -14,16 +14,11 @@ from numpy.typing import NDArray
 
 from seacrane import (
     Curve,
-    EnergyErrorWarning,
-    LineRungWarning,
-    PushingLineWarning,
-    QuasiStaticLineWarning,
     Result,
     Run,
     SampledController,
     Scene,
     SceneError,
-    StiffWarning,
     cases,
     equilibrium,
     natural_modes,
@@ -34,6 +29,13 @@ from seacrane.analysis.excitation import curve_frequency, excitations
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
 from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, tension_error
+from seacrane.warnings import (
+    EnergyErrorWarning,
+    LineRungWarning,
+    PushingLineWarning,
+    QuasiStaticLineWarning,
+    StiffWarning,
+)
 
 Array = NDArray[np.float64]
 STIFF = 1e4 * STIFFNESS  # N, EA of 10 m

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Curve, Lift, LineLengthWarning, Scene, simulate
+from seacrane import Curve, Lift, Scene, simulate
 from seacrane.errors import SceneError
+from seacrane.warnings import LineLengthWarning
 
 MASS, G, DROP = 20e3, 9.80665, 30.0
 SOFT = 1e7  # N: the load stretches the line by 1.96 %

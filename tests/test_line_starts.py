@@ -9,18 +9,8 @@ import numpy as np
 import pytest
 from line_scenes import MASS, G, hung
 
-from seacrane import (
-    Curve,
-    LiftedStartWarning,
-    LineLengthWarning,
-    Scene,
-    SceneError,
-    Stage,
-    WinchLimitWarning,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Curve, Scene, SceneError, Stage, equilibrium, simulate, simulate_stages
+from seacrane.warnings import LiftedStartWarning, LineLengthWarning, WinchLimitWarning
 
 DRUM: dict[str, float] = {"lag": 0.1, "drum_inertia": 500.0, "drum_radius": 0.5}
 

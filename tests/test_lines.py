@@ -17,22 +17,21 @@ from scipy.integrate import solve_ivp
 
 from seacrane import (
     Curve,
-    Evaluator,
-    LineLengthWarning,
     Result,
     Run,
     Scene,
     SceneError,
     State,
-    WinchLimitWarning,
     equilibrium,
     integrator_names,
     linear_model,
     natural_modes,
     simulate,
 )
+from seacrane.analysis import Evaluator
 from seacrane.description.outline import outline_of
 from seacrane.viewer.wires import wires_of
+from seacrane.warnings import LineLengthWarning, WinchLimitWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)

@@ -9,18 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    Lift,
-    MooringSpring,
-    OwnMooringWarning,
-    Scene,
-    SceneError,
-    linear_model,
-    mooring_matrix,
-    simulate,
-)
+from seacrane import Lift, Scene, SceneError, linear_model, simulate
 from seacrane.description.outline import outline_of
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene import MooringSpring, mooring_matrix
+from seacrane.warnings import OwnMooringWarning
 
 Array = NDArray[np.float64]
 FOUR = [

@@ -12,7 +12,7 @@ from reference_problems import bricard
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, simulate
-from seacrane.validity.range import NearSingularWarning
+from seacrane.warnings import NearSingularWarning
 
 FORMULATIONS = ("redundant", "recursive")
 GRAVITY = 9.80665

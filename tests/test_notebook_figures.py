@@ -11,7 +11,8 @@ from seacrane.plotting.figure import new_figure
 SHOWN = """
 import sys
 import numpy as np
-from seacrane import Scene, plot_track, simulate
+from seacrane import Scene, simulate
+from seacrane.figures import plot_track
 from IPython.core.formatters import DisplayFormatter
 
 scene = Scene(name="stone")

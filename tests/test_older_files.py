@@ -13,12 +13,14 @@ import numpy as np
 import pytest
 import test_restart
 
-from seacrane import Ensemble, Lift, RenamedKeysWarning, Result, Run, Scene, State, cases
+from seacrane import Lift, Result, Run, Scene, State, cases
 from seacrane.cli.command_line import main
+from seacrane.ensembles import Ensemble
 from seacrane.files.state import state_to_bytes
+from seacrane.warnings import RenamedKeysWarning
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 FILES = Path(__file__).with_name("files_0_1")
 STOP, END = 0.73, 1.5

@@ -10,24 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import (
-    Event,
-    Scene,
-    SceneError,
-    cases,
-    plot_overview,
-    plot_rao,
-    plot_reactions,
-    plot_scene,
-    plot_spectrum,
-    plot_track,
-    simulate,
-)
+from seacrane import Scene, SceneError, cases, plot_overview, simulate
+from seacrane.figures import plot_rao, plot_reactions, plot_scene, plot_spectrum, plot_track
 from seacrane.figures.overview import overview_sheet
 from seacrane.figures.plots import draw_track, rao_sheet, spectrum_sheet
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import draw
-from seacrane.result import Result
+from seacrane.result import Event, Result
 from seacrane.result.history import history_sheet
 from seacrane.result.traces import traces
 
@@ -155,17 +144,16 @@ def test_reactions_are_sizes(lift: Result) -> None:
 
 def test_an_rao_is_that_of_the_frequency_domain() -> None:
     from seacrane import motion_rao
-    from seacrane.hydro import shipped_database
 
-    database, scene = shipped_database(), cases.vessel(hs=0.0, memory="none")
+    scene = cases.vessel(hs=0.0, memory="none")
     omega = np.array([0.5, 0.8])
-    sheet = rao_sheet(scene, database, "vessel", (0.0, 0.0, 0.0), (90.0, 180.0), omega)
-    rao = np.abs(motion_rao(scene, database=database, omega=omega, heading=np.pi / 2, body="vessel"))
+    sheet = rao_sheet(scene, "vessel", (0.0, 0.0, 0.0), (90.0, 180.0), omega)
+    rao = np.abs(motion_rao(scene, omega=omega, heading=np.pi / 2, body="vessel"))
     panels = {panel.quantity: panel for panel in sheet.panels}
     np.testing.assert_allclose(panels["about x"].lines[0].values, np.degrees(rao[:, 3]))
     np.testing.assert_allclose(panels["z"].lines[0].values, rao[:, 2])
     assert panels["z"].lines[1].label == "180 deg" and panels["about x"].unit == "deg/m"
-    assert len(plot_rao(scene, database=database, body="vessel", omega=omega).axes) == 6
+    assert len(plot_rao(scene, body="vessel", omega=omega).axes) == 6
 
 
 def test_the_scene_is_drawn_from_what_its_run_notes(tmp_path: Any) -> None:

@@ -20,12 +20,12 @@ from seacrane import (
     SceneError,
     SimulationError,
     State,
-    StiffWarning,
     cases,
     equilibrium,
     natural_modes,
     simulate,
 )
+from seacrane.warnings import StiffWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)  # rad/s of the elastic line

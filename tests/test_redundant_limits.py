@@ -12,7 +12,9 @@ from seacrane import Result, Scene, simulate
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:.*are redundant:UserWarning"),
-    pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning"),  # it makes rough velocities consistent
+    pytest.mark.filterwarnings(
+        "ignore::seacrane.warnings.AssemblyWarning"
+    ),  # it makes rough velocities consistent
 ]
 Array = NDArray[np.float64]
 MASS, GRAVITY = 2e4, 9.81

@@ -10,19 +10,21 @@ import pytest
 
 from seacrane import (
     Curve,
-    DriverImpulseWarning,
     Frame,
-    FreeCraneWarning,
-    FullTurnWarning,
-    OutsideRangeWarning,
     Result,
     Run,
     SampledController,
     Scene,
     SceneError,
     SimulationError,
-    SoftGainsWarning,
     simulate,
+)
+from seacrane.warnings import (
+    DriverImpulseWarning,
+    FreeCraneWarning,
+    FullTurnWarning,
+    OutsideRangeWarning,
+    SoftGainsWarning,
 )
 
 

@@ -8,17 +8,9 @@ import numpy as np
 import pytest
 from random_rests import Builder
 
-from seacrane import (
-    CreepingRestWarning,
-    LargeHeelWarning,
-    Scene,
-    SceneError,
-    UnstableRestWarning,
-    UnsteadyOilWarning,
-    equilibrium,
-    simulate,
-)
+from seacrane import Scene, SceneError, equilibrium, simulate
 from seacrane.hydro import shipped_database
+from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning, UnsteadyOilWarning
 
 STILL = 1e-3  # m, and m at 1 m from the centre of mass, in a minute
 REPORTED = (UnstableRestWarning, CreepingRestWarning, UnsteadyOilWarning)

@@ -198,24 +198,8 @@ def run() -> dict[str, Any]:
     return crane_run(t_end=5.0)
 
 
-GENERAL = {
-    "acceleration", "angular_acceleration", "coordinate", "coordinate_rate", "actuator_force",
-    "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
-    "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
-    "heave_stroke", "heave_stroke_rate", "heave_reference", "gas_spring_tension", "gas_spring_length",
-    "gas_spring_pressure", "hydraulic_stroke", "hydraulic_force", "hydraulic_pressure", "hydraulic_spool",
-    "hydraulic_flow", "hydraulic_void", "hydraulic_pump_flow", "hydraulic_tank_flow", "hydraulic_spill",
-    "hydraulic_accumulator_flow", "hydraulic_power",
-    "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
-    "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",
-    "drum_brake_torque", "drum_brake_power",
-    "cylinder_pressure", "clearance", "hook_load", "section_tension", "sheave_wrap",
-    "sheave_fleet_angle", "sheave_friction_power",
-}  # fmt: skip
-
-
 def test_every_channel_of_the_design_is_described() -> None:
-    assert set(crane_run(t_end=1.0)["arrays"]) | GENERAL == set(CHANNELS)
+    assert set(crane_run(t_end=1.0)["arrays"]) <= set(CHANNELS)
     for name, channel in CHANNELS.items():
         assert channel.dims[0] == "time", name
         assert channel.unit and channel.long_name, name

@@ -11,8 +11,6 @@ import pytest
 
 from seacrane import (
     Lift,
-    LineRungWarning,
-    LineSlackError,
     Run,
     Scene,
     SceneError,
@@ -21,7 +19,8 @@ from seacrane import (
     ensemble,
     simulate,
 )
-from seacrane.renamed import RenamedKeysWarning
+from seacrane.errors import LineSlackError
+from seacrane.warnings import LineRungWarning, RenamedKeysWarning
 
 OF_0_2 = Path(__file__).with_name("files_0_2")
 G = 9.80665

@@ -13,7 +13,6 @@ from scipy.special import gamma as gamma_function
 from seacrane.errors import SceneError
 from seacrane.sea import (
     Spectrum,
-    SteepSeaWarning,
     WaveSystem,
     bretschneider,
     dnv_gamma,
@@ -24,6 +23,7 @@ from seacrane.sea import (
     tabulated_spectrum,
     torsethaugen,
 )
+from seacrane.warnings import SteepSeaWarning
 
 G = 9.80665
 OMEGA = np.linspace(0.15, 4.0, 400)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, WavesWithoutLoadWarning, _core, cases, simulate
+from seacrane import Scene, _core, cases, simulate
 from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
@@ -25,6 +25,7 @@ from seacrane.sea import (
     torsethaugen,
 )
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import WavesWithoutLoadWarning
 
 WIND = WaveSystem(
     spectrum=jonswap(hs=1.5, tp=6.5, gamma="dnv"), direction_deg=150.0, spreading=cos_2s(8.0), name="wind sea"
@@ -197,7 +198,7 @@ def sea_of(scene: Scene) -> dict[str, Any]:
 def afloat(**sea: object) -> Scene:
     scene = Scene(name="afloat")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(shipped_database(), **sea)
+    scene.add_sea(**sea)
     return scene
 
 
@@ -265,7 +266,7 @@ def test_a_sea_is_as_deep_as_its_database() -> None:
     shallow = dataclasses.replace(shipped_database(), depth=20.0)
     scene = Scene(name="shallow")
     scene.add_vessel(shallow, memory="none")
-    scene.add_sea(shallow, tp=14.0)
+    scene.add_sea(tp=14.0)
     waves = scene.waves
     assert waves is not None and waves.depth == 20.0
     k = wavenumber(waves.omega, g=9.80665, depth=20.0)
@@ -284,13 +285,11 @@ def test_vessels_in_one_sea_share_its_depth() -> None:
     scene = Scene(name="two")
     scene.add_vessel(shipped_database(), memory="none")
     scene.add_vessel(shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
-    scene.add_sea(shipped_database(), tp=12.0)
+    scene.add_sea(tp=12.0)
     for arguments in ({}, {"tp": 12.0}):
         with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
-            scene.add_sea(shallow, vessel="barge", **arguments)
+            scene.add_sea(vessel="barge", **arguments)
     assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
-    with pytest.raises(SceneError, match="sea of vessel 'vessel': it is inf m deep"):
-        scene.use_actual_position(shallow)
 
 
 def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None:
@@ -312,11 +311,10 @@ def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None
 
 
 def test_waves_that_put_no_load_on_a_vessel_are_warned_of_by_name() -> None:
-    short = shipped_database().select(omega=(0.1, 1.5))
     scene = Scene(name="short table")
-    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_vessel(shipped_database().select(omega=(0.1, 1.5)), memory="none")
     with pytest.warns(WavesWithoutLoadWarning, match=r"waves on 'vessel': those above 1\.5 rad/s") as caught:
-        scene.add_sea(short, tp=6.0, direction_deg=90.0)
+        scene.add_sea(tp=6.0, direction_deg=90.0)
     assert caught[0].filename == __file__
     assert scene.waves is not None and (scene.waves.provenance.load_variance_without_load or 0.0) > 0.1
 
@@ -333,8 +331,8 @@ def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
         force=shipped_database().select(omega=(0.4, 2.0)).full_circle()[1],
     )  # fmt: skip
     scene = Scene(name="turning")
-    scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(database, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
+    scene.add_vessel(database, memory="none")
+    scene.add_sea(tp=7.0, direction_deg=60.0, phase="actual", drift=True)
     waves = scene.waves
     assert waves is not None and waves.omega.min() < 0.4 and waves.omega.max() > 2.0
     table = waves.hull().force_by_heading
@@ -354,12 +352,12 @@ def test_calm_water_takes_the_provenance_of_the_sea_before_with_it() -> None:
         "wave_phase",
         "waves_relative_bound",
     }
-    scene.add_sea(shipped_database(), hs=0.0)
+    scene.add_sea(hs=0.0)
     assert scene.waves is None and set(origin_settings(scene)) == before
-    scene.add_sea(shipped_database(), hs=1.0)
+    scene.add_sea(hs=1.0)
     assert "sea" not in sea_of(scene) and sea_of(scene)["hs"] == 1.0
     scene.waves = None
-    scene.add_sea(shipped_database(), sea=SeaState(systems=[WIND], seed=3))
+    scene.add_sea(sea=SeaState(systems=[WIND], seed=3))
     assert "hs" not in sea_of(scene) and "wave_phase" not in origin_settings(scene)
 
 

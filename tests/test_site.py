@@ -126,7 +126,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
     (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
     entries = {
         "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
-        "seacrane.Balance": "class", "seacrane.Balance.vessel_wrench": "property",
+        "seacrane.analysis.Balance": "class", "seacrane.analysis.Balance.vessel_wrench": "property",
     }  # fmt: skip
     lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
     (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")

@@ -26,15 +26,14 @@ from seacrane import (
     SceneError,
     SimulationError,
     Stage,
-    StagedRun,
     State,
     Until,
     cases,
     simulate,
     simulate_stages,
-    simulate_stages_to_file,
     summary,
 )
+from seacrane.stages import StagedRun, simulate_stages_to_file
 
 Array = NDArray[np.float64]
 TWO = [Stage(name="one", duration=2.0), Stage(name="two", duration=3.0)]
@@ -524,7 +523,8 @@ def test_ctrl_c_keeps_what_was_recorded(tmp_path: Path) -> None:
 import json, os, signal, sys, threading
 sys.path.insert(0, sys.argv[1])
 from stage_scenes import swinging
-from seacrane import Stage, StagedRun
+from seacrane import Stage
+from seacrane.stages import StagedRun
 run = StagedRun(swinging(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
 run.advance()
 threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

@@ -20,7 +20,7 @@ from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _co
 from seacrane.files.state import DIGEST, MAGIC
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9

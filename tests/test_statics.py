@@ -13,14 +13,14 @@ from seacrane import (
     Frame,
     Scene,
     SceneError,
-    Statics,
     balance,
     cases,
-    driven,
     equilibrium,
     simulate,
     statics,
 )
+from seacrane.analysis import driven
+from seacrane.answers import Statics
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.crane.data_file import DEFAULT_PATH
 

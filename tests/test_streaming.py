@@ -16,7 +16,6 @@ import pytest
 
 from seacrane import (
     FileFormatError,
-    LargeHeelWarning,
     Result,
     SampledController,
     Scene,
@@ -29,7 +28,7 @@ from seacrane import (
 from seacrane.result import stream
 from seacrane.result.about import About
 from seacrane.result.partial_file import PartialFile, Piece
-from seacrane.sea.spectra import SteepSeaWarning
+from seacrane.warnings import LargeHeelWarning, SteepSeaWarning
 
 GENEROUS = 60.0  # s
 

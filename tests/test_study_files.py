@@ -20,9 +20,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Ensemble, FileFormatError, Kept, Lift, SceneError, WorkerVersionError, ensemble
+from seacrane import FileFormatError, Kept, Lift, SceneError, ensemble
 from seacrane.cli.command_line import main
-from seacrane.hydro import shipped_database
+from seacrane.ensembles import Ensemble
+from seacrane.errors import WorkerVersionError
 from seacrane.lift.schema import schema_path
 from seacrane.study_files.schema import study_schema, study_schema_text
 from seacrane.study_files.shown_study import shown_study
@@ -101,7 +102,6 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
         over={"seed": range(1, 41), "hs": [1, 2.0]},
         keep={"heave": Kept(what="maximum", **place), "deepest": Kept(what="minimum", **place)},
         until={"heave.mpm": 0.25},
-        database=shipped_database(),
         t_end=8.0,
         rtol=1e-2,
     )

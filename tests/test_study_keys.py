@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Ensemble, FileFormatError, Lift, SceneError, simulate
+from seacrane import FileFormatError, Lift, SceneError, simulate
 from seacrane.cli.command_line import main
+from seacrane.ensembles import Ensemble
 from seacrane.lift.lift import LIFTS
 from seacrane.study_files.lift_keys import KeyPlace, keys_in, with_keys
 from seacrane.study_files.study_file import StudyFile

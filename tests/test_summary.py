@@ -11,19 +11,9 @@ import pytest
 from line_scenes import hung
 from test_result import crane_run, vessel_result
 
-from seacrane import (
-    FileFormatError,
-    Frame,
-    Result,
-    Scene,
-    SceneError,
-    cases,
-    plot_summary,
-    simulate,
-    statics,
-    summary,
-)
-from seacrane.result.about import About
+from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, simulate, statics, summary
+from seacrane.figures import plot_summary
+from seacrane.result import About
 
 G = 9.80665
 MASS, LENGTH = 2000.0, 5.0
@@ -175,7 +165,7 @@ def test_the_picture_holds_what_the_table_holds(swinging: Result) -> None:
         plot_summary(Result.from_arrays(**run))
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")
 def test_lines_and_leads_are_told() -> None:
     told = summary(simulate(hung(stretch=0.05), t_end=5.0))
     lifted = told["line tension hoist"]

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Curve, Result, Scene, ThroughSeatWarning, simulate
+from seacrane import Curve, Result, Scene, simulate
+from seacrane.warnings import ThroughSeatWarning
 
 HEAVE, OMEGA, DECK = 0.8, 0.8, 2.0
 INERTIA = 5e4  # of 30 t: half a diagonal of 2.7 m

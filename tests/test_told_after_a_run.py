@@ -10,12 +10,12 @@ from line_scenes import MASS, G, hung, swinging
 from stage_scenes import on_deck
 from test_stages import falling
 
-from seacrane import Result, Scene, Stage, StagedRun, State, Until, simulate, simulate_stages
+from seacrane import Result, Scene, Stage, State, Until, simulate, simulate_stages
 from seacrane.cli import main
 from seacrane.cli.run_command import told
 from seacrane.run.outputs import Outputs
 from seacrane.run.to_file import simulate_to_file
-from seacrane.stages import locate
+from seacrane.stages import StagedRun, locate
 from seacrane.stages.to_file import simulate_stages_to_file
 
 pytestmark = pytest.mark.filterwarnings("ignore")

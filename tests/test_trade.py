@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Method, Run, Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane import Method, Run, Scene, SceneError, cases, integrator_names, simulate, trade
 from seacrane._core import Integrator, integrators
+from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import compare, quantities_of
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import measured as measured_row
 from seacrane.experiment.reference import Reference
 from seacrane.experiment.row import Row
 from seacrane.experiment.row_file import RowFile
-from seacrane.hydro import shipped_database
 from seacrane.inputs.checked import curve_of
 from seacrane.trading import measure, methods, rungs, study
 
@@ -219,17 +219,16 @@ def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_i
 
 
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
-    database = shipped_database()
-    names = [v.memory for v in rungs.variants(case2, database, quick=False) if v.memory.startswith("passive")]
+    names = [v.memory for v in rungs.variants(case2, quick=False) if v.memory.startswith("passive")]
     assert names == [f"passive r2={r2:g}" for r2 in rungs.R2_LEVELS.all]
-    scenes = [rungs.with_memory(case2, "passive", database, level=r2) for r2 in (0.9, 0.99)]
+    scenes = [rungs.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
     assert [rungs.full_memory_name(s, "passive r2=0.9") for s in scenes] == ["passive:12", "passive:20"]
     assert [s.compile().memory_states for s in scenes] == [12, 20]
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
     built = cases.case2(memory="passive")
-    changed = rungs.with_memory(case2, "passive", shipped_database())
+    changed = rungs.with_memory(case2, "passive")
     mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
                "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
     changed.replace("vessel", kind="vessel", **mooring)

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, raised
 
-from seacrane import Curve, Scene, Stage, UnsteadyOilWarning, simulate, simulate_stages
+from seacrane import Curve, Scene, Stage, simulate, simulate_stages
 from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
+from seacrane.warnings import UnsteadyOilWarning
 
 SETTINGS: dict[str, Any] = {"viscous_friction": 2e3, "spool_lag": 1e-3, "reference": START + 0.005}
 

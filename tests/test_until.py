@@ -11,18 +11,12 @@ import numpy as np
 import pytest
 from ensemble_studies import bad_storm, lowest, storm, storm_that_kills, storm_that_parts
 
-from seacrane import (
-    Ensemble,
-    FailedSeedsWarning,
-    FewSeedsWarning,
-    Kept,
-    SceneError,
-    SimulationError,
-    ensemble,
-    seed_extremes,
-)
+from seacrane import Kept, SceneError, SimulationError, ensemble
+from seacrane.ensembles import Ensemble
 from seacrane.ensembles.growing import BATCH
 from seacrane.ensembles.targets import WIDENED, Target
+from seacrane.statistics import seed_extremes
+from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
 
 RUN: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
 REACH = Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})

@@ -17,12 +17,13 @@ import pytest
 from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
-from seacrane import Result, Scene, SceneError, View, cases, simulate, view
+from seacrane import Result, Scene, SceneError, cases, simulate, view
 from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
+from seacrane.viewer import View
 from seacrane.viewer.bodies import looks
 from seacrane.viewer.drawing import drawing_of
 from seacrane.viewer.hull_shapes import schematic_size

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from seacrane import Scene, simulate, view
-from seacrane.figures import overview_sheet
+from seacrane.figures.overview import overview_sheet
 from seacrane.viewer.bodies import looks
 from seacrane.viewer.shapes import BoxShape
 

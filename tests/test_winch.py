@@ -16,19 +16,19 @@ from numpy.typing import NDArray
 
 from seacrane import (
     Curve,
-    Evaluator,
     Move,
     Run,
     Scene,
     SceneError,
     Stage,
     State,
-    WinchLimitWarning,
     equilibrium,
     linear_model,
     simulate,
     simulate_stages,
 )
+from seacrane.analysis import Evaluator
+from seacrane.warnings import WinchLimitWarning
 
 Array = NDArray[np.float64]
 RADIUS, DRUM = 0.5, 5e3  # m; kg, inertia over radius^2

@@ -10,20 +10,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    Curve,
-    DoubleCountedDampingWarning,
-    Evaluator,
-    FlowCoefficients,
-    Scene,
-    SceneError,
-    _core,
-    gust_curve,
-    simulate,
-)
+from seacrane import Curve, FlowCoefficients, Scene, SceneError, _core, simulate
+from seacrane.analysis import Evaluator
 from seacrane.description.loads import kind_of
+from seacrane.scene import gust_curve
 from seacrane.scene.gusts import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
+from seacrane.warnings import DoubleCountedDampingWarning
 
 Array = NDArray[np.float64]
 MASS = 2e6

@@ -28,7 +28,8 @@ from ensemble_studies import (
     two_numbers_or_three,
 )
 
-from seacrane import Ensemble, FileFormatError, Kept, SceneError, ensemble
+from seacrane import FileFormatError, Kept, SceneError, ensemble
+from seacrane.ensembles import Ensemble
 
 zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
 
@@ -151,7 +152,7 @@ def test_it_grows_until_it_is_enough(tmp_path: Path) -> None:
     assert ensemble(**PUSHED, until={"far.mpm": 0.3}, store=store).dataset.identical(wide.dataset)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.FewSeedsWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.FewSeedsWarning")
 @pytest.mark.parametrize("call", range(1, 7))
 def test_a_kill_at_any_moment_is_mended(call: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ended before one write of attributes or of the metadata of all after another."""

@@ -7,10 +7,11 @@ from functools import cache
 
 import numpy as np
 
-from seacrane import BallastWarning, Curve, OutsideRangeWarning, Result, Scene, cases, simulate
+from seacrane import Curve, Result, Scene, cases, simulate
 from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import BallastWarning, OutsideRangeWarning
 
 HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
 
@@ -47,8 +48,8 @@ def pair() -> Result:
     scene = Scene(name="<i>two vessels</i>")
     scene.add_vessel(database)
     scene.add_vessel(database, name=HTML_NAME, position=(-15.0, 45.0, 0.0), heading_deg=12.0, memory="none")
-    scene.add_sea(database, hs=2.5, tp=8.0, seed=3, count=120)
-    scene.add_sea(database, vessel=HTML_NAME)
+    scene.add_sea(hs=2.5, tp=8.0, seed=3, count=120)
+    scene.add_sea(vessel=HTML_NAME)
     scene.add_crane(base="vessel", payload=Payload(mass=20e3))
     scene.provenance.pop(HTML_NAME)
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):

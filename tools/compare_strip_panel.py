@@ -136,7 +136,6 @@ def save_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
         found = [
             response_statistics(
                 scene,
-                database=database,
                 spectrum=jonswap(hs=2.0, tp=8.0),
                 heading=np.radians(degrees),
                 body="vessel",
@@ -165,9 +164,7 @@ def save_periods(panel: HydroDatabase, strip: HydroDatabase) -> None:
         found = np.array(
             [
                 [
-                    response_statistics(
-                        linear, database=database, spectrum=sea, heading=np.radians(h), body="vessel"
-                    ).std
+                    response_statistics(linear, spectrum=sea, heading=np.radians(h), body="vessel").std
                     for h in (0, 45, 90, 135, 180)
                 ]
                 for linear, database in models

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from seacrane import Kept, Result, Run, _core, cases, ensemble
-from seacrane.hydro import shipped_database
 
 from .section import Section
 
@@ -105,7 +104,7 @@ def overhead(*, members: int = 16, t_end: float = 10_800.0) -> Section:
 
 
 def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
     taken: list[float] = []
     counts = (2 * WORKERS * PACK, 2 * WORKERS * PACK + members)
     with kind.opened() as executor:
@@ -113,7 +112,7 @@ def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
             start = kind.caller() if kind.caller else 0.0
             there = ensemble(
                 scene, over={"seed": range(count)}, keep={"track": TRACK, "lap": kind.clock}, t_end=t_end,
-                database=database, executor=executor, pack=PACK, **HOW,
+                executor=executor, pack=PACK, **HOW,
             )  # fmt: skip
             taken.append(kind.caller() - start if kind.caller else 0.0)
     packs = there.dataset.lap.to_numpy().reshape(-1, PACK, 2).mean(axis=1)

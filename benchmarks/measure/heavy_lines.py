@@ -28,7 +28,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 from heavy_line_scenes import EA, LENGTH, MASS, RATIO, hanging, heave, heaving, weights_of_shape  # noqa: E402
 
 from measure.table import write  # noqa: E402
-from seacrane import fastest_mode, simulate  # noqa: E402
+from seacrane import simulate  # noqa: E402
+from seacrane.analysis import fastest_mode  # noqa: E402
 
 Array = NDArray[np.float64]
 SEGMENTS = 20

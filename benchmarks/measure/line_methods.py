@@ -52,7 +52,7 @@ def line_methods(*, most: int = MOST_EVALUATIONS) -> Section:
         text=(
             f"As above, every method at one setting: `rtol` {TOLERANCE:g}, {TOLERANCE_IMPLICIT:g} of "
             "implicit "
-            f"methods; of fixed steps the shorter of {STEP:g} s ({STEP_OF_ORDER_1:g} s of order 1, "
+            f"methods. Of fixed steps it is the shorter of {STEP:g} s ({STEP_OF_ORDER_1:g} s of order 1, "
             f"{STEP_IMPLICIT:g} s of implicit ones) and half of what is stable. Evaluations do not count "
             f"Jacobians. Runs of more than {most} evaluations were left out."
         ),

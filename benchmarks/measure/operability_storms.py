@@ -31,9 +31,9 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from measure.section import significant  # noqa: E402
 from measure.table import write  # noqa: E402
-from seacrane import Criterion, Ensemble, Scene, allowable_hs, cases  # noqa: E402
+from seacrane import Criterion, Scene, allowable_hs, cases  # noqa: E402
 from seacrane.crane import Payload  # noqa: E402
-from seacrane.hydro import shipped_database  # noqa: E402
+from seacrane.ensembles import Ensemble  # noqa: E402
 
 LINK, MASS, G = 25.0, 10e3, 9.80665  # m, kg, m/s2
 GUIDED = 0.03  # of critical damping, of the swing on guide lines
@@ -104,7 +104,7 @@ def study(arguments: argparse.Namespace, **given: Any) -> Any:
     return allowable_hs(
         study_scene(arguments.wire), criteria=CRITERIA, tp=PERIODS[some], direction_deg=DIRECTIONS[some],
         hs=HEIGHTS[some], seeds=range(1, arguments.seeds + 1), duration=arguments.duration,
-        start_up=arguments.start_up, database=shipped_database(), time=SWUNG_OUT,
+        start_up=arguments.start_up, time=SWUNG_OUT,
         rtol=TOLERANCE, **given,
     )  # fmt: skip
 

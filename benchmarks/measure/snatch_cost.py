@@ -84,8 +84,9 @@ def snatch_cost() -> Section:
         text=(
             f"{MASS / 1e3:g} t that meet the end of {LENGTH:g} m of slack line at {SPEED:g} m/s, "
             f"{100 * RATIO:g} % damped: evaluations in {PERIODS} periods of the line from there on, "
-            "whatever the rest of the run costs, and the peak of the tension over m g + sqrt((m g)^2 + k m "
-            "v^2), which is that without damping. The wire of rung 'rigid' takes the same instant as an "
+            "whatever the rest of the run costs. The peak of the tension is over m g + "
+            "sqrt((m g)^2 + k m v^2), which is that without damping. The wire "
+            "of rung 'rigid' takes the same instant as an "
             f"impact: {_of_wire()} evaluations with `{METHODS[0].integrator}` in 1 s."
         ),
         head=[

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Evaluator, Model, Scene
+from seacrane import Model, Scene
+from seacrane.analysis import Evaluator
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import timed
 from seacrane.run.shorthand import settled

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 from seacrane import Kept, cases, ensemble
-from seacrane.hydro import shipped_database
 
 from .section import Section
 
@@ -31,13 +30,13 @@ KINDS: dict[str, Callable[[], Any]] = {
 
 def two_cores(*, members: int = 64, t_end: float = 10_800.0, repeats: int = 3) -> Section:
     """Wall time of storms of case 2, best of several that take turns."""
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
     best: dict[str, float] = {}
     busy = os.getloadavg()[0]
     for _ in range(repeats):
         for name, opened in KINDS.items():
             with opened() as executor:
-                given = {"t_end": t_end, "database": database, "executor": executor, "pack": PACK, **HOW}
+                given = {"t_end": t_end, "executor": executor, "pack": PACK, **HOW}
                 ensemble(scene, over={"seed": range(2 * PACK)}, **given | {"t_end": 1.0})  # workers begin
                 start = time.perf_counter()
                 ensemble(scene, over={"seed": range(members)}, **given)

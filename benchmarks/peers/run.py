@@ -35,11 +35,11 @@ Written by `benchmarks/peers/run.py --publish`. To measure again, with seacrane'
     python -m venv out/peers && out/peers/bin/pip install -r benchmarks/peers/requirements.txt
     python benchmarks/peers/run.py --peers out/peers/bin/python
 
-The system is case 2 without memory: hull, tower, king, two jibs, two barrels and rods, and the payload on its
-link; the shipped gains; {COMPONENTS} cosines per motion as wave loads, summed exactly; 100 s, outputs every
-second. A full 6 x 6 added mass does not fit the ten inertia parameters of a body in the peers, so all
-engines get the same entrained water: a mass of A33 without weight at the hull's centre of mass, with the
-moments A44, A55, A55 about it.
+The system is case 2 without memory: hull, tower, king, two jibs, two barrels and rods, and the payload
+on its link. It has the shipped gains, {COMPONENTS} cosines per motion as wave loads, summed exactly. Runs
+are of 100 s, with outputs every second. A full 6 x 6 added mass does not fit the ten inertia parameters
+of a body in the peers, so all engines get the same entrained water. It is a mass of A33 without weight
+at the hull's centre of mass, with the moments A44, A55, A55 about it.
 
 - seacrane: as installed, steps with projection.
 - Pinocchio: tree of 20 coordinates without quaternions, loops closed by two point constraints with Baumgarte

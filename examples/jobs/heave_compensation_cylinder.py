@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from seacrane import Curve, MotionHistory, Scene, reflected_inertia, simulate
+from seacrane import Curve, MotionHistory, Scene, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 HEAVE, OMEGA, HIGH_PASS, LOOP = 0.5, 2.0 * np.pi / 9.0, 0.03, 2.0 * np.pi * 2.0  # m, rad/s, Hz, rad/s

@@ -51,6 +51,10 @@ class SceneError(SeacraneError, ValueError):
     """A scene, or one of its elements, contradicts itself or holds a value out of range."""
 
 
+class OutputMemoryError(SceneError, MemoryError):
+    """The outputs asked for would not fit into this computer's memory; nothing has been allocated."""
+
+
 class FileFormatError(SeacraneError, ValueError):
     """A file is truncated, malformed or of an unknown kind."""
 
@@ -66,3 +70,18 @@ class LineSlackError(SimulationError):
 
 class ChatteringError(SimulationError):
     """Limits make and break contact without end in no time; the message names limit, joint and time."""
+
+
+class WorkerVersionError(SeacraneError):
+    """A worker has another version of seacrane than the process that asks for the ensemble."""
+
+
+class PassivityError(SeacraneError, ValueError):
+    """A memory model that can deliver energy, where a passive one was asked for."""
+
+
+__all__ = [name for name, value in globals().items() if isinstance(value, type) and name.endswith("Error")]
+
+
+def __dir__() -> list[str]:
+    return __all__

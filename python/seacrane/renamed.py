@@ -12,6 +12,9 @@ from typing import Any, TypeVar
 
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
+# What was given by its place has the name BY_PLACE.
+BY_PLACE = "by place"
+KEPT = "the scene keeps the database of each vessel since it was added; leave it out"
 SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 KEYWORDS: dict[str, dict[str, str]] = {
     "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
@@ -20,14 +23,20 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "add_bridle": {"stiffnesses": "EA", "stretch": "rung"},
     "Line": {"stiffness": "EA", "stretch": "rung"},
     "LuffingRope": {"stiffness": "EA"},
-}
+    **{name: {"database": KEPT, BY_PLACE: KEPT} for name in (
+        "add_sea", "add_drift", "use_actual_position", "use_slow_position",
+    )},
+    **{name: {"database": KEPT} for name in (
+        "ensemble", "allowable_hs", "trade", "model_error", "plot_rao", "LinearControl", "HookLoadControl",
+    )},
+}  # fmt: skip
 # Methods of `Scene`.
 METHODS: dict[str, str] = {
     "add_wire": "write add_line(joint=..., rung='rigid')",
     "add_heavy_line": "write add_line(..., rung='with mass'), with EA, segment_rung for stiffness, stretch",
 }
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
-NAMES: dict[str, str] = {}
+NAMES: dict[str, str] = {"plot_history": "Result.plot"}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {
@@ -49,18 +58,17 @@ LIFT_DEFAULTS: dict[str, dict[str, Any]] = {"crane": {"held": False}}
 Call = TypeVar("Call", bound=Callable[..., Any])
 
 
-class RenamedKeysWarning(UserWarning):
-    """A lift or study file has keys that are called otherwise since 0.3."""
-
-
 def refusing(call: Call) -> Call:
     """The function or class, which refuses its keywords of `KEYWORDS` by their new names."""
     name = call.__qualname__
     older = KEYWORDS[name]
     inner: Any = call.__init__ if isinstance(call, type) else call  # type: ignore[misc]
+    places = inner.__code__.co_argcount
 
     @wraps(inner)
     def checked(*args: Any, **given: Any) -> Any:
+        if len(args) > places and BY_PLACE in older:
+            raise TypeError(f"{name}() takes no {type(args[places]).__name__} since 0.3; {older[BY_PLACE]}")
         for keyword in given.keys() & older.keys():
             raise TypeError(f"{name}() has no keyword {keyword!r} since 0.3; {instead(older[keyword])}")
         return inner(*args, **given)

@@ -25,6 +25,7 @@ from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.text import text_table
 from seacrane.validity.stability import warn_of_capsize
+from seacrane.warnings import BallastOutsideHullWarning
 
 Array = NDArray[np.float64]
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
@@ -33,10 +34,6 @@ LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells
 ATTITUDE = ("roll", "pitch")
 BESIDE = 0.1  # of half the hull, by which a tank is outside
 FAR = 1.0  # likewise of one force, which stands for weights on both sides
-
-
-class BallastOutsideHullWarning(UserWarning):
-    """Ballast was put where the ship has no room for it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.analysis.frequency_domain import linear_of, require_same_speed
+from seacrane.analysis.frequency_domain import excitation_of, linear_of
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import natural_modes
 from seacrane.description.scene import Description
@@ -18,12 +18,12 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
-from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
+from seacrane.warnings import EncounterFrequencyWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -111,7 +111,6 @@ class ResponseStatistics:
 def response_statistics(
     scene: Description | LinearModel,
     *,
-    database: HydroDatabase,
     spectrum: _core.Spectrum,
     heading: float,
     body: str,
@@ -119,6 +118,7 @@ def response_statistics(
     duration: float = 10800.0,
     state: _core.State | None = None,
     memory: str = "scene",
+    database: HydroDatabase | None = None,
     spreading: Spreading | None = None,
 ) -> ResponseStatistics:
     """Response spectrum, significant and most probable largest motion of a point of any body.
@@ -129,7 +129,7 @@ def response_statistics(
 
     Parameters
     ----------
-    scene, database, body, point, state, memory
+    scene, body, point, state, memory, database
         As `motion_rao`.
     spectrum : Spectrum
     heading : float
@@ -159,7 +159,7 @@ def response_statistics(
     if spreading is not None and not isinstance(spreading, Spreading):
         raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
     linear = linear_of(scene, state, memory, database)
-    require_same_speed(linear, database)
+    database = excitation_of(linear, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
     if database.trusted_band is not None and database.trusted_band[0] > low:
         below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)

@@ -59,7 +59,7 @@ def tanks_of(given: Any) -> dict[str, Tank]:
         raise SceneError(f"ballast: tanks are {shown(given)}; give at least one Tank by its name")
     for name, tank in given.items():
         if not isinstance(name, str) or not isinstance(tank, Tank):
-            raise SceneError(f"ballast: tank {shown(name)} is {shown(tank)}; give a seacrane.Tank")
+            raise SceneError(f"ballast: tank {shown(name)} is {shown(tank)}; give a seacrane.scene.Tank")
     return dict(given)
 
 

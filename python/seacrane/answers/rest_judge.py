@@ -10,8 +10,8 @@ from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import warn_caller
-from seacrane.validity.range import LARGEST_HEEL, LargeHeelWarning
-from seacrane.validity.stability import UnstableRestWarning
+from seacrane.validity.range import LARGEST_HEEL
+from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
 Columns = dict[str, tuple[str, float]]
 Pose = Mapping[str, float]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.databases import require_alike
 from seacrane.description.loads import named
 from seacrane.description.range import Range
 from seacrane.description.scene import ELEMENTS, KINDS, Description
@@ -43,8 +44,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     Raises
     ------
     SceneError
-        For a name that is not there or is of several kinds, a name that would change, or arguments that this
-        kind does not have; values are checked at compile().
+        For a name that is not there or is of several kinds, a name that would change, arguments that this
+        kind does not have, or a database that the vessel is not from; values are checked at compile().
     """
     key = _table_of(scene, name, kind)
     table = getattr(scene, key)
@@ -58,6 +59,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
         first, older = [*unknown, "name"][0], KEYWORDS.get(type(old).__name__, {})
         has = f"since 0.3 it is {older[first]!r}" if first in older else f"it has {known}"
         raise SceneError(f"{what}: cannot change {first!r}; {has}")
+    if changes.get("database") is not None:
+        require_alike(scene, old, changes["database"])
     for argument, value in changes.items():
         if isinstance(arguments[argument], _core.Curve):
             changes[argument] = curve_of(f"{what}: {argument}", value)

@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.loads import LOAD_KINDS, kind_of
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
 
@@ -16,7 +17,7 @@ from seacrane.files.node import Node
 # older scenes keep their digests.
 _ADDED_LATER: Mapping[type, frozenset[str]] = {
     _core.Body: frozenset(("size",)),
-    _core.VesselHydrodynamics: frozenset(("floats",)),
+    VesselHydrodynamics: frozenset(("floats",)),
     _core.Line: frozenset(
         ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",
          "maximum_power", "brake", "brake_capacity", "brake_give", "radii", "axes", "turns", "efficiencies",

@@ -16,16 +16,13 @@ from seacrane.ensembles.study import Study
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.run.method import Method
+from seacrane.warnings import AccuracyNotHeldWarning
 
 A_PROBE_FOR, MOST_PROBES = 25, 3  # members; each probe takes about two runs
 CHECKED = 0.04  # of the members, each by its run once more and a cheap one
 SEED = 20250101  # of which members are checked
 
 Errors = Mapping[str, float]
-
-
-class AccuracyNotHeldWarning(UserWarning):
-    """A member that was checked has a larger error than `accuracy` allows: probes were milder than it."""
 
 
 @dataclass(frozen=True, kw_only=True)

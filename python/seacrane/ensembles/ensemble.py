@@ -22,7 +22,7 @@ from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
-from seacrane.ensembles.other_sea import WORDS, Databases
+from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.stored_members import growth_in, members_in
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
@@ -33,6 +33,7 @@ from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -92,6 +93,7 @@ class Ensemble:
         return _ensemble(members, store.dataset(members))
 
 
+@refusing
 def ensemble(
     source: Source,
     *,
@@ -100,7 +102,6 @@ def ensemble(
     t_end: float = 100.0,
     method: Method | None = None,
     outputs: Outputs | None = None,
-    database: Databases = None,
     start: Start = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
@@ -133,8 +134,6 @@ def ensemble(
         End time, s.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
-    database : HydroDatabase or mapping, optional
-        Where words of the sea vary: that with which it was added, by vessel where there are several.
     start : State or callable, optional
         Where every member begins, such as ``equilibrium(scene)``, or a function of its scene that tells it;
         default: the assembled start of its scene.
@@ -206,7 +205,6 @@ def ensemble(
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        databases=database,
         t_end=number_of("t_end", t_end),
         method=how,
         outputs=outputs_for(wanted, recorded),

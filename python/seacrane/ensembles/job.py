@@ -11,7 +11,7 @@ from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
-from seacrane.errors import SeacraneError
+from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
@@ -23,10 +23,6 @@ from seacrane.version import __version__
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
-
-
-class WorkerVersionError(SeacraneError):
-    """A worker has another version of seacrane than the process that asks for the ensemble."""
 
 
 class Job:

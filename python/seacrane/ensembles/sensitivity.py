@@ -98,7 +98,7 @@ def sensitivity(
     number : str
         "mean" (default) of it over the seeds; "mpm" or "p90" of largest values by Gumbel's distribution.
     **given
-        Further arguments of `ensemble`: t_end, database, executor, store, rtol and so on.
+        Further arguments of `ensemble`: t_end, executor, store, rtol and so on.
 
     Returns
     -------

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.frequency_domain import motion_rao
+from seacrane.analysis.frequency_domain import excitation_of, linear_of, motion_rao
 from seacrane.errors import SceneError
 from seacrane.figures.overview import payload_bodies, resultants
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.history import marks_of, panels_of, title_of, wanted_traces
 from seacrane.result.traces import Trace
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seacrane.analysis.linear_system import LinearModel
-    from seacrane.hydro import HydroDatabase
     from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -224,10 +224,10 @@ def reaction_sheet(result: Result, *joints: str) -> Sheet:
     )  # fmt: skip
 
 
+@refusing
 def plot_rao(
     scene: Scene | LinearModel,
     *,
-    database: HydroDatabase,
     body: str,
     point: Any = (0.0, 0.0, 0.0),
     headings_deg: Sequence[float] = HEADINGS_DEG,
@@ -235,11 +235,12 @@ def plot_rao(
 ) -> Figure:
     """Draw the motion of a point of any body per metre of wave amplitude, over frequency.
 
-    ``database.plot("motion")`` draws those of the vessel alone.
+    ``database.plot("motion")`` draws those of the vessel alone. A ship at a forward speed comes as a
+    `linear_model` of its database.
 
     Parameters
     ----------
-    scene, database, body, point
+    scene, body, point
         As `motion_rao`.
     headings_deg : sequence of float
         Directions that the waves travel to, deg; 0 following.
@@ -255,25 +256,22 @@ def plot_rao(
     SceneError
         As `motion_rao`.
     """
-    return draw(rao_sheet(scene, database, body, point, headings_deg, omega))
+    return draw(rao_sheet(scene, body, point, headings_deg, omega))
 
 
 def rao_sheet(
     scene: Scene | LinearModel,
-    database: HydroDatabase,
     body: str,
     point: Any,
     headings_deg: Sequence[float],
     omega: Any,
 ) -> Sheet:
     """The panels of `plot_rao` with their numbers."""
+    linear = linear_of(scene, None)
+    database = excitation_of(linear, None)
     frequency = np.asarray(database.omega if omega is None else omega, dtype=float)
     heading = np.deg2rad(np.asarray(headings_deg, dtype=float))
-    motion = np.abs(
-        motion_rao(
-            scene, database=database, omega=frequency, heading=heading[:, None], body=body, point=point
-        )
-    )
+    motion = np.abs(motion_rao(linear, omega=frequency, heading=heading[:, None], body=body, point=point))
     motion[..., 3:] = np.rad2deg(motion[..., 3:])
     rotations = ("about x", "about y", "about z")
     panels = tuple(

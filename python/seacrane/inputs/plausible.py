@@ -6,6 +6,7 @@ import numpy as np
 
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.warnings import AngleUnitWarning, CompassDirectionWarning, DepthSignWarning, MassUnitWarning
 
 TURN = 2.0 * np.pi
 ROUND = np.radians(5.0)  # angles in a script are multiples of it
@@ -14,26 +15,6 @@ EXACT = 1e-9
 COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
 LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
 HEAVIEST = 2.3e4  # kg/m3: osmium
-
-
-class AngleUnitWarning(UserWarning):
-    """An angle looks like degrees where radians are due, or the other way round."""
-
-
-class CompassDirectionWarning(UserWarning):
-    """A direction looks like a compass bearing, clockwise and where it comes from."""
-
-
-class MassUnitWarning(UserWarning):
-    """A mass looks like tonnes where kilograms are due."""
-
-
-class UnitWarning(UserWarning):
-    """A value is far beyond what its kind usually has: a slip in its unit, by a factor of 1000 or so."""
-
-
-class DepthSignWarning(UserWarning):
-    """All points asked for are above any wave: depths were given where z, upwards, is due."""
 
 
 def angle_of(what: str, value: float) -> float:

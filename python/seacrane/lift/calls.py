@@ -10,9 +10,11 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, JointedCrane, Payload, load_crane
+from seacrane.description.databases import source_of
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.check import SHIPPED
 from seacrane.lift.curves import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
@@ -21,7 +23,6 @@ from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import FlowCoefficients
@@ -125,7 +126,6 @@ class Caller:
 
     def __init__(self) -> None:
         self.read: dict[tuple[str, float | None, float | None], HydroDatabase] = {}
-        self.afloat: dict[str, HydroDatabase | MotionRaos | None] = {}  # what [sea] moves or loads each by
 
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
         """Add to a scene what a table describes; at rest, without what only moves it."""
@@ -176,7 +176,6 @@ class Caller:
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(database, **given)
-        self.afloat[given.get("name", "vessel")] = database
 
     def _given_vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
         found = [key for key in MOTIONS if key in given]
@@ -186,8 +185,6 @@ class Caller:
         if found[0] == "database":
             motion = self._database(motion)
         scene.add_given_vessel("rest" if at_rest else motion, **given)
-        moved = motion if isinstance(motion, HydroDatabase | MotionRaos) else None
-        self.afloat[given.get("name", "vessel")] = moved
 
     def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""
@@ -204,11 +201,7 @@ class Caller:
         return self.read[key]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:
-        vessel = given.get("vessel", "vessel")
-        if vessel not in self.afloat:
-            known = ", ".join(map(repr, self.afloat)) or "none"
-            raise SceneError(f"sea: there is no [vessel] named {vessel!r}, the lift has {known}")
-        database = self.afloat[vessel]
+        database = source_of(scene, given.get("vessel", "vessel"))
         systems = given.pop("systems", None)
         if systems is not None:
             of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
@@ -217,7 +210,7 @@ class Caller:
         for key in SEA_OF_SYSTEMS:
             if key in given:
                 raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
-        scene.add_sea(database, **given)
+        scene.add_sea(**given)
 
 
 def _tanks(given: Keywords) -> Keywords:

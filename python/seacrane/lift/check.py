@@ -20,7 +20,8 @@ from seacrane.lift.keys import Key
 from seacrane.lift.lines import Place
 from seacrane.lift.tables import CURVES, FROM, TABLES, Table
 from seacrane.lift.text import toml_value
-from seacrane.renamed import LIFT_DEFAULTS, LIFT_KEYS, LIFT_TABLES, RenamedKeysWarning, new_spelling
+from seacrane.renamed import LIFT_DEFAULTS, LIFT_KEYS, LIFT_TABLES, new_spelling
+from seacrane.warnings import RenamedKeysWarning
 
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 SHIPPED = ("hull_115",)  # databases that come with the package, by their names

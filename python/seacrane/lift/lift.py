@@ -12,8 +12,7 @@ from typing import Any
 
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
-from seacrane.hydro import HydroDatabase
-from seacrane.lift.build import made, scene_and_databases, scene_of
+from seacrane.lift.build import made, scene_of
 from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.stages import check_stages, stages_of
@@ -122,10 +121,6 @@ class Lift:
         scene = scene_of(self._document, self._entries)
         check_stages(self._document, self._entries, scene, self.stages)
         return scene
-
-    def scene_and_databases(self) -> tuple[Scene, dict[str, HydroDatabase]]:
-        """The scene, built anew, and by vessel the database that its sea loads it by."""
-        return scene_and_databases(self._document, self._entries)
 
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.

@@ -28,6 +28,7 @@ from seacrane.description import (
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
@@ -48,7 +49,6 @@ from seacrane.scene import (
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
@@ -206,7 +206,7 @@ def _sea_keys() -> tuple[Key, ...]:
             "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
             "position": POINT | {"shapes": ((2,),)},
         },
-        without=("database", "sea"),
+        without=("sea",),
     )  # fmt: skip
     beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
     return (*plain, *beside, Key(name="systems", **several))

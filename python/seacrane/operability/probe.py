@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.databases import without_databases
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.errors import SeacraneError
-from seacrane.hydro import HydroDatabase
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import reached, record_numbers
 from seacrane.operability.linear_seas import LinearSeas
@@ -82,7 +82,6 @@ class Prober:
     ----------
     scene : Scene
         Its references held.
-    database : HydroDatabase
     linear : LinearSeas
     criteria : tuple of Criterion
     start, duration : float
@@ -92,7 +91,6 @@ class Prober:
     """
 
     scene: Scene
-    database: HydroDatabase
     linear: LinearSeas
     criteria: tuple[Criterion, ...]
     start: float
@@ -115,15 +113,15 @@ class Prober:
 
     def _probe(self, sea: Sea) -> tuple[Probe, Array]:
         words = {"hs": sea.hs, "tp": sea.tp, "direction_deg": sea.direction_deg, "seed": sea.seed}
-        scene = with_sea(self.scene, self.database, words)
+        scene = with_sea(self.scene, words)
         assert scene.waves is not None
         end = self.start + self.duration
         steps = np.arange(round(self.duration / self.outputs.dt_out) + 1, dtype=float)
         times: Array = self.start + steps * self.outputs.dt_out
         state, linear = self.linear.in_waves(scene.waves, self.start, times)
         probe = Probe(
-            scene=scene, start=state, t_end=end, criteria=self.criteria, method=self.method,
-            outputs=self.outputs,
+            scene=without_databases(scene), start=state, t_end=end, criteria=self.criteria,
+            method=self.method, outputs=self.outputs,
         )  # fmt: skip
         return probe, np.array([record_numbers(column) for column in linear.T])
 

@@ -12,6 +12,7 @@ from seacrane.analysis.linearise import LARGEST
 from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
+from seacrane.warnings import GrowingModeWarning
 
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
@@ -25,10 +26,6 @@ FIX = (
     "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
     "integrator ('verner65' or 'dop853' damp up to longer steps), or give the mode damping"
 )
-
-
-class GrowingModeWarning(UserWarning):
-    """The method made an oscillation with little damping grow over a long run, or kept it ringing."""
 
 
 @dataclass(frozen=True, kw_only=True)

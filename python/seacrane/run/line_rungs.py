@@ -19,6 +19,7 @@ from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, w
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
+from seacrane.warnings import QuasiStaticLineWarning
 
 Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
@@ -31,14 +32,6 @@ JUST, SLOPE = 1e-9, 1e-5  # s: before and after a kink, and over which slopes ar
 COMPILED = "a model that is compiled already, as by accuracy and in stages, has elastic lines"
 UNSMOOTH = "its winch has no lag, and so may jump"
 OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose frequency nobody knows
-
-
-class LineRungWarning(UserWarning):
-    """A line with rung "auto" went slack as quasi-static: a second run, with elastic lines, was made."""
-
-
-class QuasiStaticLineWarning(UserWarning):
-    """What moves a scene is too near the frequency of a line that is given as quasi-static."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -41,7 +41,6 @@ from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
     COMPILED,
     LineRung,
-    LineRungWarning,
     all_elastic,
     as_told,
     line_rungs,
@@ -60,6 +59,7 @@ from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
 from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
+from seacrane.warnings import LineRungWarning
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

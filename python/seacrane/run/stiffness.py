@@ -10,16 +10,13 @@ from seacrane.analysis.linearise import LARGEST
 from seacrane.description.loads import any_stiff, lines_of, whole_of
 from seacrane.run.modes import Modes
 from seacrane.validity.range import Finding
+from seacrane.warnings import StiffWarning
 
 MANY_STEPS = 10_000  # fewer are no matter
 STATES_SQUARED_PER_STEP = 5.0  # so many steps cost ten times the eigenvalues of so many states
 NEAR_THE_LIMIT = 1.0  # |eigenvalue| times step; explicit methods stay stable up to 2 to 6
 SETTLES = 3.0  # |eigenvalue| times settling time: a quasi-static stretch is slower than the mode
 UNSEEN = 20.0  # |eigenvalue| times output interval: three periods between two outputs
-
-
-class StiffWarning(UserWarning):
-    """One mode is so fast that an explicit method takes short steps for it alone."""
 
 
 def fewest_steps(states: int, least: int = MANY_STEPS) -> int:

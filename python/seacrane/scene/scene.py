@@ -68,6 +68,7 @@ class Scene(Description):
     points
         Elements by name, immutable; `loads` are all that puts forces on
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
+        `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
     recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,

@@ -12,14 +12,11 @@ from numpy.typing import ArrayLike
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.warnings import SteepSeaWarning
 
 # Peak period over mean periods of x^-5 exp(-5/4 x^-4), from its moments in closed form.
 PEAK_OVER_TZ = (1.25 * math.pi) ** 0.25
 PEAK_OVER_T1 = 1.25**0.25 * math.gamma(0.75)
-
-
-class SteepSeaWarning(UserWarning):
-    """A sea is steeper than any that stands: its waves break, and linear waves overstate crests and loads."""
 
 
 def jonswap(*, hs: float, tp: float, gamma: float | Literal["dnv"] = 3.3) -> _core.Spectrum:

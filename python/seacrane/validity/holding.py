@@ -6,13 +6,10 @@ from typing import TYPE_CHECKING
 
 from seacrane.description.holding import free_drives
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import FreeCraneWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
-
-
-class FreeCraneWarning(UserWarning):
-    """A crane's slew drive, cylinder or luff has no driver and no actuator: its jibs fall."""
 
 
 def warn_of_free_cranes(scene: Description) -> None:

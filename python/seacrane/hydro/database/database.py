@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.packed import digest_of
 from seacrane.hydro.database.check import CheckRow, check_database
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
@@ -79,7 +80,7 @@ class HydroDatabase(HydroData):
 
         Warns
         -----
-        seacrane.hydro.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
 
         Raises
         ------
@@ -166,6 +167,11 @@ class HydroDatabase(HydroData):
         ValueError : a name that is not among the figures.
         """
         return hydro_figures(database=self, what=what)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of all that it holds: equal for databases that say the same."""
+        return digest_of(self)
 
     def __repr__(self) -> str:
         return as_line(self)

@@ -18,6 +18,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.memory.transform import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import QuadraticDampingWarning
 
 FloatArray = NDArray[np.float64]
 Data = TypeVar("Data", bound=HydroData)
@@ -33,10 +34,6 @@ MATRICES = (
 )
 PER_CAUSE = ("added_mass", "damping", "restoring")
 MIRRORED = "; mirrored in the centre plane"
-
-
-class QuadraticDampingWarning(UserWarning):
-    """Quadratic damping of a translation does not move with the reference point: its coupling is lost."""
 
 
 def motion_transform(point: FloatArray) -> FloatArray:

@@ -5,27 +5,25 @@
 namespace seacrane {
 namespace {
 
-const Axis spring{"spring", {}, [](const Model &m) {
-                    std::vector<std::string> names;
-                    for (const auto &d :
-                         std::get<std::vector<SpringDamper::Description>>(
-                             *m.description.loads)) {
-                      names.push_back(d.name);
-                    }
-                    return names;
-                  }};
+const Axis spring{
+    "spring", {}, [](const Model& m) {
+      std::vector<std::string> names;
+      for (const auto& d : std::get<std::vector<SpringDamper::Description>>(*m.description.loads)) {
+        names.push_back(d.name);
+      }
+      return names;
+    }};
 
-void write_spring_length(const Output &o, double *out) {
-  const auto &bodies = o.terms.bodies();
-  for (const SpringDamper &s :
-       std::get<std::vector<SpringDamper>>(*o.terms.model().loads)) {
+void write_spring_length(const Output& o, double* out) {
+  const auto& bodies = o.terms.bodies();
+  for (const SpringDamper& s : std::get<std::vector<SpringDamper>>(*o.terms.model().loads)) {
     const auto &first = bodies[idx(s.first)], &second = bodies[idx(s.second)];
     const Vec3d from = first.position + first.rotation * s.first_point;
     *out++ = (second.position + second.rotation * s.second_point - from).norm();
   }
 }
 
-} // namespace
+}  // namespace
 
 std::vector<Channel> spring_channels() {
   return {
@@ -38,4 +36,4 @@ std::vector<Channel> spring_channels() {
   };
 }
 
-} // namespace seacrane
+}  // namespace seacrane
