@@ -107,7 +107,7 @@ struct Line {
   std::string name;
   LinePath path;
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
-  double EA = 0.0;  // N
+  double EA = 0.0;      // N
   LineElasticity elasticity;
   double slip_speed = 0.0;
   bool has_sheaves = false, has_friction = false;
@@ -270,8 +270,7 @@ struct Line {
     }
     if (!slack(at)) return "";
     const std::string stretch = what + "its stretch is quasi-static, and it ";
-    if (at & 1)
-      return stretch + "has hauled in to its minimum_length; give a smaller one, or rung 'elastic'";
+    if (at & 1) return stretch + "has hauled in to its minimum_length; give a smaller one, or rung 'elastic'";
     return stretch + "goes slack; give it rung 'elastic', which snatches";
   }
 
