@@ -15,7 +15,7 @@ from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, shaped_of, text_of, texts_of
+from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
 
@@ -65,12 +65,12 @@ def chain_of_segments(
     first, last = _ends(scene, what, bodies, points)
     count = _count(what, segments)
     span = float(np.linalg.norm(last.place - first.place))
-    whole = _positive(what, "length", span if length is None else length)
-    step, mass = whole / count, _positive(what, "mass_per_length", mass_per_length) * whole / count
+    whole = positive_of(f"{what}: length", span if length is None else length)
+    step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
     chain = Chain(
         span=last.place - first.place,
         segment=step,
-        stiffness=_positive(what, "EA", EA),
+        stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
     )
     places = first.place + _shape(what, chain)
@@ -161,10 +161,3 @@ def _count(what: str, segments: Any) -> int:
     if not 1 <= segments <= MOST_SEGMENTS:
         raise SceneError(f"{what}: segments is {segments}; give 1 to {MOST_SEGMENTS}")
     return int(segments)
-
-
-def _positive(what: str, key: str, value: Any) -> float:
-    number = number_of(f"{what}: {key}", value)
-    if not (np.isfinite(number) and number > 0.0):
-        raise SceneError(f"{what}: {key} is {number!r}; it must be finite and greater than zero")
-    return number
