@@ -136,7 +136,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "a table of one with mass": (
         {"rung": "with mass", "EA": 1e7, "strains": [0, 1], "tensions": [0, 1]}, "takes no strains"
     ),
-    "no mass of one with mass": ({"rung": "with mass", "EA": 1e7}, "mass_per_length is 0.0; it must be"),
+    "no mass of one with mass": ({"rung": "with mass", "EA": 1e7}, "mass_per_length is 0.0; give a finite"),
     "no EA": ({}, "has no EA; give it in N"),
     "a path told twice": ({"EA": 1e7, "bodies": ["ground", "load"]}, "beside other words for its path"),
     "a rigid curve": ({"rung": "rigid", "length": _core.Curve.constant(value=9.0)}, "length is .* give a n"),
