@@ -192,9 +192,9 @@ def test_a_chain_without_a_rest_shape_is_none() -> None:
         ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\); give \(2, 3\)"),
         ({"segments": 0}, "segments is 0; give 1 to 1000"),
         ({"segments": 2.5}, "segments is 2.5; give a whole number"),
-        ({"length": -1.0}, "length is -1.0; it must be finite and greater than zero"),
-        ({"mass_per_length": 0.0}, "mass_per_length is 0.0; it must be finite and greater"),
-        ({"stiffness": float("nan")}, "stiffness is nan; it must be finite"),
+        ({"length": -1.0}, "length is -1.0; give a finite number above zero"),
+        ({"mass_per_length": 0.0}, "mass_per_length is 0.0; give a finite number above"),
+        ({"stiffness": float("nan")}, "stiffness is nan; give a finite number"),
         ({"length": 20.0}, "length is 20 m over a span of 5 m, and it has no rest shape; give it less"),
     ],
 )

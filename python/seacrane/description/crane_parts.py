@@ -165,6 +165,12 @@ def cylinders(scene: Description) -> dict[str, str]:
     }
 
 
+def drive_named(scene: Description, label: str) -> tuple[str, str] | None:
+    """Joint and coordinate of a slew drive, luff or cylinder by its label, such as "slew" or "aft main"."""
+    strokes = {name: (joint, "displacement") for name, joint in cylinders(scene).items()}
+    return {**strokes, **luffs(scene), **slews(scene)}.get(label)
+
+
 def piston_areas(scene: Description) -> dict[str, Areas]:
     """Full side and rod side of the pistons that are known, m2, by the cylinders' labels."""
     known = cylinders(scene)

@@ -44,7 +44,7 @@ def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
 
 def any_stiff(loads: Mapping[str, Any]) -> bool:
     """Whether loads have states of their own that would bind the steps of explicit methods."""
-    return any(isinstance(load, _core.HydraulicCylinder) for load in loads.values())
+    return any(type(load).STIFF for load in loads.values())
 
 
 def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,21 +4,29 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from seacrane._core import integrator
+from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
+from seacrane.run.growth import growing
 from seacrane.run.interrupts import Interrupts
+from seacrane.run.modes import Modes
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
-from seacrane.run.slow import slow_findings
-from seacrane.run.step_advice import step_advice
+from seacrane.run.stiffness import stiffness
+from seacrane.run.unsteady_oil import unsteady_oil
 from seacrane.validity.after_run import tried
-from seacrane.validity.range import warn_of
+from seacrane.validity.range import Finding, warn_of
+
+if TYPE_CHECKING:
+    from seacrane.run.run import Run
 
 Look = Callable[[float], None]
+NEAR = 0.8  # of a limit: from there on a run in another sea is looked at by itself
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
@@ -117,3 +125,45 @@ def _advise(run: Run, error: BaseException) -> None:
     advice = step_advice(method.integrator, step, fastest_mode(run.model))
     if advice:
         error.args = (f"{error}. {advice}",)
+
+
+def slow_findings(run: Run) -> list[Finding]:
+    """By the modes where the run began and where it is.
+
+    Of a run made by `Run.in_sea` they are found only where the modes at the common start, found once for all
+    such runs, come near a limit.
+    """
+    if run.start_modes is not None and not _found(run, run.start_modes, near=NEAR):
+        return []
+    last = run.last_state()
+    states = [run.start] if last is None else [run.start, last]
+    found = _found(run, Modes(run.model, list(run.scene.bodies), states))
+    return found + unsteady_oil(run.scene, run.model, states)
+
+
+def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:
+    stats, settings = run.stats(), run.settings
+    remembering = [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
+    found = stiffness(run.scene.loads, modes, stats, settings, near=near)
+    return found + growing(modes, stats, settings, undamped=remembering, near=near)
+
+
+def step_advice(integrator: str, step: float, fastest: float | None) -> str:
+    """A sentence on the step of an explicit fixed-step method; empty where it is not too long.
+
+    Parameters
+    ----------
+    integrator : str
+    step : float
+        s.
+    fastest : float or None
+        Largest |eigenvalue| at the start, 1/s.
+    """
+    limit = integrator_of(integrator).stable_up_to
+    if not limit or not fastest or fastest * step <= limit:
+        return ""
+    return (
+        f"The fastest mode at the start is {fastest:.4g} per s: {integrator} is unstable with steps longer "
+        f"than about {limit / fastest:.3g} s, and took {step:.3g} s; give dt={0.5 * limit / fastest:.1g}, or "
+        "an adaptive integrator"
+    )

@@ -17,7 +17,7 @@ from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of
+from seacrane.inputs.checked import name_of, number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
 from seacrane.scene.lines import add_line
@@ -105,12 +105,12 @@ def add_heavy_line(
     what = f"heavy line {name_of('heavy line', name)!r}"
     first, last = _ends(scene, what, bodies, points)
     count = _count(what, segments)
-    whole = _positive(what, "length", length)
-    step, mass = whole / count, _positive(what, "mass_per_length", mass_per_length) * whole / count
+    whole = positive_of(f"{what}: length", length)
+    step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
     chain = Chain(
         span=last.place - first.place,
         segment=step,
-        stiffness=_positive(what, "stiffness", stiffness),
+        stiffness=positive_of(f"{what}: stiffness", stiffness),
         weights=np.full(count - 1, mass * scene.gravity),
     )
     places = first.place + _shape(what, chain)
@@ -203,10 +203,3 @@ def _count(what: str, segments: Any) -> int:
     if not 1 <= segments <= MOST_SEGMENTS:
         raise SceneError(f"{what}: segments is {segments}; give 1 to {MOST_SEGMENTS}")
     return int(segments)
-
-
-def _positive(what: str, key: str, value: Any) -> float:
-    number = number_of(f"{what}: {key}", value)
-    if not (np.isfinite(number) and number > 0.0):
-        raise SceneError(f"{what}: {key} is {number!r}; it must be finite and greater than zero")
-    return number

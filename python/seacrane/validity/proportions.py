@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.line_weights import line_weights
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.description.places import placed
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -75,17 +75,10 @@ class _Around:
     def __init__(self, scene: Description, times: Array) -> None:
         self.scene, self.times, self.hung = scene, times, line_weights(scene)
 
-    def place(self, body: str, point: Any) -> Array:
-        point = np.asarray(point, dtype=float)
-        if body not in self.scene.bodies:
-            return np.asarray(point)
-        there = self.scene.bodies[body]
-        return np.asarray(there.position + rotation_matrix(there.quaternion) @ point)
-
     def distance(self, element: Any) -> float:
         """Between the two points of an element, m."""
         ends = (element.first, element.first_point), (element.second, element.second_point)
-        return float(np.linalg.norm(self.place(*ends[1]) - self.place(*ends[0])))
+        return float(np.linalg.norm(placed(self.scene, *ends[1]) - placed(self.scene, *ends[0])))
 
     def mass(self, *bodies: str) -> float:
         """The smallest of these bodies', kg; infinite of the ground."""
@@ -109,7 +102,7 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
     """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
     weight, falls = around.hung.get(line.name, (0.0, 1))
     mass = _over(weight, abs(around.scene.gravity))
-    places = np.array([around.place(*end) for end in zip(line.bodies, line.points, strict=True)])
+    places = np.array([placed(around.scene, *end) for end in zip(line.bodies, line.points, strict=True)])
     path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
     start = float(line.length.evaluate(around.times[:1])[0, 0])
     if len(line.tensions):
