@@ -87,7 +87,7 @@ def line_rungs(
 
 
 def as_compiled(scene: Scene, model: _core.Model) -> dict[str, LineRung]:
-    """The rungs of a model that is given."""
+    """The rungs that a given model was compiled with."""
     return _all_elastic(automatic(scene), COMPILED)
 
 
