@@ -1435,12 +1435,17 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    @property
+    def EA(self) -> float:
+        """
+        N, axial stiffness: tension over strain
+        """
     @property
     def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
         """
@@ -1555,6 +1560,11 @@ class Line:
         m/s, commanded, positive: pays out
         """
     @property
+    def rung(self) -> str:
+        """
+        'elastic', or 'quasi-static': its stretch follows the tension
+        """
+    @property
     def settling(self) -> float:
         """
         s, in which a quasi-static stretch follows
@@ -1565,19 +1575,9 @@ class Line:
         m/s, at which sheaves have 76 % of their friction
         """
     @property
-    def stiffness(self) -> float:
-        """
-        N, EA: tension over strain
-        """
-    @property
     def strains(self) -> list[float]:
         """
         from 0, of a table in place of EA
-        """
-    @property
-    def stretch(self) -> str:
-        """
-        'elastic', or 'quasi-static': then it follows the tension
         """
     @property
     def tension(self) -> Curve:
@@ -2156,7 +2156,7 @@ class HydraulicCylinder:
         """
 class Limit:
     """
-    What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
+    What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     STIFF: typing.ClassVar[bool] = False

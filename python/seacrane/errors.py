@@ -75,6 +75,10 @@ class SimulationError(SeacraneError, RuntimeError):
     the outputs until then."""
 
 
+class LineSlackError(SimulationError):
+    """A line on the rung "quasi-static" would go slack, or has hauled in to its end; the message names it."""
+
+
 class ChatteringError(SimulationError):
     """Limits make and break contact without end in no time; the message names limit, joint and time."""
 

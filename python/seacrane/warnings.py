@@ -116,7 +116,7 @@ class PushingLinkWarning(RunWarning):
     """A link from which a body hangs carried compression.
 
     A wire would have been slack there; the snap load when it tightens is not in the result.
-    `scene.add_wire(joint=...)` makes it one (`docs/events.md`).
+    `scene.add_line(joint=..., rung="rigid")` makes it one (`docs/events.md`).
     """
 
 
@@ -381,7 +381,7 @@ class StiffWarning(SceneWarning):
 
     That mode is far faster than the outputs show: a gain, spring, line or soft stop is very stiff for the
     body that it holds. The warning names the mode and the body. Soften it, or take `rosenbrock` or
-    `cvode-bdf`. Give a line that stays taut `stretch="quasi-static"` (`docs/lines.md`); the warning tells
+    `cvode-bdf`. Give a line that stays taut `rung="quasi-static"` (`docs/lines.md`); the warning tells
     its bound. The mode is computed only after such a run; `scene.report()` and
     `seacrane.analysis.fastest_mode` give it at any time.
     """
@@ -463,24 +463,24 @@ class PushingLineWarning(SceneWarning):
     """The tension of a line with a quasi-static stretch was negative for a moment, while the line was still
     stretched: the strain follows the tension later than the line would have gone slack.
 
-    Give it `stretch="elastic"`. A line with `stretch="auto"` begins anew by itself, as for
+    Give it `rung="elastic"`. A line with `rung="auto"` gets a second run by itself, as for
     `LineRungWarning`.
     """
 
 
 class QuasiStaticLineWarning(SceneWarning):
-    """What moves the scene is so near the own frequency of a line with `stretch="quasi-static"` that its
+    """What moves the scene is so near the own frequency of a line with `rung="quasi-static"` that its
     tension errs by more than 5 %, by the estimate of `docs/lines.md`.
 
-    Give it `stretch="elastic"` or `"auto"`, or a smaller `settling`.
+    Give it `rung="elastic"` or `"auto"`, or a smaller `settling`.
     """
 
 
 class LineRungWarning(SceneWarning):
-    """A line with `stretch="auto"` was quasi-static, and went slack, or its winch hauled in to the end.
+    """A line with `rung="auto"` was quasi-static, and went slack, or its winch hauled in to the end.
 
-    The run began anew from its start with elastic lines: the result is that of `stretch="elastic"`, and the
-    first attempt was lost time. Give the line that rung (`docs/lines.md`).
+    A second run was made from the same start with elastic lines: its result is that of `rung="elastic"`, and
+    the first one was lost time. Give the line that rung (`docs/lines.md`).
     """
 
 

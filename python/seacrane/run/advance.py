@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from seacrane._core import integrator
 from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import fastest_mode
-from seacrane.errors import SimulationError
+from seacrane.errors import LineSlackError, SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
 from seacrane.run.growth import growing
@@ -35,15 +35,45 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
     What ends it otherwise is raised as by `simulate`, with the outputs until then as its `result`.
     """
     with Interrupts() as interrupts:
-        try:
-            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
-        except BaseException as error:
-            with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
-                error.result = run.result()  # type: ignore[attr-defined]
-            raise
+        run = ended(run, controllers, interrupts, progress=progress)
         result, found = run.judged_result()
     warn_of(found)
     return result
+
+
+def ended(
+    run: Run, controllers: Sequence[SampledController], interrupts: Interrupts, *, progress: bool = False
+) -> Run:
+    """Advance a run to its end, or to where Ctrl-C stops it, and return it.
+
+    Where a line that rung "auto" made quasi-static went slack or pushed, it is another run that is returned:
+    one from the same start with elastic lines. Errors carry the outputs until then as their `result`.
+    """
+    with _carrying(run):
+        try:
+            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
+            pushing = "" if run.interrupted else run.pushing()
+            if not pushing:
+                return run
+            what = f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment"
+        except LineSlackError as error:
+            if not run.settled:
+                raise
+            what = f"{str(error).partition(';')[0]} at t = {run.core.time:.6g} s"
+    again = run.with_elastic_lines(what)
+    with _carrying(again):
+        drive(again, Calls(controllers, again.start.time), interrupts, progress=progress)
+    return again
+
+
+@contextlib.contextmanager
+def _carrying(run: Run) -> Iterator[None]:
+    try:
+        yield
+    except BaseException as error:
+        with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
+            error.result = run.result()  # type: ignore[attr-defined]
+        raise
 
 
 def drive(

@@ -109,14 +109,14 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
         share = _over(line.tensions[-1] * falls, weight)
         yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
     else:
-        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.stiffness), 0.0)
-        yield Proportion("stiffness", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
+        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.EA), 0.0)
+        yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
     share = _over(line.mass, mass)
     yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
     if not line.winch:
         return
     held = around.largest(line.tension)
-    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.stiffness), 1e-5, 0.5, "N")
+    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.EA), 1e-5, 0.5, "N")
     speed = line.tension_gain * held
     yield Proportion("tension_gain", "{:.3g} m/s by the tension held", speed, 1e-2, 100.0, "m/s/N")
     share = _over(line.dead_band, held)
