@@ -56,7 +56,7 @@ def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
             stiffness=stiffness, damping=2.0 * OIL * np.sqrt(stiffness * MASS), minimum=1.0, maximum=5.0,
         )  # fmt: skip
         end = "hook"
-    scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], stiffness=EA, length=rope)
+    scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], EA=EA, length=rope)
     scene.add_winch(line="hoist")
     if controlled:
         (felt,) = reflected_inertia(scene).values()

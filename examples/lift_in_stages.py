@@ -26,7 +26,7 @@ scene.add_joint(kind="weld", name="on barge", first="barge", second="load")
 scene.add_seat(joint="on barge")
 scene.add_line(
     name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.0)],
-    stiffness=5e7, length=tip - DECK + 0.25,
+    EA=5e7, length=tip - DECK + 0.25,
 )  # fmt: skip
 scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
 scene.add_joint(kind="free", name="above platform", first="ground", second="load")

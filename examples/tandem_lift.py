@@ -34,7 +34,7 @@ def lift(hs: float) -> Result:
         lengths[name] = tip[2] - START - 0.5 * HEIGHT
         scene.add_line(
             name=name, bodies=[body, "load"], points=[point, (LUGS[name], 0.0, 0.5 * HEIGHT)],
-            stiffness=EA, length=lengths[name],
+            EA=EA, length=lengths[name],
         )  # fmt: skip
         scene.add_winch(line=name, lag=0.5)
     scene.add_ballast()

@@ -33,7 +33,7 @@ def soft_wire() -> Scene:
         position=(top[0], 0.0, top[2] - WIRE - WEIGHT / spring),
     )  # fmt: skip
     scene.add_line(
-        name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], stiffness=spring * WIRE,
+        name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], EA=spring * WIRE,
         length=WIRE,
     )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="vessel", second="load", first_point=top, ratio=0.05)

@@ -21,7 +21,7 @@ def on_deck(*, length: float = 20.1, **line: Any) -> Scene:
     scene.add_seat(joint="on deck")
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, HEIGHT + 1.0), (0.0, 0.0, 0.0)],
-        stiffness=STIFFNESS, length=length, **line,
+        EA=STIFFNESS, length=length, **line,
     )  # fmt: skip
     scene.add_winch(line="hoist")
     return scene

@@ -20,10 +20,3 @@ def test_a_first_script_runs_and_prints_what_it_says(script: Path, tmp_path: Pat
     assert ran.returncode == 0, ran.stderr
     expected = script.read_text().splitlines()[-1].removeprefix("# ")
     assert expected in ran.stdout, ran.stdout
-
-
-def test_a_lift_file_runs_by_the_command_line(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "seacrane", "run", str(SCRIPTS / "lift.toml"), "--out", str(tmp_path)]
-    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
-    assert ran.returncode == 0, ran.stderr
-    assert (tmp_path / "lift.nc").is_file() and "hook" in ran.stdout

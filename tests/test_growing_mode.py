@@ -88,7 +88,7 @@ def hoisted(damping_ratio: float) -> Scene:
     scene.add_driver(joint="rail", curve=spline_curve(times=time, values=heave))
     scene.add_body(name="load", mass=20e3, inertia=[2e4] * 3, position=(0, 0, -30))
     scene.add_line(
-        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), stiffness=1e8,
+        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), EA=1e8,
         tension_at_start=20e3 * scene.gravity, damping_ratio=damping_ratio,
     )  # fmt: skip
     return scene
@@ -113,7 +113,7 @@ def test_what_step_control_has_stopped_is_not_told_to_grow_on() -> None:
     scene = Scene(name="two poses")
     scene.add_body(name="load", mass=60e3, inertia=[1e5] * 3, position=(0, 0, -10))
     scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1.5e8,
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1.5e8,
         tension_at_start=60e3 * scene.gravity,
     )  # fmt: skip
     scene.add_winch(line="wire", rate=Curve.quintic(start_time=50, end_time=60, start=0.0, end=0.1))

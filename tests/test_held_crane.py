@@ -158,3 +158,12 @@ def test_a_run_that_goes_on_and_one_without_a_crane_s_joint_are_not_judged() -> 
     with warnings.catch_warnings():
         warnings.simplefilter("error", FreeCraneWarning)
         simulate(scene, t_end=0.1, start=start)
+
+
+def test_drives_are_driven_by_what_the_crane_calls_them() -> None:
+    scene = crane()
+    assert scene.add_driver("slew", curve=0.0).name == "A.angle"
+    actuator = scene.add_actuator("main", stiffness=1e8)
+    assert (actuator.joint, actuator.coordinate) == ("main_cylinder", "displacement")
+    with pytest.raises(SceneError, match="there is no joint 'telescope'"):
+        scene.add_driver("telescope", curve=0.0)

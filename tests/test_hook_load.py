@@ -16,9 +16,7 @@ def hung(points: list[tuple[float, float, float]], bodies: list[str], *, length:
     """A load on a line with its falls, at rest."""
     scene = Scene(name="hung", gravity=G)
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
-    scene.add_line(
-        name="hoist", bodies=bodies, points=points, stiffness=1e8, length=length, damping_ratio=0.1
-    )
+    scene.add_line(name="hoist", bodies=bodies, points=points, EA=1e8, length=length, damping_ratio=0.1)
     scene.add_winch(line="hoist")
     return scene
 

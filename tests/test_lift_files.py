@@ -274,7 +274,7 @@ MISTAKES = {
     "an unknown integrator": (HEAD + '[method]\nintegrator = "dopri6"', 4, "nearest: dopri5"),
     "a tolerance out of range": (HEAD + "[method]\nrtol = 3", 4, "rtol is 3"),
     "a list for a table": (HEAD + "[[run]]\nt_end_s = 1", 3, "write [run], once"),
-    "a number for a table": (HEAD + "wire = 3", 3, "write [wire], or [[wire]] for each of several"),
+    "a number for a table": (HEAD + "line = 3", 3, "write [line], or [[line]] for each of several"),
     "an unknown curve": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "line" }', 5, "one of constant"),
     "a gust of a joint": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "gust" }', 5, "one of constant"),
     "a piece without a time": (
@@ -309,7 +309,9 @@ BUILT = {
         ARM.replace("reference_deg", "reference_m"), "reference_m", "give reference_rad or reference_deg"
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
-    "a joint that is not there": (HEAD + '[wire]\njoint = "rope"\n', "[wire]", "there is no joint 'rope'"),
+    "a joint that is not there": (
+        HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
+    ),
     "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),

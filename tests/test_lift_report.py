@@ -42,7 +42,7 @@ def swinging(*, wire: bool, speed: float = 3.0, name: str = "swing", body: str =
     )  # fmt: skip
     scene.add_roles(link="rope")
     if wire:
-        scene.add_wire(joint="rope")
+        scene.add_line(joint="rope", rung="rigid")
     return scene
 
 

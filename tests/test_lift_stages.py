@@ -224,7 +224,7 @@ def test_tanks_are_filled_as_by_calls(tmp_path: Path) -> None:
 def test_ballast_that_cannot_be_is_told_by_its_line(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=r"line 23: .*tanks has 'port' twice"):
         lift_of(BALLAST.replace('"starboard"', '"port"'), tmp_path).scene()
-    with pytest.raises(FileFormatError, match=r"\[ballast\].*capacity is -1 kg"):
+    with pytest.raises(FileFormatError, match=r"\[ballast\].*capacity is -1.0 kg"):
         lift_of(BALLAST.replace("capacity_kg = 400e3", "capacity_kg = -1"), tmp_path).scene()
     with pytest.raises(FileFormatError, match=r"\[balance\] stands beside \[ballast\]"):
         lift_of(BALLAST + '\n[balance]\nbody = "vessel"\n', tmp_path).scene()

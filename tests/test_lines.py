@@ -104,8 +104,8 @@ def pendulum(t: float, y: Array, scene: Scene, *, mass: float = 2e3) -> Array:
     along = place / length
     strain = length / l0 - 1.0
     strain_rate = (along @ velocity - rate * length / l0) / l0
-    damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * mass / l0) * l0
-    tension = max(0.0, line.stiffness * strain + damping * strain_rate)
+    damping = 2.0 * line.damping_ratio * np.sqrt(line.EA * mass / l0) * l0
+    tension = max(0.0, line.EA * strain + damping * strain_rate)
     command = np.clip(line.rate.evaluate([t])[0, 0], -line.maximum_rate, line.maximum_rate)
     bound = line.maximum_acceleration
     gravity = np.array([0.0, 0.0, -G])
@@ -370,7 +370,7 @@ def bad(**change: Any) -> Scene:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"stiffness": 0.0}, "stiffness is 0 N; give EA"),
+        ({"EA": 0.0}, "EA is 0 N; give the tension over the strain, positive"),
         ({"length": 0.0}, "length is 0 m at t = 0 s; an unstretched length must be positive"),
         ({"length": -1.0}, "length is -1 m"),
         ({"damping_ratio": -0.1}, "damping_ratio is -0.1; it must not be negative"),

@@ -216,9 +216,7 @@ def a_slew_that_flings_its_load() -> None:
 def a_hook_on_a_wire_that_is_let_go() -> None:
     scene = Scene(name="hook")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(5.0, 0, 0))
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=8.99
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=8.99)
     simulate(scene, t_end=3.0)
 
 
@@ -307,7 +305,7 @@ def forces_as_text() -> None:
 def hoist(**line: object) -> Scene:
     scene = Scene(name="hoist")
     scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10))
-    given = {"stiffness": 3e7, "tension_at_start": 20e3 * scene.gravity} | line
+    given = {"EA": 3e7, "tension_at_start": 20e3 * scene.gravity} | line
     scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), **given)
     return scene
 
@@ -319,13 +317,13 @@ def a_motor_in_kilonewtons() -> None:
 
 
 def a_hoist_ten_centimetres_short() -> None:
-    simulate(hoist(stiffness=5e7, length=9.9, tension_at_start=None), t_end=0.1)
+    simulate(hoist(EA=5e7, length=9.9, tension_at_start=None), t_end=0.1)
 
 
 def a_tagline_connected_short() -> None:
     scene = hoist()
     scene.add_line(
-        name="tag", bodies=["ground", "load"], points=[(6.5, 0, -10), (0, 0, 0)], stiffness=1e6, length=5.0
+        name="tag", bodies=["ground", "load"], points=[(6.5, 0, -10), (0, 0, 0)], EA=1e6, length=5.0
     )
     stages = [
         seacrane.Stage(name="wait", duration=0.1),
@@ -341,8 +339,8 @@ def a_resonant_wire_as_quasi_static() -> None:
     scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
     scene.add_body(name="load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000))
     scene.add_line(
-        name="wire", bodies=["tip", "load"], points=np.zeros((2, 3)), stiffness=4e8,
-        tension_at_start=180e3 * scene.gravity, stretch="quasi-static",
+        name="wire", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8,
+        tension_at_start=180e3 * scene.gravity, rung="quasi-static",
     )  # fmt: skip
     simulate(scene, t_end=1.0)
 

@@ -138,7 +138,10 @@ def test_a_lift_of_0_2_is_the_scene_that_it_was() -> None:
     """Of the same lift with the scene that 0.2 saved from it, but for what was added by hand there."""
     scene = of_0_2(lambda: Lift.load(OF_0_2 / "lift.toml").scene())
     scene.add_limit_state(channel="line_tension", max=5e4, name="any line")
-    assert scene == Scene.load(OF_0_2 / "words.json")
+    older = Scene.load(OF_0_2 / "words.json")
+    for one in (scene, older):  # since 0.3 a wire is made with the lines
+        one.loads["sling"] = one.loads.pop("sling")
+    assert scene == older
 
 
 def test_the_stages_of_a_lift_of_0_2_end_when_they_did() -> None:

@@ -36,11 +36,11 @@ from seacrane.hydro import shipped_database
 from seacrane.operability import AllowableHs, AlphaFactor
 from seacrane.operability.alpha import alpha_of
 from seacrane.operability.cells import Cells
-from seacrane.operability.circle import over_circle
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
+from seacrane.operability.table import over_circle
 from seacrane.operability.time_domain import ByTime, first_crossing
 from seacrane.sea import jonswap
 
@@ -523,14 +523,14 @@ def test_nothing_is_warned_of(database: HydroDatabase) -> None:
 def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is(database: HydroDatabase) -> None:
     """Runs begin in the linear steady state, which keeps the lengths of lines."""
     found = {}
-    for stretch in ("elastic", "quasi-static"):
-        scene = Scene(name=stretch)
+    for rung in ("elastic", "quasi-static"):
+        scene = Scene(name=rung)
         scene.add_vessel(database)
         scene.add_sea(hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
         scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
         scene.add_line(
-            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], stiffness=1e8,
-            tension_at_start=5e3 * 9.80665, stretch=stretch, damping_ratio=0.05,
+            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], EA=1e8,
+            tension_at_start=5e3 * 9.80665, rung=rung, damping_ratio=0.05,
         )  # fmt: skip
         limit = Criterion(
             channel="line_tension", where={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
@@ -542,7 +542,7 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is(datab
                 seeds=range(1, 4), duration=150.0, start_up=50.0, hs=(1.0, 1.5, 2.0), rtol=1e-3,
             )  # fmt: skip
         assert not table.failures
-        found[stretch] = float(table.dataset["allowable_hs"].values[0, 0])
+        found[rung] = float(table.dataset["allowable_hs"].values[0, 0])
     assert found["quasi-static"] == pytest.approx(found["elastic"], rel=0.05)
     assert found["elastic"] > 1.0
 

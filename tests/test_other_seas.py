@@ -68,7 +68,7 @@ def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
         kind="distance", name="wire", first="vessel", second="load", point=(0.0, 25.0, 20.0),
         second_point=(0.0, 25.0, 10.0),
     )  # fmt: skip
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     return scene
 
 

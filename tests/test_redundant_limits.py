@@ -38,7 +38,7 @@ def payload(top: float, yaw_rate: float) -> Scene:
         scene.add_joint(
             kind="distance", name=f"wire {i}", first="ground", second="load", point=hook, second_point=corner
         )
-        scene.add_wire(joint=f"wire {i}")
+        scene.add_line(joint=f"wire {i}", rung="rigid")
     return scene
 
 

@@ -370,7 +370,7 @@ def test_stages_are_values() -> None:
     ("given", "message"),
     [
         ({}, "nothing ends it; give its duration, or until and longest"),
-        ({"duration": 0.0}, "duration is 0 s; give a finite, positive time"),
+        ({"duration": 0.0}, "duration is 0.0 s; give a finite number above zero"),
         ({"duration": np.inf}, "duration is inf s"),
         ({"until": Until.release("on deck")}, "would never end where that is not met; give longest"),
         ({"until": Until.release("on deck"), "duration": 1.0}, "has a duration and until; leave one out"),

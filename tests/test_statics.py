@@ -149,7 +149,7 @@ def test_the_end_of_case_2_is_its_equilibrium_and_its_feed_forward() -> None:
 def test_neither_fluid_memory_nor_a_wire_matters_at_rest() -> None:
     plain = statics(cases.case2(hs=0.0, memory="none"), slew=-1.0)
     wired = cases.case2(hs=0.0, memory="convolution")
-    wired.add_wire(joint="link")
+    wired.add_line(joint="link", rung="rigid")
     told = statics(wired, slew=-1.0)
     for name, values in plain.columns.items():
         assert told[name].item() == pytest.approx(values.item(), rel=1e-6), name
@@ -307,7 +307,7 @@ def test_lines_tell_their_lengths() -> None:
     scene = Scene(name="line", gravity=G)
     scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)], stiffness=1e7,
+        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)], EA=1e7,
         length=19.9,
     )  # fmt: skip
     found = statics(scene)

@@ -47,7 +47,7 @@ def test_a_report_lists_the_warnings_of_the_description(tmp_path) -> None:
 def test_what_a_run_warns_of_at_its_start_is_listed_too() -> None:
     scene = Scene(name="slow winch")
     scene.add_body(name="load", mass=2e4, inertia=[3e4] * 3, position=(0, 0, -15))
-    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7,
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7,
                    tension_at_start=2e4 * scene.gravity)  # fmt: skip
     scene.add_winch(line="wire", lag=200.0)
     result = quietly(lambda: simulate(scene, t_end=0.1))

@@ -80,7 +80,7 @@ def test_a_crane_that_loses_its_load_and_comes_to_rest_is_no_fault_of_its_gain()
         position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
     )  # fmt: skip
     scene.add_line(
-        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e9,
+        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e9,
         tension_at_start=mass * scene.gravity,
     )  # fmt: skip
     scene.hold_pressures()

@@ -331,7 +331,7 @@ def test_names_and_kinds_are_kept_apart() -> None:
                 scene.add_wind(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
     with pytest.raises(SceneError, match="line 'wind': the name is used twice: flow force 'wind' has it"):
         scene.add_line(
-            name="wind", bodies=["ground", "block"], points=[[0, 0, 9], [0, 0, 0]], stiffness=1e6, length=9.0
+            name="wind", bodies=["ground", "block"], points=[[0, 0, 9], [0, 0, 0]], EA=1e6, length=9.0
         )
     with pytest.raises(SceneError, match=r"is of no known kind; give one of .*Actuator, PointForce"):
         scene.add_load(3.0)

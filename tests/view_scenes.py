@@ -32,7 +32,7 @@ def alone() -> Result:
 def thrown() -> Result:
     """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
     scene = cases.case2()
-    scene.add_wire(joint="link")
+    scene.add_line(joint="link", rung="rigid")
     load = scene.bodies["payload"]
     scene.bodies["payload"] = Body(
         name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,

@@ -12,7 +12,7 @@ import test_ikeda_roll_damping as ikeda
 import test_mooring as mooring
 
 from seacrane import load_database
-from seacrane.hydro.hull.ikeda_components import friction, lift
+from seacrane.hydro.hull.ikeda import friction, lift
 from seacrane.scene import MooringSpring, mooring_matrix
 
 from .row import Row

@@ -70,7 +70,7 @@ def study_scene(wire: str = "rigid") -> Scene:
         scene.remove("link")
         scene.add_line(
             name="wire", bodies=[link.first, link.second],
-            points=[link.first_frame.point, link.second_frame.point], stiffness=STIFFNESS,
+            points=[link.first_frame.point, link.second_frame.point], EA=STIFFNESS,
             length=LINK / (1.0 + MASS * G / STIFFNESS),
         )  # fmt: skip
     scene.add_pendulum_damping(

@@ -50,9 +50,9 @@ def lifted(stiffness: float, stretch: str) -> Scene:
         name="link",
         bodies=[link.first, link.second],
         points=[link.first_frame.point, link.second_frame.point],
-        stiffness=stiffness,
+        EA=stiffness,
         length=LINK / (1.0 + WEIGHT / stiffness),
-        stretch=stretch,
+        rung=stretch,
     )
     return scene
 

@@ -18,7 +18,7 @@ scene.add_body(name="load", mass=MASS, inertia=(2e5, 2e5, 2e5), position=(x, y, 
 scene.add_joint(kind="weld", name="grillage", first="barge", second="load")
 scene.add_seat(joint="grillage")
 path = {"bodies": [crane.tip[0], "load"], "points": [crane.tip[1], (0.0, 0.0, 0.0)]}
-scene.add_line(name="hoist", **path, stiffness=EA, length=tip - DECK + SLACK)
+scene.add_line(name="hoist", **path, EA=EA, length=tip - DECK + SLACK)
 scene.add_winch(line="hoist", lag=0.2)
 lift = Stage(name="lift", until=Until.release("grillage"), longest=60.0, commands={"hoist.rate": -RATE})
 stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]

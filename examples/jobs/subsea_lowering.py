@@ -17,7 +17,7 @@ scene.add_body(name="load", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(x, y, 
 strain = MASS * scene.gravity / EA
 first, deep = (tip - START) / (1.0 + strain), (tip + DEPTH) / (1.0 + strain)
 path = {"bodies": [jib, "load"], "points": [head, (0.0, 0.0, 0.0)]}
-scene.add_line(name="wire", **path, stiffness=EA, length=first)
+scene.add_line(name="wire", **path, EA=EA, length=first)
 scene.add_winch(line="wire", lag=0.2)
 lower = Stage(name="lower", until=Until.length("wire", above=deep), longest=300, commands={"wire.rate": RATE})
 stop = Stage(name="stop", duration=30.0, commands={"wire.rate": 0.0})

@@ -42,9 +42,12 @@ class SeacraneError(Exception):
     result : Result or None
         What a run had recorded when it raised this, with `interrupted` set and its last good state; None
         outside a run.
+    name : str
+        Of the element that it is about, where what raised it says so; else empty.
     """
 
     result: Recorded | None = None
+    name: str = ""
 
 
 class SceneError(SeacraneError, ValueError):
@@ -56,12 +59,24 @@ class OutputMemoryError(SceneError, MemoryError):
 
 
 class FileFormatError(SeacraneError, ValueError):
-    """A file is truncated, malformed or of an unknown kind."""
+    """A file is truncated, malformed or of an unknown kind.
+
+    Attributes
+    ----------
+    placed : bool
+        Whether the message begins with the file and the line.
+    """
+
+    placed: bool = False
 
 
 class SimulationError(SeacraneError, RuntimeError):
     """A run could not be continued; the message says which state, when, and what to try; `result` holds
     the outputs until then."""
+
+
+class LineSlackError(SimulationError):
+    """A line on the rung "quasi-static" would go slack, or has hauled in to its end; the message names it."""
 
 
 class ChatteringError(SimulationError):

@@ -19,6 +19,10 @@ SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that 
 KEYWORDS: dict[str, dict[str, str]] = {
     "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
     "Outputs": {"dt": "dt_out"},
+    "add_line": {"stiffness": "EA", "stretch": "rung"},
+    "add_bridle": {"stiffnesses": "EA", "stretch": "rung"},
+    "Line": {"stiffness": "EA", "stretch": "rung"},
+    "LuffingRope": {"stiffness": "EA"},
     **{name: {"database": KEPT, BY_PLACE: KEPT} for name in (
         "add_sea", "add_drift", "use_actual_position", "use_slow_position",
     )},
@@ -26,13 +30,24 @@ KEYWORDS: dict[str, dict[str, str]] = {
         "ensemble", "allowable_hs", "trade", "model_error", "plot_rao", "LinearControl", "HookLoadControl",
     )},
 }  # fmt: skip
+# Methods of `Scene`.
+METHODS: dict[str, str] = {
+    "add_wire": "write add_line(joint=..., rung='rigid')",
+    "add_heavy_line": "write add_line(..., rung='with mass'), with EA, segment_rung for stiffness, stretch",
+}
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {"plot_history": "Result.plot"}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
-LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
+LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {
+    "wire": ("line", {"rung": "rigid"}),
+    "heavy_line": ("line", {"rung": "with mass"}),
+}
 # Keys of lift and study files without their units, by table, such as "limit_state" or "stage.until".
 LIFT_KEYS: dict[str, dict[str, str]] = {
+    "line": {"stiffness": "EA", "stretch": "rung"},
+    "heavy_line": {"stiffness": "EA", "stretch": "segment_rung"},
+    "bridle": {"stiffnesses": "EA", "stretch": "rung"},
     "method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
     "outputs": {"dt": "dt_out"},
 }

@@ -85,7 +85,8 @@ def simulate(
     GrowingModeWarning
         After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
     LineRungWarning
-        After a run that began anew because a line with stretch="auto" went slack; in `stats` likewise.
+        After a second run, with elastic lines, in the place of one in which a line with rung="auto" went
+        slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
     LoadInHullWarning, FreeCraneWarning, LiftedStartWarning, QuasiStaticLineWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
@@ -96,5 +97,5 @@ def simulate(
             scene, t_end, accuracy, method=method, outputs=outputs, start=start, controllers=called,
             progress=progress, shorthand=shorthand,
         )  # fmt: skip
-    run = Run(scene, t_end, method=method, outputs=outputs, start=start, **shorthand)
+    run = Run(scene, t_end, method=method, outputs=outputs, start=start, controlled=bool(called), **shorthand)
     return finished(run, called, progress=progress)

@@ -291,13 +291,13 @@ class Compiler {
       const std::string what = "line '" + line.name + "': its stretch is quasi-static, and ";
       if (!model_.limits.empty()) {
         throw SceneError(what + "limit '" + model_.limits.front().name +
-                         "' makes impacts, which shake the line; choose stretch 'elastic'");
+                         "' makes impacts, which shake the line; choose rung 'elastic'");
       }
       for (const VesselDescription& v : scene_.vessels) {
         if (v.kinematics != VesselKinematics::paper) continue;
         throw SceneError(what + "vessel '" + v.name +
                          "' has kinematics 'paper', whose mass is not symmetric; "
-                         "choose 'yaw_following', or stretch 'elastic'");
+                         "choose 'yaw_following', or rung 'elastic'");
       }
     }
   }

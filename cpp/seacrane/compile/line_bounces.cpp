@@ -39,7 +39,7 @@ class BounceFinder {
     if (lines_.empty() || model_.paper_kinematics) return {};
     factor();
     for (const Line& line : lines_) {
-      add([&](Vec6d* w) { line.add_path(input(), w); }, line.stiffness / line.length.at(0.0).value, &line);
+      add([&](Vec6d* w) { line.add_path(input(), w); }, line.EA / line.length.at(0.0).value, &line);
     }
     if (lines_.size() > kMostCoupled) return one_by_one();
     add_others();

@@ -62,8 +62,8 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
   if (options.formulation == "redundant" && !inertial) residual.emplace(*bodies.maximal());
   if (inertial && integrator_of(options.integrator).residual_form) {
     throw std::invalid_argument("integrator \"" + options.integrator +
-                                "\" has no accelerations for lines with stretch 'quasi-static'; choose "
-                                "another one, or stretch 'elastic'");
+                                "\" has no accelerations for lines with rung 'quasi-static'; choose "
+                                "another one, or rung 'elastic'");
   }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, *model, options));

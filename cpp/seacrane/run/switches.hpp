@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace seacrane {
 struct LimitReached {
   double time = 0.0;  // s
   std::string name;
+};
+
+/// A line on the quasi-static rung that would go slack, or whose winch has hauled in to its end.
+class LineSlackError : public std::domain_error {
+ public:
+  using std::domain_error::domain_error;
 };
 
 /// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a

@@ -13,7 +13,7 @@ from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.channels import CHANNELS, DERIVED
 
@@ -112,9 +112,7 @@ def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -
     for name, value in accuracy.items():
         if name not in quantities:
             raise SceneError(f"accuracy: {name!r} was not measured; choose from {', '.join(quantities)}")
-        limit = number_of(f"accuracy: {name}", value)
-        if not (np.isfinite(limit) and limit > 0.0):
-            raise SceneError(f"accuracy: {name} is {limit}; give a finite number above zero")
+        limit = positive_of(f"accuracy: {name}", value)
         out[name] = limit
     return out
 

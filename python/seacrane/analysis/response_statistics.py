@@ -20,7 +20,7 @@ from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
@@ -153,9 +153,7 @@ def response_statistics(
     EncounterFrequencyWarning
         At forward speed more than 10 % of the energy is met outside the table of the matrices.
     """
-    span = number_of("duration", duration)
-    if not (np.isfinite(span) and span > 0.0):
-        raise SceneError(f"duration is {span} s; give a finite positive number")
+    span = positive_of("duration", duration, "s")
     if spreading is not None and not isinstance(spreading, Spreading):
         raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
     linear = linear_of(scene, state, memory, database)

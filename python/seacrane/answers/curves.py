@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.hanging import POSES, hanging_vectors, swing
 from seacrane.errors import FileFormatError
+from seacrane.figures.overview import payload_bodies
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import Result
 from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
@@ -23,6 +25,7 @@ MOTIONS = ("heave", "roll", "pitch")
 SAME = {"tension": "link_tension"}
 REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
+POSES = ("position", "quaternion")
 CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
 SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
 
@@ -157,3 +160,34 @@ def _motions(result: Result) -> list[Curve]:
         Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, values=one.values)
         for one in beyond_rounding(every)
     ]
+
+
+def hanging_vectors(result: Result) -> dict[str, Array]:
+    """From the upper to the lower end of the one link that each load hangs on, (n, 3), m, inertial axes.
+
+    By body. Empty where the poses were not recorded, or a result notes no links.
+    """
+    if not set(POSES) <= set(result.channels):
+        return {}
+    links = result.about.outline.get("links", [])
+    found = {}
+    for body in payload_bodies(result):
+        own = [link for link in links if link[2] == body]
+        if len(own) == 1:
+            first, first_point, _, point = own[0]
+            found[body] = _place(result, body, point) - _place(result, first, first_point)
+    return found
+
+
+def swing(vector: Array) -> Array:
+    """Angle (n,) of hanging vectors (n, 3) from straight down, rad."""
+    return np.arctan2(np.hypot(vector[:, 0], vector[:, 1]), -vector[:, 2])
+
+
+def _place(result: Result, body: str, point: Sequence[float]) -> Array:
+    """Of a point given from a body's centre of mass; of the ground as it is."""
+    at = np.asarray(point, dtype=float)
+    if body not in result.coords["body"]:
+        return at
+    turn = rotation_matrix(result.select("quaternion", body=body))
+    return np.asarray(result.select("position", body=body) + turn @ at)

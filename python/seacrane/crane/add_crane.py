@@ -260,7 +260,7 @@ class _Frame:
         """With its blocks in the coordinates of the scene's bodies."""
         ends = [self._block(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
         return LuffingRope(
-            name=prefix + rope.name, falls=rope.falls, stiffness=rope.stiffness, first=ends[0], second=ends[1]
+            name=prefix + rope.name, falls=rope.falls, EA=rope.EA, first=ends[0], second=ends[1]
         )
 
     def _block(self, name: str, at: Array) -> tuple[str, Vector]:

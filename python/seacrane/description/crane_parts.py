@@ -134,10 +134,10 @@ def _check_rope(
     for body, _ in (rope.first, rope.second):
         if body != GROUND:
             _require(what, f"rope {rope.name!r}: block", body, scene.bodies, "body")
-    if not (rope.falls >= 1 and np.isfinite(rope.stiffness) and rope.stiffness > 0.0):
+    if not (rope.falls >= 1 and np.isfinite(rope.EA) and rope.EA > 0.0):
         raise SceneError(
-            f"{what}: rope {rope.name!r} has {rope.falls} falls of EA {rope.stiffness:g} N; give one fall or "
-            "more, and a stiffness above zero"
+            f"{what}: rope {rope.name!r} has {rope.falls} falls of EA {rope.EA:g} N; give one fall or "
+            "more, and an EA above zero"
         )
 
 
@@ -163,6 +163,12 @@ def cylinders(scene: Description) -> dict[str, str]:
         for label, joint in roles.cylinders.items()
         if joint in scene.joints
     }
+
+
+def drive_named(scene: Description, label: str) -> tuple[str, str] | None:
+    """Joint and coordinate of a slew drive, luff or cylinder by its label, such as "slew" or "aft main"."""
+    strokes = {name: (joint, "displacement") for name, joint in cylinders(scene).items()}
+    return {**strokes, **luffs(scene), **slews(scene)}.get(label)
 
 
 def piston_areas(scene: Description) -> dict[str, Areas]:

@@ -13,6 +13,7 @@ from seacrane.description.scene import ELEMENTS, KINDS, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import KEYWORDS
 
 EDITED = (
     *ELEMENTS,
@@ -55,7 +56,9 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     unknown = [argument for argument in changes if argument not in arguments]
     if unknown or "name" in changes:
         known = ", ".join(argument for argument in arguments if argument != "name")
-        raise SceneError(f"{what}: cannot change {[*unknown, 'name'][0]!r}; it has {known}")
+        first, older = [*unknown, "name"][0], KEYWORDS.get(type(old).__name__, {})
+        has = f"since 0.3 it is {older[first]!r}" if first in older else f"it has {known}"
+        raise SceneError(f"{what}: cannot change {first!r}; {has}")
     if changes.get("database") is not None:
         require_alike(scene, old, changes["database"])
     for argument, value in changes.items():

@@ -24,14 +24,16 @@ _ADDED_LATER: Mapping[type, frozenset[str]] = {
          "frictions", "slip_speed", "strains", "tensions")
     ),
 }  # fmt: skip
+# Entries that files name as 0.2 did: scenes keep their digests, and 0.2 reads them.
+_IN_FILES: Mapping[type, Mapping[str, str]] = {_core.Line: {"EA": "stiffness", "rung": "stretch"}}
 
 
 def element_to_data(element: Any) -> dict[str, Any]:
     """An element's entries as plain data."""
-    later = _ADDED_LATER.get(type(element), frozenset())
+    later, keys = _ADDED_LATER.get(type(element), frozenset()), _IN_FILES.get(type(element), {})
     values = {field: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
     return {
-        field.name: value
+        keys.get(field.name, field.name): value
         for field, value in values.items()
         if field.name not in later or value != _plain(field.default)
     }
@@ -42,7 +44,8 @@ def element_from_node(kind: type, node: Node, keys: Mapping[str, str] | None = N
 
     `keys`: entries of the file that are named otherwise than the arguments. Raises FileFormatError.
     """
-    fields = {(keys or {}).get(field.name, field.name): field for field in kind.FIELDS}  # type: ignore[attr-defined]
+    spelt = {**_IN_FILES.get(kind, {}), **(keys or {})}
+    fields = {spelt.get(field.name, field.name): field for field in kind.FIELDS}  # type: ignore[attr-defined]
     node.expect(
         [k for k, f in fields.items() if f.required], [k for k, f in fields.items() if not f.required]
     )

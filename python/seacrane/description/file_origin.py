@@ -98,7 +98,7 @@ def _areas(node: Node) -> dict[str, Any]:
 
 def _rope_to_data(rope: LuffingRope) -> dict[str, Any]:
     ends = {key: {"body": body, "point": list(point)} for key, (body, point) in _ends(rope).items()}
-    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.stiffness} | ends
+    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.EA} | ends
 
 
 def _ends(rope: LuffingRope) -> dict[str, tuple[str, Vector]]:
@@ -113,8 +113,8 @@ def _rope_from_node(node: Node) -> tuple[str, LuffingRope]:
         node.at(key).expect(("body", "point"))
         x, y, z = node.at(key).at("point").array((3,)).tolist()
         ends[key] = (node.at(key).at("body").text(), (x, y, z))
-    falls, stiffness = (node.at(key).number() for key in ("falls", "stiffness"))
-    rope = LuffingRope(name=node.at("name").text(), falls=int(falls), stiffness=stiffness, **ends)
+    falls, axial = (node.at(key).number() for key in ("falls", "stiffness"))
+    rope = LuffingRope(name=node.at("name").text(), falls=int(falls), EA=axial, **ends)
     return node.at("luff").text(), rope
 
 

@@ -10,10 +10,10 @@ from seacrane import _core
 from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
 from seacrane.description.holding import decided
+from seacrane.description.places import placed
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
-from seacrane.inputs.frames import rotation_matrix
 
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
@@ -110,14 +110,10 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     """At which the cylinder stands as described, m."""
     places = []
     for end in ("first", "second"):
-        body, point = settings[end], np.asarray(settings.get(f"{end}_point", (0.0, 0.0, 0.0)), dtype=float)
-        if body == GROUND:
-            places.append(point)
-            continue
-        if body not in scene.bodies:
+        body = settings[end]
+        if body != GROUND and body not in scene.bodies:
             raise SceneError(f"{what}: there is no body {body!r}; add it first")
-        described = scene.bodies[body]
-        places.append(np.asarray(described.position) + rotation_matrix(described.quaternion) @ point)
+        places.append(placed(scene, body, settings.get(f"{end}_point", (0.0, 0.0, 0.0))))
     length = float(np.linalg.norm(places[1] - places[0]))
     shortest = number_of(f"{what}: retracted_length", settings["retracted_length"])
     longest = shortest + number_of(f"{what}: stroke", settings["stroke"])

@@ -23,7 +23,7 @@ STANDARD_GRAVITY = 9.80665
 Some = TypeVar("Some", bound="Description")
 
 
-KINDS: Mapping[str, str] = {  # what the elements of each table are called
+COMPILED: Mapping[str, str] = {  # what the elements of each table are called
     "bodies": "body",
     "joints": "joint",
     "drivers": "driver",
@@ -35,6 +35,9 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "loads": "load",
     "vessels": "vessel",
     "points": "point",
+}
+KINDS: Mapping[str, str] = {
+    **COMPILED,
     "recorded": "recorded coordinate",
     "ranges": "range",
     "roles": "crane",
@@ -43,8 +46,8 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "clearances": "clearance",
     "meshes": "mesh",
 }
-ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
-LOADS = tuple(KINDS)[3:9]  # of these, loads
+ELEMENTS = tuple(COMPILED)
+LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
 
 
 @dataclass(kw_only=True, eq=False, repr=False)

@@ -41,6 +41,7 @@ from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
     from typing_extensions import Unpack
 
@@ -78,6 +79,13 @@ class Ensemble:
     def parameters(self, index: int) -> dict[str, Any]:
         """What a member has of what varies."""
         return self.members.values(index)
+
+    def __str__(self) -> str:
+        return f"{repr(self)[1:-1]}\n{self.to_dataframe()}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """What was kept as columns of a table, over the parameters; of kept curves over their axes too."""
+        return self.dataset.drop_vars(("failure", "validity", "kept_apart"), errors="ignore").to_dataframe()
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Ensemble:

@@ -13,8 +13,7 @@ from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
-from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
+from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
@@ -107,7 +106,7 @@ class Job:
 def _stepped(run: Run) -> Run:
     """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
     with Interrupts() as interrupts:
-        drive(run, Calls((), run.start.time), interrupts)
+        run = ended(run, (), interrupts)
     interrupts.take()  # pressed as the run ended: the members after it are not to be run
     if run.interrupted:
         raise KeyboardInterrupt

@@ -10,7 +10,7 @@ import numpy as np
 
 from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.result.channels import attributes
@@ -72,14 +72,12 @@ class Kept:
             raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
         if not isinstance(self.at, Mapping):
             raise SceneError(f"kept {self.channel}: at is {shown(self.at)}; give names by dimension")
-        if not np.isfinite(number_of(f"kept {self.channel}: after", self.after)):
-            raise SceneError(f"kept {self.channel}: after is {self.after}; give a finite time in s")
+        finite_of(f"kept {self.channel}: after", self.after, "s")
         if self.step is None:
             return
         if self.what != "series":
             raise SceneError(f"kept {self.channel}: step is for a series; leave it out of {self.what!r}")
-        if not number_of(f"kept {self.channel}: step", self.step) > 0.0:
-            raise SceneError(f"kept {self.channel}: step is {self.step}; give a positive number of s")
+        positive_of(f"kept {self.channel}: step", self.step, "s")
 
     @classmethod
     def of_text(cls, text: str) -> Kept:

@@ -89,7 +89,7 @@ def sensitivity(
     source : Scene or callable
         As of `ensemble`; a function takes `seed` and the parameters.
     parameters : mapping of str to (float, float)
-        Value and step of each, such as ``{"loads.tugger.stiffness": (2e5, 2e4)}``. The error of a central
+        Value and step of each, such as ``{"loads.tugger.EA": (2e5, 2e4)}``. The error of a central
         difference goes with the square of the step.
     seeds : iterable of int
         At least 10.

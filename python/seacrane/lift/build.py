@@ -147,7 +147,7 @@ def refused_at(document: Document, entry: Entry) -> Iterator[None]:
     try:
         yield
     except (SceneError, FileFormatError, TypeError) as error:
-        if isinstance(error, FileFormatError) and str(error).startswith(document.source):
+        if isinstance(error, FileFormatError) and error.placed:
             raise
         about = _about(entry.path, entry.table.keys, entry.values, str(error))
         document.fail(entry.path if about is None else about, f"{entry.title}: {error}")

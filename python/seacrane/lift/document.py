@@ -78,7 +78,9 @@ class Document:
 
     def fail(self, path: Place, text: str) -> NoReturn:
         """Raise a FileFormatError about a place."""
-        raise FileFormatError(f"{self.place(path)}: {text}")
+        error = FileFormatError(f"{self.place(path)}: {text}")
+        error.placed = True
+        raise error
 
 
 def read_document(path: Path, kind: FileKind = LIFT) -> Document:

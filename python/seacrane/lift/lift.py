@@ -33,7 +33,7 @@ LIFTS = ("case1", "case2", "case3", "vessel")
 class Lift:
     """A lift as tables of keys with units: what `seacrane run my_lift.toml` reads. Immutable.
 
-    A table is a call of the API, such as ``[wire]`` of `Scene.add_wire`; a key is a keyword of it with its
+    A table is a call of the API, such as ``[line]`` of `Scene.add_line`; a key is a keyword of it with its
     unit, such as ``link_length_m``; docs/lift-files.md lists them.
 
     Parameters

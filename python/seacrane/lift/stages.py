@@ -56,16 +56,12 @@ def check_stages(document: Document, entries: Sequence[Entry], scene: Scene, sta
     try:
         checked_stages(scene, stages)
     except SceneError as error:
-        told = next((one for one in _tables(entries) if str(error).startswith(_title(one))), None)
+        told = next((one for one in _tables(entries) if one.values["name"] == error.name), None)
         document.fail(("stage",) if told is None else told.path, str(error))
 
 
 def _tables(entries: Iterable[Entry]) -> list[Entry]:
     return [entry for entry in entries if entry.table.name == "stage"]
-
-
-def _title(entry: Entry) -> str:
-    return f"stage {entry.values['name']!r}"
 
 
 def _stage(entry: Entry) -> Stage:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from seacrane.analysis.rest_state import equilibrium, held
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
@@ -128,7 +128,7 @@ def allowable_hs(
     """
     asked = _Asked.of(criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain)
     factor = alpha_of(alpha)
-    period = _positive("hours", hours)
+    period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
@@ -172,16 +172,14 @@ class _Asked:
     ) -> _Asked:  # fmt: skip
         if domain not in ("auto", "frequency", "time"):
             raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
-        begin = number_of("start_up", start_up)
-        if not 0.0 <= begin < np.inf:
-            raise SceneError(f"start_up is {begin} s; give zero or a positive time")
+        begin = not_negative_of("start_up", start_up, "s")
         within = _ascending("direction_deg", directions)
         if within[-1] - within[0] >= 360.0:
             raise SceneError(
                 f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
                 "once"
             )
-        periods, span = _ascending("tp", tp, above_zero=True), _positive("duration", duration)
+        periods, span = _ascending("tp", tp, above_zero=True), positive_of("duration", duration)
         if span < FEWEST_PERIODS * periods[-1]:
             raise SceneError(
                 f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
@@ -195,7 +193,7 @@ class _Asked:
             seeds=_seeds(seeds),
             duration=span,
             start_up=begin,
-            linear_within=_positive("linear_within", linear_within),
+            linear_within=positive_of("linear_within", linear_within),
         )
 
 
@@ -324,13 +322,6 @@ def _ascending(name: str, given: Any, *, above_zero: bool = False) -> tuple[floa
     if above_zero and values[0] <= 0.0:
         raise SceneError(f"{name} begins with {values[0]:g}; give numbers above zero")
     return tuple(values.tolist())
-
-
-def _positive(name: str, given: Any) -> float:
-    value = number_of(name, given)
-    if not 0.0 < value < np.inf:
-        raise SceneError(f"{name} is {value}; give a finite number above zero")
-    return value
 
 
 @contextlib.contextmanager

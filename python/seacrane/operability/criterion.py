@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, number_of
+from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.result.pick import pick_of
 from seacrane.result.units import unit_of
@@ -78,9 +78,7 @@ class Criterion:
                 f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
                 f"{', '.join(STATISTICS)}"
             )
-        exposure = number_of(f"criterion {self.name!r}: exposure", self.exposure)
-        if not (np.isfinite(exposure) and exposure > 0.0):
-            raise SceneError(f"criterion {self.name!r}: exposure is {exposure} s; give a positive time")
+        positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
 
     def _require_bound(self) -> None:
         if (self.maximum is None) == (self.minimum is None):

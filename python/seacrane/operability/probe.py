@@ -16,8 +16,7 @@ from seacrane.errors import SeacraneError
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import reached, record_numbers
 from seacrane.operability.linear_seas import LinearSeas
-from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
+from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -65,7 +64,7 @@ class Probe:
         try:
             run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
             with Interrupts() as interrupts:
-                drive(run, Calls((), run.start.time), interrupts)
+                run = ended(run, (), interrupts)
             interrupts.take()
             if run.interrupted:
                 raise KeyboardInterrupt

@@ -35,7 +35,7 @@ from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
 from seacrane.result.pick import Pick, pick_of
-from seacrane.result.table import as_html
+from seacrane.result.table import as_html, as_text
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
@@ -108,6 +108,9 @@ class Result(Mapping[str, Array]):
             f"<Result of {self.stats['scene']!r}: {self.time.size} outputs to {self.time[-1]:g} s, "
             f"{len(self.channels)} channels{stopped}>"
         )
+
+    def __str__(self) -> str:
+        return as_text(repr(self)[1:-1], self.channels, self.dims)
 
     def _repr_html_(self) -> str:
         method = f"{self.stats['formulation']}, {self.stats['integrator']}"

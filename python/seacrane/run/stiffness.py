@@ -79,13 +79,13 @@ def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
     fast = {
         whole_of(name, line)
         for name, line in lines_of(loads).items()
-        if line.stretch == "elastic" and body in line.bodies and mode * line.settling > SETTLES
+        if line.rung == "elastic" and body in line.bodies and mode * line.settling > SETTLES
     }
     names = [repr(name) for name in sorted(fast)]
     if not names:
         return ""
     return (
         f". If it is the stretch of line {' or '.join(names)} and the line stays taut, give it "
-        "stretch='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
+        "rung='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
         f"omega rad/s the tension errs by less than (omega / {mode:.4g})^2 of what omega makes of it"
     )

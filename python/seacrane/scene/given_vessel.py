@@ -19,7 +19,7 @@ from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamic
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
-from seacrane.inputs.checked import name_of, number_of, shaped_of
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.given_motion import motion_of_components
@@ -85,8 +85,8 @@ def add_given_vessel(
     """
     what = f"vessel {name_of('vessel', name)!r}"
     kind = _kind_of(what, motion)
-    grown = _not_negative(f"{what}: ramp", ramp)
-    lasting = _positive(f"{what}: duration", duration)
+    grown = not_negative_of(f"{what}: ramp", ramp, "s")
+    lasting = positive_of(f"{what}: duration", duration, "s")
     outline = _size_of(what, motion, size)
     place = shaped_of(f"{what}: position", position, (3,))
     heading = direction_of(f"{what}: heading_deg", heading_deg)
@@ -167,17 +167,3 @@ def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | 
     if not (np.isfinite([length, breadth, draught]).all() and min(length, breadth, draught) > 0.0):
         raise SceneError(f"{what}: size is {shown(size)}; give positive length, breadth and draught, m")
     return length, breadth, draught
-
-
-def _not_negative(what: str, value: Any) -> float:
-    number = number_of(what, value)
-    if not (np.isfinite(number) and number >= 0.0):
-        raise SceneError(f"{what} is {number} s; give a finite number, zero or more")
-    return number
-
-
-def _positive(what: str, value: Any) -> float:
-    number = number_of(what, value)
-    if not (np.isfinite(number) and number > 0.0):
-        raise SceneError(f"{what} is {number} s; give a finite number above zero")
-    return number

@@ -7,10 +7,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, texts_of
+from seacrane.inputs.checked import name_of, positive_of, texts_of
 from seacrane.inputs.shown import shown
 from seacrane.stages.commands import Command
 from seacrane.stages.until import Condition, Contact, Level
@@ -59,7 +57,7 @@ class Stage:
         self._set("until", _conditions(self.title, self.until))
         for key in ("duration", "longest"):
             value = getattr(self, key)
-            self._set(key, None if value is None else _seconds(f"{self.title}: {key}", value))
+            self._set(key, None if value is None else positive_of(f"{self.title}: {key}", value, "s"))
         if not isinstance(self.commands, Mapping):
             raise SceneError(f"{self.title}: commands is {shown(self.commands)}; give {{name: command}}")
         self._set("commands", MappingProxyType(dict(self.commands)))
@@ -105,13 +103,6 @@ class Stage:
 
 def _made(parts: dict[str, Any]) -> Stage:
     return Stage(**parts)
-
-
-def _seconds(what: str, value: Any) -> float:
-    seconds = number_of(what, value)
-    if not (np.isfinite(seconds) and seconds > 0.0):
-        raise SceneError(f"{what} is {seconds:g} s; give a finite, positive time")
-    return seconds
 
 
 def _conditions(what: str, given: Any) -> tuple[Condition, ...]:

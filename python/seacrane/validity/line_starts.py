@@ -45,7 +45,7 @@ def start_tension(line: _core.Line, path: float) -> float:
     length = float(line.length.evaluate([0.0])[0, 0])
     strain = path / length - 1.0
     if not len(line.strains):
-        return max(0.0, float(line.stiffness) * strain)
+        return max(0.0, float(line.EA) * strain)
     return float(np.interp(strain, line.strains, line.tensions))
 
 

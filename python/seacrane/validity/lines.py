@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of, whole_of
-from seacrane.description.stretch import QUASI_STATIC
+from seacrane.description.rungs import QUASI_STATIC
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import (
     FleetAngleWarning,
@@ -145,7 +145,7 @@ def strains_at_rest(scene: Description) -> dict[str, float]:
     """Of lines with a constant EA that alone carry what hangs on them, by that weight."""
     lines = lines_of(scene.loads)
     return {
-        name: weight / falls / lines[name].stiffness
+        name: weight / falls / lines[name].EA
         for name, (weight, falls) in line_weights(scene).items()
         if not len(lines[name].strains)
     }
@@ -181,12 +181,12 @@ def _contradicted(
 def _pushed(named: tuple[str, _core.Line], tension: Array, time: Array) -> Iterator[Finding]:
     name, line = named
     worst = int(np.argmin(tension))
-    if line.stretch != QUASI_STATIC or tension[worst] >= 0.0:
+    if line.rung != QUASI_STATIC or tension[worst] >= 0.0:
         return
     yield (
         PushingLineWarning,
         f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
-        "quasi-static, and follows the tension too late to go slack. Give it stretch 'elastic'",
+        "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
     )
 
 

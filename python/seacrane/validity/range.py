@@ -151,7 +151,7 @@ def _links(scene: Description, time: Array, channels: Channels) -> list[Finding]
                     PushingLinkWarning,
                     f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
                     "cannot: it would be slack, and its load when it tightens again is not in this result. "
-                    f"scene.add_wire(joint={name!r}) makes it a wire",
+                    f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
                 )
             )
     return found

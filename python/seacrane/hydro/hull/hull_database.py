@@ -17,6 +17,7 @@ from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import positive_of
 from seacrane.warnings import FloatingPositionWarning
 
 FloatArray = NDArray[np.float64]
@@ -88,8 +89,7 @@ def hydro_from_hull(
     shape = Hull.from_parametric(hull) if isinstance(hull, ParametricHull) else hull
     _require_choice(shape.name, method, speed, roll_damping_fraction)
     for what, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
-        if not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"hull {shape.name!r}: {what} is {value}; give a positive number")
+        positive_of(f"hull {shape.name!r}: {what}", value)
     centre = _vector(shape.name, "centre_of_gravity", centre_of_gravity)
     if abs(centre[1]) > 1e-9 * shape.breadth:
         raise ValueError(
