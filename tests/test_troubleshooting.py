@@ -45,7 +45,7 @@ def test_every_stop_of_a_run_has_an_entry(site: str) -> None:
 
 @pytest.mark.parametrize("fragment", fragments())
 def test_every_message_on_the_page_is_one_of_the_package(fragment: str) -> None:
-    reports = [CPP / "run" / "guards.cpp", PYTHON / "run" / "step_advice.py"]
+    reports = [CPP / "run" / "guards.cpp", PYTHON / "run" / "advance.py"]
     words = [*SITES.values(), *("".join(LITERAL.findall(path.read_text())) for path in reports)]
     assert any(fragment in text for text in words)
 

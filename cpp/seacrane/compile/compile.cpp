@@ -90,7 +90,6 @@ class Compiler {
     return static_cast<int>(model_.load_states.size()) - 1;
   }
   double mass(const std::string& body) const { return scene_.bodies[idx(index_.at(body))].mass; }
-  /// Of lengths, m: what errors of positions count over.
   double gravity() const { return scene_.gravity; }
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 

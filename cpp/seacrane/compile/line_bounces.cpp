@@ -24,7 +24,7 @@ struct Pull {
   const Line* line = nullptr;
 };
 
-/// Of a load with stiff states, along its direction: they follow its rate.
+/// The stiffness of a load with stiff states along its direction, when these follow its rate.
 double stiffness_of(const StiffSlopes& slopes) {
   const Eigen::Index n = slopes.rows() - 1;
   return std::abs(slopes.block(0, 1, 1, n).row(0).dot(slopes.block(1, 0, n, 1).col(0)));

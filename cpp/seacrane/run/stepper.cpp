@@ -21,7 +21,7 @@ std::string formulation_of(const Model& model, const RunOptions& run) {
   return rigid ? "redundant" : run.formulation;
 }
 
-/// Of the tolerances of load states, which are the last before both integrals of work.
+/// Adds how tolerances of load states grow. These states are the last before both integrals of work.
 void add_growth(const Model& model, const RunOptions& run, IntegratorOptions& out) {
   const std::vector<LoadState>& states = model.load_states;
   if (std::ranges::none_of(states, [](const LoadState& one) { return one.growth > 0.0; })) return;

@@ -25,7 +25,7 @@ def add_drift(
     *,
     vessel: str | None = None,
     outside: Literal["error", "hold"] = "error",
-) -> None:
+) -> Waves:
     """Add the slowly varying wave drift load from mean drift coefficients, by Newman's approximation.
 
     F(t) = sum_ik a_i a_k (D_i + D_k) / 2 cos(theta_i - theta_k) with the coefficients D of the database at
@@ -54,6 +54,7 @@ def add_drift(
         by_heading = drift_by_heading(database, waves.omega, outside)
     drift = _drift_at(database, waves.omega, waves.direction - hull.heading, outside)
     scene.waves = waves.changed(vessel, drift=drift, drift_by_heading=by_heading)
+    return scene.waves
 
 
 def sea_of(scene: Description, what: str) -> Waves:

@@ -18,7 +18,7 @@ from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.beyond_band import without_load
 from seacrane.hydro.data.long_waves import warn_of_long_waves
-from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.caller import tell, warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
@@ -56,7 +56,7 @@ def add_sea(
     evaluation: str | None = None,
     phase: Literal["mean", "slow", "actual"] = "mean",
     drift: bool = False,
-) -> None:
+) -> Waves | None:
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
 
     A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
@@ -100,6 +100,11 @@ def add_sea(
     The sea is as deep as the database, or as `sea` says. It keeps all its components: loads at frequencies
     that the database does not hold follow from `HydroDatabase.force_at` with ``outside="limits"``.
 
+    Returns
+    -------
+    Waves or None
+        `scene.waves`; None for an hs of 0. A direction or gamma that is not given is told on the terminal.
+
     Raises
     ------
     SceneError
@@ -129,8 +134,10 @@ def add_sea(
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
         scene.waves = None
-        return
+        return None
     _require_vessel(scene, vessel)
+    if scene.waves is None and sea is None:
+        _tell_assumed(given)
     database = source_of(scene, vessel)
     waves = _evaluated(
         _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
@@ -145,7 +152,7 @@ def add_sea(
                 f"sea: vessel {vessel!r} has a given motion, no loads; leave out drift and phase"
             )
         scene.waves = put_into_sea(scene, waves, vessel=vessel, place=place, heading=heading)
-        return
+        return scene.waves
     database = database_of(scene, vessel, "a sea")
     warn_of_long_waves(database)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
@@ -158,6 +165,20 @@ def add_sea(
         use_actual_position(scene, vessel=vessel)
     if phase == "slow":
         use_slow_position(scene, vessel=vessel)
+    return scene.waves
+
+
+def _tell_assumed(given: dict[str, Any]) -> None:
+    """The direction and the peakedness of a sea that was given without them."""
+    peaked = given.get("spectrum", "jonswap") == "jonswap"
+    assumed = {"direction_deg": "135"} | ({"gamma": "3.3"} if peaked else {})
+    told = [f"{name}={value}" for name, value in assumed.items() if name not in given]
+    if told:
+        tell(
+            f"sea: {' and '.join(told)} assumed (135 deg: from the starboard bow)"
+            if "direction_deg" not in given
+            else f"sea: {' and '.join(told)} assumed"
+        )
 
 
 def _sea_of(

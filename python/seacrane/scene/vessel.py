@@ -24,7 +24,7 @@ from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_moo
 from seacrane.scene.mooring_parts import Mooring
 from seacrane.scene.vessel_memory import core_memory, memory_of
 
-MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
+MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
 MEMORY = ("by-motion", "per-pair", "passive", "convolution", "none")
 

@@ -97,7 +97,7 @@ struct Line {
       const T taken = (tension - inertial) * share * length / unstretched;
       return -(taken - stored - kinetic) * unstretched_rate;
     }
-    /// The same of an inertial tension of 1 N.
+    /// The winch's power for an inertial tension of 1 N.
     T winch_power_per_inertial() const { return -share * length / unstretched * unstretched_rate; }
     T power_per_inertial() const { return winch_power_per_inertial() - lost; }
     T friction_power() const { return -lost * (tension - inertial); }
@@ -289,7 +289,7 @@ struct Line {
     });
     return out;
   }
-  /// Of all margins that change, positive on the first side: the least, so that the first crossing is found.
+  /// The least of all margins that change, positive on the first side: so the first crossing is found.
   double across(const LoadInput<double>& in, int from, int to) const {
     const Margins now = margins(in);
     const int changed = from ^ to, sheaves = first_held(winch.has_value());

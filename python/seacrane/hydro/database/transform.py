@@ -45,7 +45,7 @@ def motion_transform(point: FloatArray) -> FloatArray:
 
 
 def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
-    """`HydroDatabase.at`, whose docstring says what each part becomes."""
+    """Move the reference point. The docstring of `HydroDatabase.at` says what each part becomes."""
     r = _point(database, point, net_lift)
     if r[1] != 0.0 and database.port_starboard_symmetric:
         database = _unfolded(database)
