@@ -15,6 +15,7 @@
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
 #               and findings in out/fuzz; goes on where the last call stopped
+# make release-check  tables of benchmarks/ that another engine measured
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
@@ -22,7 +23,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer wheel format clean distclean \
+.PHONY: demo test build nightly bench bench-peers release-check docs extremes notebooks stubs viewer wheel format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
@@ -36,7 +37,7 @@ STAMPS := build/stamps
 PACKAGE_BUILD := build/package
 SANITIZE_BUILD := build/sanitize
 TSAN_BUILD := build/tsan
-CPP_FILES = $(shell find cpp -name '*.hpp' -o -name '*.cpp')
+CPP_FILES = $(shell find cpp docs/additions -name '*.hpp' -o -name '*.cpp')
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 system-packages:
@@ -151,6 +152,10 @@ validation: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+release-check: build .venv/.installed-dev
+	$(BIN)/python benchmarks/documents.py --check
+	$(BIN)/python benchmarks/release_check.py
 
 # Read afresh each time: what stayed unread would keep its warnings to itself.
 docs: build .venv/.installed-dev

@@ -55,7 +55,7 @@ def measured() -> dict[str, float]:
 
 
 def _evaluation_ns(model: Any, formulation: str) -> float:
-    from seacrane import Evaluator
+    from seacrane.analysis import Evaluator
 
     evaluator, state = Evaluator(model, formulation), model.initial_state
     evaluator.repeat(0.0, state, EVALUATIONS // 10, STEP)
@@ -102,7 +102,6 @@ def main() -> int:
     parser.add_argument("--here", default=str(HERE.parent / "python"), help="PYTHONPATH of this one")
     parser.add_argument("--label", default="before", help="what the older one is called")
     parser.add_argument("--turns", type=int, default=7)
-    parser.add_argument("--publish", action="store_true", help="write into benchmarks/results")
     options = parser.parse_args()
     if options.measure:
         import seacrane
@@ -127,8 +126,6 @@ def main() -> int:
         rows=[[name, before[name], now[name], before[name] / now[name]] for name in now],
     )
     print(section.markdown())
-    if options.publish:
-        section.save(HERE / "results")
     return 0
 
 

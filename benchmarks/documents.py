@@ -1,37 +1,60 @@
 """Fills the tables of documents from files of measurements: ``python benchmarks/documents.py [--check]``.
 
+With ``--measured FILE ...`` it notes first that this engine and machine have measured these files.
+
 A document marks a table by the file that it shows, relative to the repository:
 
     <!-- table benchmarks/results/wave-loads.csv; columns: components | table; rows: components = 10 | 300 -->
     <!-- end of table -->
 
-Without `columns` and `rows` it shows all of them. Cells are shown as the file holds them.
+Without `columns` and `rows` it shows all of them. Cells are shown as the file holds them, and below them what
+measured them. A mark `place` in the place of `table` gets a link to the file instead. A mark `warnings` with
+a class of `seacrane.warnings` gets the docstrings of those below it.
 """
 
 from __future__ import annotations
 
 import argparse
+import inspect
+import os
 import re
 import sys
 from pathlib import Path
 
+from measure.engine import record, words
 from measure.table import markdown, read
+
+import seacrane
 
 ROOT = Path(__file__).resolve().parents[1]
 PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
+PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 BLOCK = re.compile(
-    r"^<!-- table (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n(?P<table>.*?)<!-- end of table -->",
+    r"^<!-- (?P<word>table|place|warnings) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n"
+    r".*?<!-- end of (?P=word) -->",
     re.DOTALL | re.MULTILINE,
 )
 
 
-def filled(text: str) -> str:
-    """The document with every marked table as its file has it."""
-    return BLOCK.sub(_block, text)
+def filled(text: str, folder: Path = ROOT) -> str:
+    """The document, which lies in a folder, with every marked table as its file has it."""
+    makers = {"place": lambda match: _place(match, folder), "table": _table, "warnings": _entries}
+    return BLOCK.sub(lambda match: makers[match["word"]](match), text)
 
 
-def _block(match: re.Match[str]) -> str:
+def with_tables(text: str) -> str:
+    """The document with tables in all their places, as the site shows them."""
+    return filled(re.sub(r"<!-- (end of )?place ", r"<!-- \1table ", text))
+
+
+def _place(match: re.Match[str], folder: Path) -> str:
+    file = ROOT / match["file"]
+    link = f"[{file.name}]({os.path.relpath(file, folder)})"
+    return f"<!-- place {match['file']} -->\n{link}: {words(file)}\n<!-- end of place -->"
+
+
+def _table(match: re.Match[str]) -> str:
     head, rows = read(ROOT / match["file"])
     shown = list(range(len(head)))
     for option in match["options"].split(";")[1:]:
@@ -44,7 +67,21 @@ def _block(match: re.Match[str]) -> str:
         else:
             raise ValueError(f"{match['file']}: a table has no option {name!r}; give columns or rows")
     table = markdown([head[k] for k in shown], [[row[k] for k in shown] for row in rows])
-    return f"<!-- table {match['file']}{match['options']} -->\n{table}\n<!-- end of table -->"
+    told = f"<p><sub>{words(ROOT / match['file'])}</sub></p>"
+    return f"<!-- table {match['file']}{match['options']} -->\n{table}\n{told}<!-- end of table -->"
+
+
+def _entries(match: re.Match[str]) -> str:
+    """The docstrings of a class of warnings: when each comes, and what it means and what to do."""
+    section = getattr(seacrane.warnings, match["file"])
+    rows = []
+    for entry in section.__subclasses__():
+        told = inspect.getdoc(entry).replace("``", "`").replace("|", r"\|").split("\n\n")
+        when, then = (" ".join(part.split()) for part in (told[0], " ".join(told[1:])))
+        rows.append([f"`{entry.__name__}`", when, then])
+    about = " ".join(inspect.getdoc(section).split())
+    table = markdown(["warning", "when", "what it means, what to do"], rows)
+    return f"<!-- warnings {match['file']} -->\n{about}\n\n{table}\n<!-- end of warnings -->"
 
 
 def _items(text: str) -> list[str]:
@@ -56,7 +93,7 @@ def fill(*, change: bool = True) -> list[Path]:
     stale = []
     for path in DOCUMENTS:
         old = path.read_text(encoding="utf-8")
-        new = filled(old)
+        new = filled(old, path.parent)
         if new != old:
             stale.append(path)
             if change:
@@ -70,7 +107,11 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--check", action="store_true", help="change nothing; fail where a table is stale")
-    check = parser.parse_args().check
+    parser.add_argument("--measured", type=Path, nargs="+", default=[], help="files that are new")
+    options = parser.parse_args()
+    check = options.check
+    for file in options.measured:
+        record(file)
     stale = fill(change=not check)
     for path in stale:
         print(f"{path.relative_to(ROOT)}: {'stale' if check else 'filled'}", file=sys.stderr)

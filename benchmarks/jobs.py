@@ -1,8 +1,8 @@
 """Every script of examples/jobs, run as its user would: ``python benchmarks/jobs.py [--publish]``.
 
-Takes what each prints, its lines and its time, and writes ``jobs.md`` and ``results/jobs.csv`` to
-``out/bench``; with ``--publish`` to ``docs`` and ``benchmarks``. A script that fails or warns ends the call,
-and nothing is written.
+Takes what each prints, its lines and its time, and writes ``README.md`` and ``results/jobs.csv`` to
+``out/bench``; with ``--publish`` to ``examples/jobs`` and ``benchmarks``. A script that fails or warns ends
+the call, and nothing is written.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from measure.machine import machine
+import documents
 from measure.section import significant
-from measure.table import markdown, write
+from measure.table import write
 
 from seacrane.files.atomic import atomic_write
 
@@ -32,9 +32,9 @@ LONGEST = 300.0  # s
 INTRODUCTION = """# Jobs
 
 Ordinary work of an offshore lift, each in a script that fits on a page and prints its numbers beside those by
-hand. `benchmarks/jobs.py --publish` runs the scripts in [`examples/jobs`](../examples/jobs), and writes this
-page from them and from what they printed. Times are those of the whole call, with the start of Python; other
-work may share the machine.
+hand. `benchmarks/jobs.py --publish` runs the scripts of this folder, and writes this page from them and from
+what they printed. Times are those of the whole call, with the start of Python; other work may share the
+machine.
 
 """
 
@@ -63,10 +63,10 @@ class Job:
         return self.title, str(lines), significant(self.wall, 2), significant(self.cpu, 2)
 
     def section(self) -> str:
-        """Its idea, what it printed, and itself."""
+        """Its idea, where it is, and what it printed."""
         idea = (ast.get_docstring(ast.parse(self.source)) or "").strip()
-        script = f"<details><summary>Script</summary>\n\n```python\n{self.source.rstrip()}\n```\n\n</details>"
-        return f"## {self.title}\n\n{idea}\n\n```text\n{self.printed.rstrip()}\n```\n\n{script}\n"
+        script = f"[{self.path.name}]({self.path.name})"
+        return f"## {self.title}\n\n{idea} Script: {script}.\n\n```text\n{self.printed.rstrip()}\n```\n"
 
 
 def run(path: Path) -> Job:
@@ -85,8 +85,7 @@ def run(path: Path) -> Job:
 
 def document(jobs: Sequence[Job]) -> str:
     """All jobs as one Markdown text."""
-    table = markdown(HEAD, [job.cells for job in jobs])
-    head = f"{INTRODUCTION}Machine: {machine()}\n\n<!-- table {TABLE} -->\n{table}\n<!-- end of table -->\n"
+    head = f"{INTRODUCTION}<!-- table {TABLE} -->\n<!-- end of table -->\n"
     return "\n".join([head, *(job.section() for job in jobs)])
 
 
@@ -95,17 +94,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--publish", action="store_true", help="write into docs and benchmarks")
+    parser.add_argument("--publish", action="store_true", help="write into examples and benchmarks")
     publish = parser.parse_args().publish
     jobs = []
     for path in sorted(SCRIPTS.glob("*.py")):
         jobs.append(run(path))
         print(f"{path.name}: {jobs[-1].wall:.1f} s\n{jobs[-1].printed}", flush=True)
-    folder = ROOT / "docs" if publish else ROOT / "out" / "bench"
+    folder = SCRIPTS if publish else ROOT / "out" / "bench" / "jobs"
     results = ROOT / TABLE if publish else folder / "results" / "jobs.csv"
     write(results, HEAD, [job.cells for job in jobs])
-    with atomic_write(folder / "jobs.md") as draft:
+    with atomic_write(folder / "README.md") as draft:
         draft.write_text(document(jobs), encoding="utf-8")
+    if publish:
+        documents.fill()
 
 
 if __name__ == "__main__":

@@ -57,12 +57,14 @@ from seacrane.files.atomic import atomic_write
 HERE = Path(__file__).resolve().parent
 INTRODUCTION = """# Benchmarks
 
-Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Times depend
-on the machine and on what else runs on it, so read the ratios first. One thread throughout; times are CPU
-times of that thread unless they say wall, because other work may share the machine.
+Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Each table is
+a file of [`results`](results). The line with its link names the machine and the engine that measured it, this
+by a digest of the C++ sources without comments. `make release-check` lists the tables of another engine.
 
-C++ tests, not these tables, count that the loop allocates nothing on the heap after its start:
-`cpp/tests/test_allocations_core.cpp`, and `cpp/tests/test_integrate_allocations.cpp` for each integrator.
+Times depend on the machine and on what else runs on it, so read the ratios first. One thread throughout;
+times are CPU times of that thread unless they say wall. C++ tests, not these tables, count that the loop
+allocates nothing on the heap after its start: `cpp/tests/test_allocations_core.cpp`, and
+`cpp/tests/test_integrate_allocations.cpp` for each integrator.
 
 """
 PICTURE = "work_precision.png"
@@ -122,17 +124,15 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
 
 
 def document(folder: Path, *, repeats: int, quick: bool, say: Callable[[str], None]) -> str:
-    """All tables as one Markdown text; each is said, and saved, as soon as it is there."""
-    head = f"{INTRODUCTION}Machine: {machine()}\n"
-    say(head)
-    texts = [head]
+    """Where all tables are, as one Markdown text; each is said, and saved, as soon as it is there."""
+    say(machine())
+    texts = [INTRODUCTION]
     for section in sections(folder, repeats=repeats, quick=quick):
         section.save(folder / "results")
-        text = section.markdown() + "\n"
+        say(section.markdown() + "\n")
+        texts.append(section.marked(shown=False) + "\n")
         if section.title.startswith("Integrators"):
-            text += f"\n![Payload error over evaluations and over CPU time, per integrator]({PICTURE})\n"
-        say(text)
-        texts.append(text)
+            texts.append(f"![Payload error over evaluations and over CPU time, per integrator]({PICTURE})\n")
     return "\n".join(texts)
 
 

@@ -20,6 +20,7 @@ import live_page  # noqa: E402
 import mathml  # noqa: E402
 import navigation  # noqa: E402
 import notebook_cache  # noqa: E402
+import tables  # noqa: E402
 
 import seacrane  # noqa: E402
 
@@ -36,6 +37,9 @@ include_patterns = [
     "docs/*.md",
     "docs/api/*.rst",
     "benchmarks/**.md",
+    "examples/**.md",
+    "studies/**.md",
+    "tests/reference_problems/README.md",
     "notebooks/*.md",
 ]
 exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]
@@ -78,6 +82,7 @@ def setup(app: Any) -> None:
     api_pages.write(HERE / "api")
     mathml.setup(app)
     docstrings.name_aliases()
+    app.connect("source-read", tables.show)
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
     app.connect("autodoc-process-signature", docstrings.shorten)

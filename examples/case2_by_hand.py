@@ -12,19 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    Curve,
-    LargeSwingWarning,
-    Scene,
-    balance,
-    cases,
-    feed_forward,
-    reflected_inertia,
-    simulate,
-)
+from seacrane import Curve, Scene, balance, cases, simulate
+from seacrane.analysis import feed_forward, reflected_inertia
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import LargeSwingWarning
 
 CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
@@ -86,10 +79,9 @@ def inertias() -> dict[str, float]:
 
 def scene() -> Scene:
     """Vessel, crane, payload, sea; drives by state feedback around the loads that hold each pose at rest."""
-    database = shipped_database()
     out = Scene(name="case2_by_hand")
-    out.add_vessel(database, name="vessel", memory="per-pair")
-    out.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+    out.add_vessel(shipped_database(), name="vessel", memory="per-pair")
+    out.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
     start = {"theta": 0.0, "s1": 0.0, "s2": 0.0}
     add_bodies(out, **start)
     add_joints(out, "vessel", **start)

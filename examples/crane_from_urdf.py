@@ -9,17 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, simulate, statics
+from seacrane import Curve, Scene, shipped_database, simulate, statics
 from seacrane.crane import Payload, load_crane
-from seacrane.hydro import shipped_database
 from seacrane.plotting.figure import new_figure
 
 crane = load_crane("service_arm_5t")
 print(f"{crane.data.name}: {crane.mass:.0f} kg, bodies {', '.join(crane.mass_properties)}")
 
 scene = Scene(name="service crane")
-database = shipped_database()
-scene.add_vessel(database)
+scene.add_vessel(shipped_database())
 load = Payload(mass=1.5e3, size=(1.2, 1.2, 1.0), link_length=1.5)
 foot, pose = (-20.0, -8.0, 6.0), {"slew": -1.2, "jib": 0.3}
 scene.add_crane(crane, foot=foot, coordinates=pose, payload=load, held=True)
@@ -29,7 +27,7 @@ print(statics(scene, coordinates={"telescope": [0.0, 1.5, 3.0]}))
 del scene.drivers["telescope.displacement"]
 out = Curve.quintic(start_time=10.0, end_time=30.0, start=0.0, end=2.5)
 scene.add_driver(joint="telescope", curve=out)
-scene.add_sea(database, hs=1.5, tp=8.0, direction_deg=90.0, seed=1)
+scene.add_sea(hs=1.5, tp=8.0, direction_deg=90.0, seed=1)
 result = simulate(scene, t_end=60.0, dt_out=0.1)
 force = result["cylinder_force"] / 1e3
 tension = result["link_tension"] / 1e3

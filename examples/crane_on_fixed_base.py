@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, reflected_inertia, simulate
+from seacrane import Curve, Scene, balance, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.crane import Payload
 
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}

@@ -8,11 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, sensitivity
+from seacrane import Scene, sensitivity, shipped_database
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
 
-DATABASE = shipped_database()
 DESIGN = {"foot_x": (33.0, 2.0), "tugger": (10e3, 1e3)}  # value and step: m, N/m
 FAR = 20.0  # m, from the tugger's winch to the load
 
@@ -20,8 +18,8 @@ FAR = 20.0  # m, from the tugger's winch to the load
 def lift(*, seed: int, foot_x: float, tugger: float) -> Scene:
     """A load of 20 t over the side; a tugger pulls it aft with 20 kN."""
     scene = Scene(name="design")
-    scene.add_vessel(DATABASE, memory="passive")
-    scene.add_sea(DATABASE, hs=1.0, tp=9.0, direction_deg=150.0, seed=seed, count=60)
+    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_sea(hs=1.0, tp=9.0, direction_deg=150.0, seed=seed, count=60)
     payload = Payload(mass=20e3, link_length=8.0)
     scene.add_crane(foot=(foot_x, 10.0, 10.0), theta=-1.57, s1=1.0, s2=1.5, payload=payload, held=True)
     x, y, z = scene.bodies["payload"].position

@@ -9,18 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import cases, linear_model, natural_modes, response_statistics
-from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap
 
-database = shipped_database()
 scene = cases.case2(hs=0.0)
 linear = linear_model(scene)
 print(natural_modes(linear).table())
 
 statistics = {
-    body: response_statistics(
-        linear, database=database, spectrum=jonswap(hs=0.5, tp=11.0), heading=np.radians(180.0), body=body
-    )
+    body: response_statistics(linear, spectrum=jonswap(hs=0.5, tp=11.0), heading=np.radians(180.0), body=body)
     for body in ("vessel", "payload")
 }
 print("\nHs 0.5 m, Tp 11 s, head sea; most probable largest amplitude of three hours")

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, reflected_inertia, simulate
+from seacrane import Curve, Scene, balance, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.hydro import shipped_database
 
 y = 10.0  # m, of the crane's plane
@@ -20,9 +21,8 @@ D, E, F, G = (24.3, y, 28.3), (17.9, y, 31.8), (10.0, y, 36.8), (11.5, y, 34.1)
 tip, load = (14.6, y, 22.4), (14.6, y, 14.4)
 
 scene = Scene(name="by hand")
-database = shipped_database()
-scene.add_vessel(database)
-scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+scene.add_vessel(shipped_database())
+scene.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
 
 
 def beam(name: str, mass: float, start, end, width: float) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, MotionRaos, Scene, reflected_inertia, simulate
+from seacrane import Curve, MotionRaos, Scene, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 LENGTH, DRAUGHT, BREADTH = 115.0, 6.0, 22.0  # m, a box
@@ -34,7 +35,7 @@ def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
     """50 t below the crane of a ship in waves; one may control the knuckle cylinder, or hang it on gas."""
     scene = Scene(name="heave compensation")
     scene.add_given_vessel(raos, duration=DURATION, size=(LENGTH, BREADTH, DRAUGHT))
-    scene.add_sea(raos, vessel="vessel", hs=1.5, tp=9.0, direction_deg=180.0, seed=2)
+    scene.add_sea(vessel="vessel", hs=1.5, tp=9.0, direction_deg=180.0, seed=2)
     jib, head = scene.add_crane(**POSE).tip
     for joint in ("A", "main_cylinder"):
         scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
@@ -55,7 +56,7 @@ def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
             stiffness=stiffness, damping=2.0 * OIL * np.sqrt(stiffness * MASS), minimum=1.0, maximum=5.0,
         )  # fmt: skip
         end = "hook"
-    scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], stiffness=EA, length=rope)
+    scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], EA=EA, length=rope)
     scene.add_winch(line="hoist")
     if controlled:
         (felt,) = reflected_inertia(scene).values()

@@ -8,15 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    Curve,
-    Scene,
-    equilibrium,
-    heavy_line_tension,
-    natural_modes,
-    simulate,
-    spline_curve,
-)
+from seacrane import Curve, Scene, equilibrium, natural_modes, simulate
+from seacrane.result import heavy_line_tension
+from seacrane.scene import spline_curve
 
 LOAD, WIRE, LENGTH, EA = 24e3, 12.0, 1000.0, 2e8  # kg, kg/m, m, N
 G = 9.80665
@@ -26,9 +20,9 @@ scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3))
 scene.add_joint(kind="prismatic", name="heave", first="ground", second="tip", axis=(0, 0, 1))
 scene.add_driver(name="sea", joint="heave", curve=Curve.constant(value=0.0))
 scene.add_body(name="load", mass=LOAD, inertia=(4e4, 4e4, 4e4), position=(0, 0, -LENGTH))
-scene.add_heavy_line(
-    name="wire", bodies=["tip", "load"], points=[(0, 0, 0), (0, 0, 0)], stiffness=EA, length=LENGTH,
-    mass_per_length=WIRE, segments=20,
+scene.add_line(
+    name="wire", rung="with mass", bodies=["tip", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=EA,
+    length=LENGTH, mass_per_length=WIRE, segments=20,
 )  # fmt: skip
 rest = equilibrium(scene)
 held = simulate(scene, t_end=0.1, start=rest, channels=["position", "line_tension"])

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Scene, response_statistics
-from seacrane.hydro import BelowBandWarning, Hull, OffsetTable, hydro_from_hull, natural_frequency
+from seacrane.hydro import Hull, OffsetTable, hydro_from_hull, natural_frequency
 from seacrane.sea import jonswap
+from seacrane.warnings import BelowBandWarning
 
 # Half sections, deck to keel (y, z in m above the keel), of a 90 x 24 m barge with raked ends.
 box = [(12.0, 6.0), (12.0, 1.5), (10.5, 0.0), (0.0, 0.0)]
@@ -36,7 +37,7 @@ scene.add_vessel(database)
 print("\nHs 2 m, Tp 8 s: significant double amplitudes")
 for degrees in (180.0, 135.0, 90.0):
     found = response_statistics(
-        scene, database=database, spectrum=jonswap(hs=2.0, tp=8.0), heading=np.radians(degrees), body="vessel"
+        scene, spectrum=jonswap(hs=2.0, tp=8.0), heading=np.radians(degrees), body="vessel"
     ).significant_double_amplitude
     roll, pitch = np.degrees(found[3:5])
     print(f"{degrees:5.0f} deg: heave {found[2]:.2f} m, roll {roll:.2f} deg, pitch {pitch:.2f} deg")

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import BoilingOilWarning, Curve, Scene, simulate
+from seacrane import Curve, Scene, simulate
 from seacrane.crane import Payload
+from seacrane.warnings import BoilingOilWarning
 
 BURST, END = 20.0, 40.0  # s
 HOLE, DISCHARGE, DENSITY = np.pi / 4.0 * 0.02**2, 0.6, 870.0  # m2: 20 mm; -, kg/m3

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Move, Scene, Stage, Until, plot_history, simulate_stages
+from seacrane import Curve, Move, Scene, Stage, Until, simulate_stages
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 G, MASS, DECK, PLATFORM = 9.80665, 20e3, 2.0, 8.0  # m/s2, kg, m, m
@@ -26,21 +26,26 @@ scene.add_joint(kind="weld", name="on barge", first="barge", second="load")
 scene.add_seat(joint="on barge")
 scene.add_line(
     name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.0)],
-    stiffness=5e7, length=tip - DECK + 0.25,
+    EA=5e7, length=tip - DECK + 0.25,
 )  # fmt: skip
 scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
 scene.add_joint(kind="free", name="above platform", first="ground", second="load")
 scene.add_end_stop(joint="above platform", coordinate="z", minimum=PLATFORM - DECK, name="platform")
 
-high = Until.channel("position", body="load", axis="z", above=PLATFORM + 4.0)
+high = Until.channel("position", body="load", axis="z", minimum=PLATFORM + 4.0)
 stages = [
     Stage(name="hold", duration=8.0),
-    Stage(name="lift off", until=Until.release("on barge"), longest=60.0, commands={"hoist.rate": -0.1}),
-    Stage(name="raise", until=high, longest=60.0, commands={"hoist.rate": -0.6}),
+    Stage(
+        name="lift off",
+        until=Until.release("on barge"),
+        maximum_duration=60.0,
+        commands={"hoist.rate": -0.1},
+    ),
+    Stage(name="raise", until=high, maximum_duration=60.0, commands={"hoist.rate": -0.6}),
     Stage(name="slew", duration=50.0, commands={"hoist.rate": 0.0, "slew": Move(to=np.pi / 2.0, over=45.0)}),
-    Stage(name="lower", until=Until.contact("platform"), longest=60.0, connect=["above platform"],
+    Stage(name="lower", until=Until.contact("platform"), maximum_duration=60.0, connect=["above platform"],
           commands={"hoist.rate": 0.3}),
-    Stage(name="slacken", until=Until.tension("hoist", below=0.0), longest=20.0),
+    Stage(name="slacken", until=Until.tension("hoist", maximum=0.0), maximum_duration=20.0),
     Stage(name="let go", duration=3.0, release=["hoist"]),
 ]  # fmt: skip
 result = simulate_stages(scene, stages, rtol=1e-5)
@@ -56,4 +61,4 @@ print(f"lands at {landing.speed:.3f} m/s with {landing.energy_lost / 1e3:.2f} kJ
 
 if len(sys.argv) > 1:
     wanted = ("line_tension", "limit_force", "line_unstretched_length")
-    plot_history(result, *wanted).savefig(Path(sys.argv[1]) / "lift_in_stages.png", dpi=100)
+    result.plot(*wanted).savefig(Path(sys.argv[1]) / "lift_in_stages.png", dpi=100)

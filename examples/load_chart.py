@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, load_chart, plot_load_chart, statics
+from seacrane import Scene, load_chart, statics
 from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.figures import plot_load_chart
 from seacrane.hydro import shipped_database
 
 PAYLOAD = 50e3  # kg, with which the ship is upright in the pose described

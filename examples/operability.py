@@ -8,19 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    AlphaFactor,
-    Criterion,
-    ScatterDiagram,
-    WaveHindcast,
-    allowable_hs,
-    availability,
-    cases,
-    plot_allowable_hs,
-    weather_windows,
-)  # fmt: skip
+from seacrane import Criterion, allowable_hs, availability, cases, weather_windows  # fmt: skip
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
+from seacrane.figures import plot_allowable_hs  # fmt: skip
+from seacrane.operability import AlphaFactor, ScatterDiagram, WaveHindcast  # fmt: skip
 
 WEIGHT = 10e3 * 9.80665  # N
 
@@ -33,9 +24,9 @@ table = allowable_hs(
     scene,
     criteria=[
         Criterion(channel="hook_load", maximum=1.15 * WEIGHT),
-        Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=0.8),
+        Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=0.8),
         Criterion(
-            channel="position", where={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
+            channel="position", names={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
             statistic="significant", name="swing athwart",
         ),
     ],
@@ -47,7 +38,6 @@ table = allowable_hs(
     start_up=100.0,
     rtol=1e-4,
     time=50.0,
-    database=shipped_database(),
     alpha=AlphaFactor(values=0.8, source="made up for this example; take that of your standard"),
     hours=12.0,
 )  # fmt: skip

@@ -16,11 +16,7 @@ scene = Scene(name="slack wire", gravity=GRAVITY)
 scene.add_body(
     name="ball", mass=3.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -LENGTH), velocity=(SPEED, 0.0, 0.0)
 )
-scene.add_joint(
-    kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
-    second_point=(0.0, 0.0, -LENGTH),
-)  # fmt: skip
-scene.add_wire(joint="wire")
+scene.add_line(name="wire", rung="rigid", first="ground", second="ball")
 result = simulate(scene, t_end=3.0, dt_out=0.005, rtol=1e-9)
 x, z = (result.select("position", body="ball", axis=axis) for axis in "xz")
 tension = result.select("tension", link="wire")

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Result, Scene, Stage, Until, equilibrium, simulate_stages
-from seacrane.hydro import shipped_database
+from seacrane import Result, Scene, Stage, Until, equilibrium, shipped_database, simulate_stages
 
 MASS, LENGTH, HEIGHT, START = 60e3, 30.0, 3.0, 6.0  # kg, m, m of the load; m of its centre above the water
 FEET = {"fore": 40.0, "aft": 16.0}  # m, along the ship
@@ -35,19 +34,19 @@ def lift(hs: float) -> Result:
         lengths[name] = tip[2] - START - 0.5 * HEIGHT
         scene.add_line(
             name=name, bodies=[body, "load"], points=[point, (LUGS[name], 0.0, 0.5 * HEIGHT)],
-            stiffness=EA, length=lengths[name],
+            EA=EA, length=lengths[name],
         )  # fmt: skip
         scene.add_winch(line=name, lag=0.5)
     scene.add_ballast()
     rest = equilibrium(scene)
-    scene.add_sea(SHIP, hs=hs, tp=7.0, direction_deg=160.0, seed=2)
+    scene.add_sea(hs=hs, tp=7.0, direction_deg=160.0, seed=2)
     high = lengths["aft"] - HOIST
     stages = [
         Stage(name="hold", duration=20.0),
-        Stage(name="both", until=Until.length("aft", below=high), longest=60.0,
+        Stage(name="both", until=Until.length("aft", maximum=high), maximum_duration=60.0,
               commands={"fore.rate": -RATE, "aft.rate": -RATE}),
         Stage(name="level", duration=60.0, commands={"fore.rate": 0.0, "aft.rate": 0.0}),
-        Stage(name="aft", until=Until.length("aft", below=high - MORE), longest=60.0,
+        Stage(name="aft", until=Until.length("aft", maximum=high - MORE), maximum_duration=60.0,
               commands={"aft.rate": -RATE}),
         Stage(name="tilted", duration=60.0, commands={"aft.rate": 0.0}),
     ]  # fmt: skip

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, driven, inverse_dynamics, simulate
+from seacrane import Curve, Scene, simulate
+from seacrane.analysis import driven, inverse_dynamics
 from seacrane.crane import Payload
 
 MOVE = {"slew": (0.0, -np.pi / 2), "main": (0.0, 1.0), "knuckle": (0.0, 1.0)}  # rad, m, m

@@ -19,7 +19,7 @@ def hoisted(**winch: float) -> Scene:
     scene = Scene(name="winch and wire")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -LENGTH - HANGS))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=STIFFNESS, length=LENGTH,
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=STIFFNESS, length=LENGTH,
         damping_ratio=0.001,
     )  # fmt: skip
     scene.add_winch(line="hoist", rate=-RATE, **winch)

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, SeaState, WaveSystem, linear_model, response_summed
+from seacrane import Scene, SeaState, WaveSystem, linear_model
+from seacrane.analysis import response_summed
 from seacrane.hydro import shipped_database
 from seacrane.sea import cos_2s, jonswap
 
@@ -20,14 +21,13 @@ swell = WaveSystem(
 )
 head_on = WaveSystem(spectrum=wind.spectrum, direction_deg=180.0, name="wind sea, long-crested")
 
-database = shipped_database()
 scene = Scene(name="vessel")
-scene.add_vessel(database)
+scene.add_vessel(shipped_database())
 linear = linear_model(scene)
 print("standard deviation over infinite time         heave [m]  roll [deg]  pitch [deg]")
 for systems in ([head_on], [wind], [swell], [wind, swell]):
     scene.waves = None  # a scene has one sea at a time
-    scene.add_sea(database, sea=SeaState(systems=systems, seed=1))
+    scene.add_sea(sea=SeaState(systems=systems, seed=1))
     std = response_summed(linear, waves=scene.waves, body="vessel").std
     name = " + ".join(system.name for system in systems)
     print(f"{name:44}{std[2]:11.3f}{np.degrees(std[3]):12.3f}{np.degrees(std[4]):13.3f}")

@@ -5,7 +5,6 @@ And judges of what `simulate(accuracy=...)` promises on them.
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -50,7 +49,7 @@ def winched(rng: np.random.Generator) -> Scene:
     falls = int(rng.integers(1, 3))
     scene.add_line(
         name="hoist", bodies=(["ground", "load"] * falls)[: falls + 1],
-        points=np.zeros((falls + 1, 3)), stiffness=float(mass * G * 10.0 ** rng.uniform(1.3, 2.8)),
+        points=np.zeros((falls + 1, 3)), EA=float(mass * G * 10.0 ** rng.uniform(1.3, 2.8)),
         tension_at_start=mass * G / falls, damping_ratio=float(rng.choice([0.0, 0.02, 0.1])),
     )  # fmt: skip
     length = falls * float(np.linalg.norm(place))
@@ -77,7 +76,7 @@ def add_tugger(rng: np.random.Generator, scene: Scene, mass: float, place: Array
     length = float(np.linalg.norm(away - place)) * float(rng.uniform(0.99, 1.005))
     scene.add_line(
         name="tugger", bodies=["ground", "load"], points=[away, (0.0, 0.0, 0.0)],
-        stiffness=float(mass * G * rng.uniform(1.0, 10.0)), length=length, damping_ratio=0.1,
+        EA=float(mass * G * rng.uniform(1.0, 10.0)), length=length, damping_ratio=0.1,
     )  # fmt: skip
     if rng.random() < 0.5:
         tension = 0.05 * mass * G
@@ -109,7 +108,7 @@ def shared(rng: np.random.Generator) -> Scene:
             omega=rng.uniform(0.5, 2.0),
         )  # fmt: skip
         scene.add_line(
-            name=f"line {i}", bodies=["ground", "load"], points=[block, eye], stiffness=stiffness,
+            name=f"line {i}", bodies=["ground", "load"], points=[block, eye], EA=stiffness,
             length=changing, damping_ratio=float(rng.choice([0.02, 0.1])),
         )  # fmt: skip
     if count == 1:
@@ -118,7 +117,7 @@ def shared(rng: np.random.Generator) -> Scene:
             name="below", mass=small, inertia=(0.5 * small,) * 3, position=(0.3, 0.0, -depth - 3.0)
         )
         scene.add_line(
-            name="pendant", bodies=["load", "below"], points=np.zeros((2, 3)), stiffness=0.3 * stiffness,
+            name="pendant", bodies=["load", "below"], points=np.zeros((2, 3)), EA=0.3 * stiffness,
             tension_at_start=small * G * float(rng.uniform(0.3, 1.0)), damping_ratio=0.05,
         )  # fmt: skip
     return scene
@@ -138,7 +137,7 @@ def snatched(rng: np.random.Generator) -> Scene:
         )
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)),
-        stiffness=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
+        EA=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
         damping_ratio=float(rng.uniform(0.02, 0.3)),
     )  # fmt: skip
     return scene
@@ -158,7 +157,7 @@ def compensated(rng: np.random.Generator) -> Scene:
     scene.add_body(name="load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, 5.0))
     scene.add_line(
         name="hoist", bodies=["ship", "load"], points=[(0, 0, 20.0), (0, 0, 0)],
-        stiffness=float(mass * G * 10.0 ** rng.uniform(1.5, 3.0)), tension_at_start=mass * G,
+        EA=float(mass * G * 10.0 ** rng.uniform(1.5, 3.0)), tension_at_start=mass * G,
         damping_ratio=0.05,
     )  # fmt: skip
     scene.add_winch(line="hoist", lag=float(rng.choice([0.0, 0.1])))
@@ -260,7 +259,7 @@ def word(number: int, *, seed: int) -> Word:
             return Word(number=number, scene=scene.name, end="refused", limit=limit, why=str(refused))
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])
-        judges = judged(scene, method, json.loads(str(result.stats["settings"]))["rtol"], span)
+        judges = judged(scene, method, result.settings["rtol"], span)
     known: dict[str, Any] = {
         "number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method,
     }  # fmt: skip

@@ -32,10 +32,10 @@ def two_numbers_or_three(result: Result) -> list[float]:
 
 
 KEEP = {
-    "track": Kept(channel="position", at={"body": "bob"}, step=0.5),
-    "highest": Kept(channel="position", what="maximum", at={"body": "bob", "axis": "z"}, after=1.0),
-    "mean": Kept(channel="position", what="mean", at={"body": "bob"}),
-    "scatter": Kept(channel="position", what="standard_deviation", at={"body": "bob", "axis": "x"}),
+    "track": Kept(channel="position", names={"body": "bob"}, interval=0.5),
+    "highest": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "z"}, after=1.0),
+    "mean": Kept(channel="position", what="mean", names={"body": "bob"}),
+    "scatter": Kept(channel="position", what="standard_deviation", names={"body": "bob", "axis": "x"}),
     "lowest": lowest,
 }
 

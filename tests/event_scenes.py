@@ -40,7 +40,7 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -LENGTH),
     )  # fmt: skip
-    scene.add_wire(joint="wire", restitution=restitution, **wire)
+    scene.add_line(joint="wire", rung="rigid", restitution=restitution, **wire)
     return scene
 
 

@@ -27,7 +27,7 @@ def heaving(*, amplitude: float = 1.0, omega: float = 0.7) -> Scene:
     return scene
 
 
-def hung(falls: int = 1, lag: float = 0.0, stretch: str = "elastic", **heave: Any) -> Scene:
+def hung(falls: int = 1, lag: float = 0.0, rung: str = "elastic", **heave: Any) -> Scene:
     """A load below the ship's tip on a winch."""
     scene = heaving(**heave)
     depth = TIP - ROPE - MASS * G * ROPE / STIFFNESS / falls
@@ -35,7 +35,7 @@ def hung(falls: int = 1, lag: float = 0.0, stretch: str = "elastic", **heave: An
     scene.add_line(
         name="hoist", bodies=(["ship", "load"] * falls)[: falls + 1],
         points=([(0, 0, TIP), (0, 0, 0)] * falls)[: falls + 1],
-        stiffness=STIFFNESS, length=falls * ROPE, damping_ratio=0.05, stretch=stretch,
+        EA=STIFFNESS, length=falls * ROPE, damping_ratio=0.05, rung=rung,
     )  # fmt: skip
     scene.add_winch(line="hoist", lag=lag)
     return scene

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene, spline_curve
+from seacrane import Curve, Scene
+from seacrane.scene import spline_curve
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -21,9 +22,9 @@ def slung(count: int) -> Scene:
     scene = Scene(name="slung")
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 300.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_heavy_line(
-        name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=1e9, length=900.0,
-        mass_per_length=1000.0 / G, segments=count,
+    scene.add_line(
+        name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9,
+        length=900.0, mass_per_length=1000.0 / G, segments=count,
     )  # fmt: skip
     return scene
 
@@ -51,25 +52,35 @@ def heaving(count: int, t_end: float, **more: Any) -> Scene:
         kind="prismatic", name="guide", first="ground", second="end", point=(800, 0, 0), axis=(0, 0, 1)
     )
     scene.add_driver(joint="guide", curve=heave(t_end))
-    line = {"stiffness": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
-    scene.add_heavy_line(
-        name="line", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)], segments=count, **line
+    line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
+    scene.add_line(
+        name="line",
+        rung="with mass",
+        bodies=["ground", "end"],
+        points=[(0, 0, -300), (0, 0, 0)],
+        segments=count,
+        **line,
     )
     return scene
 
 
 def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any) -> Scene:
     """A load on a wire of 100 m that hangs at rest, stretched by its own weight and the load's."""
-    line = {"stiffness": 1e6, "length": 100.0, "mass_per_length": 50.0} | more
+    line = {"EA": 1e6, "length": 100.0, "mass_per_length": 50.0} | more
     length, weight = line["length"], line["mass_per_length"] * G
-    stretched = length + (load * G * length + 0.5 * weight * length**2) / line["stiffness"]
+    stretched = length + (load * G * length + 0.5 * weight * length**2) / line["EA"]
     scene = Scene(name="hanging")
     scene.add_body(
         name="load", mass=load, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -stretched),
         velocity=(velocity, 0.0, 0.0),
     )  # fmt: skip
-    scene.add_heavy_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), segments=count, **line
+    scene.add_line(
+        name="wire",
+        rung="with mass",
+        bodies=["ground", "load"],
+        points=np.zeros((2, 3)),
+        segments=count,
+        **line,
     )
     return scene
 
@@ -79,8 +90,8 @@ def string(count: int, *, strain: float = 0.01, amplitude: float = 0.01) -> Scen
     scene = Scene(name="string", gravity=0.0)
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(50.0, 0.0, 0.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_heavy_line(
-        name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=1e6,
+    scene.add_line(
+        name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
         length=50.0 / (1.0 + strain), mass_per_length=2.0 * (1.0 + strain), segments=count,
     )  # fmt: skip
     for i in range(1, count):

@@ -40,35 +40,61 @@ def room(module: str, files: Mapping[str, Path]) -> str:
 
 
 def imports(package: Path) -> list[Import]:
-    """All imports of one module of a package by another; those of its compiled core left out."""
-    files = modules(package)
+    """All imports of one module of a package by another; those of its compiled core left out.
+
+    A public module is a list of names from anywhere and imports nothing by itself: what comes through it is
+    imported from the module that has it.
+    """
+    files, through = modules(package), _public(package)
     return [
         Import(source, target, hidden)
         for source, path in files.items()
-        for target, hidden in _imported(ast.parse(path.read_text(encoding="utf-8")), package.name, files)
+        if path.suffix == ".py"
+        for target, hidden in _imported(
+            ast.parse(path.read_text(encoding="utf-8")), package.name, files, through
+        )
         if target != source
     ]
 
 
+def _public(package: Path) -> dict[str, str]:
+    """The home of each name of each public module, by both names within the package."""
+    found = {}
+    for stub in package.rglob("__init__.pyi"):
+        face = "".join(f"{part}." for part in stub.parent.relative_to(package).parts)
+        for line in stub.read_text(encoding="utf-8").splitlines():
+            if line.startswith(f"from {package.name}."):
+                _, home, _, _, _, name = line.split()
+                found[f"{face}{name}"] = f"{home.partition('.')[2]}.{name}"
+    return found
+
+
 def _imported(
-    node: ast.AST, package: str, files: Mapping[str, Path], hidden: bool = False
+    node: ast.AST,
+    package: str,
+    files: Mapping[str, Path],
+    through: Mapping[str, str],
+    hidden: bool = False,
 ) -> Iterator[tuple[str, bool]]:
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.ImportFrom):
             assert child.level == 0, f"relative import of {child.module}"
             whole = [f"{child.module}.{entry.name}" for entry in child.names]
-            yield from ((name, hidden) for name in _inside(whole, package, files))
+            yield from ((name, hidden) for name in _inside(whole, package, files, through))
         elif isinstance(child, ast.Import):
             whole = [entry.name for entry in child.names]
-            yield from ((name, hidden) for name in _inside(whole, package, files))
+            yield from ((name, hidden) for name in _inside(whole, package, files, through))
         function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
-        yield from _imported(child, package, files, hidden or function)
+        yield from _imported(child, package, files, through, hidden or function)
 
 
-def _inside(names: list[str], package: str, files: Mapping[str, Path]) -> Iterator[str]:
+def _inside(
+    names: list[str], package: str, files: Mapping[str, Path], through: Mapping[str, str]
+) -> Iterator[str]:
     """Of the package's own, the modules that dotted names mean: a module, or the one that holds the name."""
     for name in names:
         top, _, inner = name.partition(".")
+        inner = through.get(inner, inner)
         if top == package and inner.split(".")[0] != "_core":
             yield inner if inner in files else inner.rpartition(".")[0]
 

@@ -24,7 +24,8 @@ import xarray
 import zarr  # noqa: F401
 from ensemble_studies import KEEP, fails_in_the_middle, lowest, storm
 
-from seacrane import Ensemble, Kept, ensemble
+from seacrane import Kept, ensemble
+from seacrane.ensembles import Ensemble
 
 STARTS: dict[str, Any] = {
     "source": fails_in_the_middle,
@@ -37,7 +38,7 @@ STARTS: dict[str, Any] = {
 STORMS: dict[str, Any] = {
     "source": storm,
     "over": {"seed": range(1, 41), "height": [1.0, 2.0]},
-    "keep": {"far": Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})},
+    "keep": {"far": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})},
     "until": {"far.mpm": 0.02},
     "t_end": 0.5,
     "dt_out": 0.5,

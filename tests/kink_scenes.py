@@ -136,7 +136,7 @@ def random_slew(rng: np.random.Generator) -> Scene:
     else:
         scene = slewing(0.0, stiffness=4e7, damping=3e7, reference=scaled(curve, 0.3))
     if rng.random() < 0.5:
-        scene.add_wire(joint="wire")
+        scene.add_line(joint="wire", rung="rigid")
     kind = rng.integers(4)
     if kind == 0:
         scene.add_soft_stop(joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
@@ -171,7 +171,7 @@ def random_snatch(rng: np.random.Generator) -> Scene:
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -length),
     )  # fmt: skip
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     return scene
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import Curve, FlowCoefficients, Frame, Scene, gust_curve, spline_curve
+from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane.scene import gust_curve, spline_curve
 
-HEAD = 'format = "seacrane lift"\nversion = 1\n'
+HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
 PENDULUM = (
     HEAD
@@ -33,10 +34,10 @@ t_end_s = 2
 
 [method]
 integrator = "rk4"
-step_s = 0.01
+dt_s = 0.01
 
 [outputs]
-dt_s = 0.5
+dt_out_s = 0.5
 channels = ["position", "constraint_error", "energy_balance"]
 """
 )
@@ -178,7 +179,7 @@ forces_N = [0, 10]
 name = "hoist"
 bodies = ["ground", "box", "bob"]
 points_m = [[0, 0, 9], [0, 0, 1], [0, 0, 0]]
-stiffness_N = 1e6
+EA_N = 1e6
 length_m = 12
 damping_ratio = 0.05
 mass_kg = 300
@@ -201,7 +202,7 @@ hook = "ground"
 load = "box"
 hook_point_m = [0, 0, 9]
 points_m = [[0.5, 0, 0.5], [-0.5, 0, 0.5]]
-stiffnesses_N = [1e6]
+EA_N = [1e6]
 
 [[winch]]
 line = "hoist"
@@ -271,15 +272,16 @@ body = "box"
 times_s = [0, 1]
 loads = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 
-[heavy_line]
+[[line]]
 name = "chain"
+rung = "with mass"
 bodies = ["ground", "box"]
 points_m = [[20, 5, 10], [0, 0, 1]]
-stiffness_N = 1e8
+EA_N = 1e8
 length_m = 40
 mass_per_length_kg_per_m = 5
 segments = 3
-stretch = "quasi-static"
+segment_rung = "quasi-static"
 settling_s = 0.3
 diameter_m = 0.02
 flow_m_per_s = [1, 0, 0]
@@ -325,8 +327,9 @@ x = [0.1, 0, -0.1]
 y = [0, 0.6, 0]
 yaw = [0, 0.05, 0]
 
-[wire]
+[[line]]
 joint = "rope"
+rung = "rigid"
 restitution = 0.2
 
 [end_stop]
@@ -369,19 +372,19 @@ size_m = [3, 4, 5]
 
 [[limit_state]]
 channel = "link_tension"
-max_N = 8e4
-min_N = 1e3
+maximum_N = 8e4
+minimum_N = 1e3
 
 [[limit_state]]
 name = "luffing"
 channel = "stroke"
-max_m = 2.5
-where = { cylinder = "aft luff" }
+maximum_m = 2.5
+names = { cylinder = "aft luff" }
 
 [[limit_state]]
 channel = "vessel_motion"
-max_deg = 90
-where = { motion = "roll" }
+maximum_deg = 90
+names = { motion = "roll" }
 
 [[record]]
 joint = "pin"
@@ -456,13 +459,19 @@ def every_table() -> Scene:
     scene.add_spring(name="table", first="hull", second="box", lengths=[1, 2.5], forces=[0, 10])
     scene.add_line(
         name="hoist", bodies=["ground", "box", "bob"], points=[(0, 0, 9), (0, 0, 1), (0, 0, 0)],
-        stiffness=1e6, length=12, damping_ratio=0.05, mass=300,
+        EA=1e6, length=12, damping_ratio=0.05, mass=300,
     )  # fmt: skip
     scene.add_line(
         name="whip", bodies=["ground", "ground", "bob"], points=[(-3, 0, 9), (0, 0, 9), (0, 0, 0)],
         strains=[0, 0.1], tensions=[0, 1000], length=12, radii=[0, 0.3, 0],
         axes=[(0, 0, 0), (0, 1, 0), (0, 0, 0)], efficiencies=[1, 0.98, 1], slip_speed=0.02,
     )  # fmt: skip
+    scene.add_line(
+        name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
+        length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
+        diameter=0.02, flow=(1, 0, 0),
+    )  # fmt: skip
+    scene.add_line(joint="rope", rung="rigid", restitution=0.2)
     scene.add_winch(
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
@@ -481,18 +490,13 @@ def every_table() -> Scene:
         rupture_area=1e-5,
     )  # fmt: skip
     scene.add_bridle(
-        name="sling", hook="ground", load="box", hook_point=(0, 0, 9), stiffnesses=[1e6],
+        name="sling", hook="ground", load="box", hook_point=(0, 0, 9), EA=[1e6],
         points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
-    )  # fmt: skip
-    scene.add_heavy_line(
-        name="chain", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], stiffness=1e8, length=40,
-        mass_per_length=5, segments=3, stretch="quasi-static", settling=0.3, diameter=0.02, flow=(1, 0, 0),
     )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)
-    scene.add_wire(joint="rope", restitution=0.2)
     scene.add_end_stop(
         joint="sleeve", coordinate="angle", minimum=np.radians(-90), maximum=np.radians(90),
         sticking_speed=0.01,
@@ -505,9 +509,9 @@ def every_table() -> Scene:
         lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
     )  # fmt: skip
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
-    scene.add_limit_state(channel="link_tension", max=8e4, min=1e3)
-    scene.add_limit_state(name="luffing", channel="stroke", max=2.5, where={"cylinder": "aft luff"})
-    scene.add_limit_state(channel="vessel_motion", max=np.radians(90), where={"motion": "roll"})
+    scene.add_limit_state(channel="link_tension", maximum=8e4, minimum=1e3)
+    scene.add_limit_state(name="luffing", channel="stroke", maximum=2.5, names={"cylinder": "aft luff"})
+    scene.add_limit_state(channel="vessel_motion", maximum=np.radians(90), names={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
     scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
@@ -559,7 +563,7 @@ joint = "on deck"
 name = "hoist"
 bodies = ["ground", "load"]
 points_m = [[0, 0, 21], [0, 0, 0]]
-stiffness_N = 5e7
+EA_N = 5e7
 length_m = 20.1
 
 [winch]
@@ -572,13 +576,13 @@ duration_s = 1.05
 [[stage]]
 name = "lift off"
 until = [{ release = "on deck" }]
-longest_s = 60
+maximum_duration_s = 60
 commands = [{ name = "hoist.rate", value_m_per_s = -0.05 }]
 
 [[stage]]
 name = "raise"
-until = [{ length = "hoist", below_m = 19.6 }]
-longest_s = 60
+until = [{ length = "hoist", maximum_m = 19.6 }]
+maximum_duration_s = 60
 commands = [{ name = "hoist.rate", to_m_per_s = -0.4, over_s = 1 }]
 
 [[stage]]
@@ -592,6 +596,6 @@ duration_s = 0.5
 release = ["hoist"]
 
 [outputs]
-dt_s = 0.05
+dt_out_s = 0.05
 """
 )

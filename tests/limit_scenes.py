@@ -101,7 +101,7 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
         common = {"restitution": float(rng.choice([0.0, 0.0, 0.3, 1.0]))}
         if joint.kind == "distance":
             if rng.random() < 0.7 and not joint.name.endswith("rod"):
-                scene.add_wire(joint=joint.name, **common)
+                scene.add_line(joint=joint.name, rung="rigid", **common)
         elif joint.kind == "weld":
             if rng.random() < 0.4:
                 scene.add_seat(joint=joint.name)

@@ -30,7 +30,7 @@ def hung(
     blocks = ["ground", "load"] * falls
     scene.add_line(
         name="hoist", bodies=blocks[: falls + 1], points=np.zeros((falls + 1, 3)),
-        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping,
+        EA=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping,
         mass=MASS / falls**2,
     )  # fmt: skip
     return scene
@@ -49,7 +49,7 @@ def swinging(**winch: Any) -> Scene:
     )
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0.1, -0.2, 0.9)],
-        stiffness=4e6, length=7.65,
+        EA=4e6, length=7.65,
     )  # fmt: skip
     pay_out = Curve.quintic(start_time=0.3, end_time=2.0, start=0.0, end=0.6)
     scene.add_winch(line="hoist", **{"rate": pay_out, "lag": 0.2} | winch)
@@ -65,7 +65,7 @@ def on_deck() -> Scene:
     )
     scene.add_end_stop(joint="guide", minimum=0.0)
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], stiffness=2e6, length=10.05
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], EA=2e6, length=10.05
     )
     scene.add_winch(line="hoist", rate=-0.2, lag=0.2)
     return scene
@@ -85,7 +85,7 @@ def reeved() -> Scene:
     scene.add_line(
         name="hoist", bodies=["ground", "cleat", "load", "cleat"],
         points=[(0.0, 0.0, 2.0), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.4, 0.2, 0.1)],
-        stiffness=3e6, length=13.4, damping_ratio=0.05,
+        EA=3e6, length=13.4, damping_ratio=0.05,
     )  # fmt: skip
     scene.add_winch(
         line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
@@ -93,20 +93,20 @@ def reeved() -> Scene:
     )  # fmt: skip
     tugger = Curve.harmonic(start_time=0.0, offset=7.2, amplitude=0.1, omega=3.0)
     scene.add_line(
-        name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], stiffness=2e4,
+        name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], EA=2e4,
         length=tugger,
     )  # fmt: skip
     return scene
 
 
-def case2_on_a_line(stretch: str, stiffness: float) -> Scene:
+def case2_on_a_line(rung: str, stiffness: float) -> Scene:
     """Case 2 with a line of EA (N) in the place of its link, as long under the payload's weight."""
     scene = cases.case2()
     link = scene.joints["link"]
     points = [link.first_frame.point, link.second_frame.point]
     scene.remove("link")
     scene.add_line(
-        name="link", bodies=[link.first, link.second], points=points, stiffness=stiffness,
-        length=8.0 / (1.0 + 1e4 * G / stiffness), stretch=stretch,
+        name="link", bodies=[link.first, link.second], points=points, EA=stiffness,
+        length=8.0 / (1.0 + 1e4 * G / stiffness), rung=rung,
     )  # fmt: skip
     return scene

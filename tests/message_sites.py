@@ -52,7 +52,7 @@ def classes_of(*bases: str) -> set[str]:
     """Names of the package's classes derived from any of these, or from another such class."""
     found = set(bases)
     trees = [ast.parse(path.read_text()) for path in sorted(PYTHON.rglob("*.py"))]
-    for _ in range(3):  # generations
+    for _ in range(4):  # generations
         for tree in trees:
             for node in ast.walk(tree):
                 if isinstance(node, ast.ClassDef) and found & {getattr(b, "id", "") for b in node.bases}:

@@ -16,7 +16,7 @@ MASS, G, AREA = 2e4, 9.80665, 0.02
 def hung(line: Mapping[str, Any] | None = None, **winch: Any) -> None:
     scene = Scene(name="hoist")
     scene.add_body(name="load", mass=MASS, inertia=(MASS,) * 3, position=(0, 0, -15))
-    given = {"stiffness": 5e7, "tension_at_start": MASS * G} | dict(line or {})
+    given = {"EA": 5e7, "tension_at_start": MASS * G} | dict(line or {})
     scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), **given)
     if winch:
         scene.add_winch(line="wire", **winch)
@@ -78,18 +78,20 @@ def lift_off_too_slowly() -> None:
     scene.add_body(name="load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 2.0))
     scene.add_joint(kind="weld", name="on deck", first="barge", second="load")
     scene.add_seat(joint="on deck")
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], stiffness=1e8,
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], EA=1e8,
                    length=38.5)  # fmt: skip
     scene.add_winch(line="hoist", lag=0.2)
-    lift = Stage(name="lift", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -0.05})
+    lift = Stage(
+        name="lift", until=Until.release("on deck"), maximum_duration=60.0, commands={"hoist.rate": -0.05}
+    )
     simulate_stages(scene, [lift, Stage(name="raised", duration=10.0)], dt_out=0.1)
 
 
 SCRIPTS: dict[str, list[Callable[[], None]]] = {
-    "EA in kilonewtons": [lambda: hung({"stiffness": 5e4})],
+    "EA in kilonewtons": [lambda: hung({"EA": 5e4})],
     "times in milliseconds": [
         lambda: hung(rate=-0.3, lag=200.0),
-        lambda: hung({"settling": 200.0, "stretch": "quasi-static"}),
+        lambda: hung({"settling": 200.0, "rung": "quasi-static"}),
         lambda: raised(spool_lag=4.5),
     ],
     "lengths and speeds in millimetres": [

@@ -9,10 +9,10 @@ import numpy as np
 from seacrane import Criterion, Scene, cases
 
 HEAVE = Criterion(
-    channel="vessel_motion", where={"motion": "heave"}, maximum=0.8, motion=True, exposure=900.0, name="heave"
+    channel="vessel_motion", names={"motion": "heave"}, maximum=0.8, motion=True, exposure=900.0, name="heave"
 )
 PITCH = Criterion(
-    channel="vessel_motion", where={"motion": "pitch"}, maximum=0.03, statistic="significant", name="pitch"
+    channel="vessel_motion", names={"motion": "pitch"}, maximum=0.03, statistic="significant", name="pitch"
 )
 SHORT: dict[str, Any] = {"duration": 900.0, "start_up": 100.0, "seeds": range(1, 6), "rtol": 1e-3}
 HANGING_MASS, SOFT_PERIOD, WIRE = 5e3, 8.0, 10.0  # kg, s, m
@@ -33,7 +33,7 @@ def soft_wire() -> Scene:
         position=(top[0], 0.0, top[2] - WIRE - WEIGHT / spring),
     )  # fmt: skip
     scene.add_line(
-        name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], stiffness=spring * WIRE,
+        name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], EA=spring * WIRE,
         length=WIRE,
     )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="vessel", second="load", first_point=top, ratio=0.05)

@@ -8,7 +8,8 @@ import numpy as np
 from hydraulic_scenes import SET
 from numpy.typing import NDArray
 
-from seacrane import Scene, Tank
+from seacrane import Scene
+from seacrane.scene import Tank
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -141,13 +142,13 @@ class Builder:
         if self.chance(0.5):
             given = {"length": falls * (drop - top[2]) * self.between(0.95, 1.08)}
         if self.chance(0.15) and falls == 1:
-            self.scene.add_heavy_line(
-                name="hoist", bodies=bodies, points=points, stiffness=stiffness, segments=4,
+            self.scene.add_line(
+                name="hoist", rung="with mass", bodies=bodies, points=points, EA=stiffness, segments=4,
                 length=(drop - top[2]) * self.between(0.99, 1.009), mass_per_length=self.between(5.0, 40.0),
             )  # fmt: skip
             return
         self.scene.add_line(
-            name="hoist", bodies=bodies, points=points, stiffness=stiffness,
+            name="hoist", bodies=bodies, points=points, EA=stiffness,
             damping_ratio=self.between(0.0, 0.1), **given,
         )  # fmt: skip
         if self.chance(0.5):
@@ -185,7 +186,7 @@ class Builder:
                 length *= self.between(0.97, 1.03)
                 stiffness = self.magnitude(5e4, 5e6)
             self.scene.add_line(
-                name=name, bodies=[self.base, load], points=[end, arm], stiffness=stiffness, length=length
+                name=name, bodies=[self.base, load], points=[end, arm], EA=stiffness, length=length
             )
             if stiffness != 0.02 * weight / 0.01:
                 self.hold(name, weight)
@@ -217,7 +218,7 @@ class Builder:
             corner = half * np.array([x, y, 0.3])
             self.scene.add_line(
                 name=f"sling {i}", bodies=["load", "below"], points=[(0, 0, 0), corner],
-                stiffness=mass * G / 2e-3,
+                EA=mass * G / 2e-3,
                 length=float(np.linalg.norm(np.array([0.0, 0.0, drop]) + corner - [0, 0, 2 * corner[2]]))
                 * self.between(0.98, 1.02),
             )  # fmt: skip

@@ -10,7 +10,9 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from seacrane import Curve, Evaluator, Model, Scene, StateSpaceBlock
+from seacrane import Curve, Model, Scene
+from seacrane.analysis import Evaluator
+from seacrane.hydro import StateSpaceBlock
 
 Array = NDArray[np.float64]
 # All kinds, those first that hold something and let something go.

@@ -34,7 +34,7 @@ def tackle(*, falls: int = 6, guided: bool = True, strain: float | None = None, 
         name="hoist",
         bodies=bodies,
         points=np.column_stack([x, np.zeros((len(x), 2))]),
-        stiffness=STIFFNESS,
+        EA=STIFFNESS,
         length=path_of_tackle(falls) / (1.0 + taut),
         mass=MASS / falls**2,
         radii=[0.0, *[RADIUS] * centers.size, 0.0],
@@ -62,7 +62,7 @@ def belt(*, crossed: bool) -> tuple[Scene, float]:
     length = 2.0 * straight + large * wraps[0] + small * wraps[1]
     scene.add_line(
         name="belt", bodies=["ground", "small", "ground", "ground"],
-        points=[start, (0, 0, 0), (0, 0, 0), start], stiffness=1e3, length=length, radii=[0, small, large, 0],
+        points=[start, (0, 0, 0), (0, 0, 0), start], EA=1e3, length=length, radii=[0, small, large, 0],
         axes=[(0, 0, 0), DOWN if crossed else OVER, OVER, (0, 0, 0)],
     )  # fmt: skip
     return scene, float(length)
@@ -78,7 +78,7 @@ def capstan(*, turns: float = 0.0, friction: float = 0.1, rate: float = -0.5) ->
     path = 5.0 + 6.0 + RADIUS * (0.5 * np.pi + 2.0 * np.pi * turns)
     scene.add_line(
         name="hoist", bodies=["ground", "ground", "load"],
-        points=[(-5.0, 0.0, RADIUS), (0, 0, 0), (0, 0, 0)], stiffness=5e6,
+        points=[(-5.0, 0.0, RADIUS), (0, 0, 0), (0, 0, 0)], EA=5e6,
         length=path / (1.0 + 1e3 * G / 5e6), damping_ratio=0.2, radii=[0, RADIUS, 0],
         axes=[(0, 0, 0), OVER, (0, 0, 0)], turns=[0, turns, 0], frictions=[0, friction, 0],
     )  # fmt: skip
@@ -99,7 +99,7 @@ def slewing(**change: Any) -> Scene:
     scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
     scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=(4.2, 0.3, -5.0))
     line: dict[str, Any] = {
-        "stiffness": 3e6, "length": 14.75, "damping_ratio": 0.05, "radii": [0, 0.2, 0.25, 0.2, 0],
+        "EA": 3e6, "length": 14.75, "damping_ratio": 0.05, "radii": [0, 0.2, 0.25, 0.2, 0],
         "axes": [(0, 0, 0), (0.0, 1.0, 0.1), (0.1, 1.0, 0.1), (0.2, -1.0, 0.1), (0, 0, 0)],
         "efficiencies": [1, 0.98, 1, 0.96, 1], "frictions": [0, 0, 0.03, 0, 0], "slip_speed": 0.05,
     } | change  # fmt: skip
@@ -123,5 +123,5 @@ def four_legs(*, stiffnesses: tuple[float, ...], height: float = 4.0, arm: float
     scene = Scene(name="slung")
     scene.add_body(name="load", mass=8e3, inertia=(2e4, 2e4, 3e4), position=(0.0, 0.0, -height))
     corners = [(arm, arm, 0.0), (-arm, arm, 0.0), (-arm, -arm, 0.0), (arm, -arm, 0.0)]
-    scene.add_bridle(name="sling", hook="ground", load="load", points=corners, stiffnesses=stiffnesses)
+    scene.add_bridle(name="sling", hook="ground", load="load", points=corners, EA=stiffnesses)
     return scene

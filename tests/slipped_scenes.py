@@ -56,7 +56,7 @@ def over_a_sheave(numbers: Mapping[str, Any]) -> Scene:
     scene = with_load((0.0, 0.0, -15.0))
     line = {
         "points": [(0, -20, 0), (0, 0, 0), (0, 0.5, 1)],
-        "stiffness": 5e7,
+        "EA": 5e7,
         "axes": [(0, 0, 0), (-1, 0, 0), (0, 0, 0)],
     }
     scene.add_line(
@@ -88,7 +88,7 @@ def compensated(numbers: Mapping[str, Any]) -> Scene:
     scene = hung(
         {
             "points": np.zeros((2, 3)),
-            "stiffness": 5e7,
+            "EA": 5e7,
             "length": 15.0 / (1 + MASS * G / 5e7),
             "winch": True,
             "lag": 0.2,
@@ -163,9 +163,7 @@ def tabled(numbers: Mapping[str, Any]) -> Scene:
 def weighed(numbers: Mapping[str, Any]) -> Scene:
     scene = Scene(name="sample")
     scene.add_body(name="load", **numbers)
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7, length=15.0
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
     return scene
 
 
@@ -201,18 +199,18 @@ def raised(numbers: Mapping[str, Any]) -> Scene:
 AREA = 0.02
 WIRE = {
     "points": [(0.5, 0.0, 0.0), (0.5, 0.0, 1.0)],
-    "stiffness": 5e7,
+    "EA": 5e7,
     "length": 14.0 / (1.0 + MASS * G / 5e7),
 }
 SAMPLES: Mapping[str, Sample] = {
     "line": Sample(kind=_core.Line, numbers={**WIRE, "damping_ratio": 0.02, "mass": MASS}, scene=hung),
     "quasi-static line": Sample(
-        kind=_core.Line, numbers={"settling": 0.2}, scene=lambda n: hung(n, **WIRE, stretch="quasi-static")
+        kind=_core.Line, numbers={"settling": 0.2}, scene=lambda n: hung(n, **WIRE, rung="quasi-static")
     ),
     "cord": Sample(
         kind=_core.Line,
         numbers={"strains": [0.0, 0.15, 0.3], "tensions": [0.0, 1e5, 4e5]},
-        scene=lambda n: hung(n, **{**WIRE, "stiffness": 4e5 / 0.3, "length": 11.5}),
+        scene=lambda n: hung(n, **{**WIRE, "EA": 4e5 / 0.3, "length": 11.5}),
     ),
     "sheaved line": Sample(
         kind=_core.Line,
@@ -378,7 +376,7 @@ SAMPLES: Mapping[str, Sample] = {
         numbers={
             "mass": MASS, "inertia": INERTIA, "position": (0.0, 0.0, -15.0),
             "center_of_mass": (0.0, 0.0, -1.0), "velocity": (0.2, 0.0, 0.0),
-            "angular_velocity": (0.0, 0.0, 0.2),
+            "angular_velocity": (0.0, 0.0, 0.2), "size": (2.0, 2.0, 3.0),
         },
         scene=weighed,
     ),

@@ -21,7 +21,7 @@ def on_deck(*, length: float = 20.1, **line: Any) -> Scene:
     scene.add_seat(joint="on deck")
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, HEIGHT + 1.0), (0.0, 0.0, 0.0)],
-        stiffness=STIFFNESS, length=length, **line,
+        EA=STIFFNESS, length=length, **line,
     )  # fmt: skip
     scene.add_winch(line="hoist")
     return scene
@@ -31,9 +31,17 @@ def lift_off() -> list[Stage]:
     """Hold, lift off, raise, stop, and let go."""
     return [
         Stage(name="hold", duration=1.05),
-        Stage(name="lift off", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -RATE}),
         Stage(
-            name="raise", until=Until.length("hoist", below=18.5), longest=60.0, commands={"hoist.rate": -0.4}
+            name="lift off",
+            until=Until.release("on deck"),
+            maximum_duration=60.0,
+            commands={"hoist.rate": -RATE},
+        ),
+        Stage(
+            name="raise",
+            until=Until.length("hoist", maximum=18.5),
+            maximum_duration=60.0,
+            commands={"hoist.rate": -0.4},
         ),
         Stage(name="stop", duration=2.0, commands={"hoist.rate": 0.0}),
         Stage(name="let go", duration=1.0, release=["hoist"]),
@@ -52,10 +60,11 @@ def swinging() -> Scene:
 def hoisting() -> list[Stage]:
     """Raise to a length, in mid-air stop, lower again."""
     return [
-        Stage(name="raise", until=Until.length("hoist", below=19.0), longest=9.0,
+        Stage(name="raise", until=Until.length("hoist", maximum=19.0), maximum_duration=9.0,
               commands={"hoist.rate": -0.4}),
         Stage(name="stop", duration=2.03, commands={"hoist.rate": 0.0}),
-        Stage(name="lower", until=Until.channel("position", body="load", axis="z", below=1.9), longest=9.0,
+        Stage(name="lower", until=Until.channel("position", body="load", axis="z", maximum=1.9),
+              maximum_duration=9.0,
               commands={"hoist.rate": Move(to=0.5, over=2.0)}),
     ]  # fmt: skip
 

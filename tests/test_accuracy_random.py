@@ -87,4 +87,4 @@ def test_what_tells_an_error_is_another_method() -> None:
             probes = [probe_of(method, stiffest=stiffest) for stiffest in (False, True)]
             assert all(probe.integrator != method.integrator for probe in probes)
             if method.integrator == STIFF:
-                assert all(probe.used_tolerance <= method.used_tolerance for probe in probes)
+                assert all(probe.used_rtol <= method.used_rtol for probe in probes)

@@ -23,15 +23,15 @@ def with_drift() -> HydroDatabase:
 
 def scene_of(**options: object) -> Scene:
     scene = Scene(name="sea")
-    scene.add_vessel(shipped_database())
-    scene.add_sea(with_drift(), count=30, **options)  # type: ignore[arg-type]
+    scene.add_vessel(with_drift())
+    scene.add_sea(count=30, **options)  # type: ignore[arg-type]
     return scene
 
 
 def test_keywords_do_what_the_functions_do() -> None:
     by_keyword, by_hand = scene_of(phase="actual", drift=True), scene_of()
-    by_hand.add_drift(with_drift())
-    by_hand.use_actual_position(with_drift())
+    by_hand.add_drift()
+    by_hand.use_actual_position()
     one, other = by_keyword.waves, by_hand.waves
     assert one is not None and other is not None
     assert one.hull().force_by_heading is not None and other.hull().force_by_heading is not None
@@ -51,7 +51,7 @@ def test_the_fft_takes_uniform_seas_and_refuses_jittered_ones() -> None:
         system = WaveSystem(spectrum=density, direction_deg=135.0, count=50)
         sea = SeaState(systems=[system], placement=placement)
         scene.waves = None
-        scene.add_sea(shipped_database(), sea=sea, evaluation="fft")
+        scene.add_sea(sea=sea, evaluation="fft")
         if placement == "uniform":
             scene.compile()
             continue

@@ -15,18 +15,17 @@ import seacrane.run.advance
 import seacrane.run.run
 import seacrane.validity.range
 from seacrane import (
-    NotFiniteWarning,
     Result,
     Run,
     Scene,
     SimulationError,
     Stage,
-    UnjudgedWarning,
     ensemble,
     simulate,
     simulate_stages,
     simulate_to_file,
 )
+from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 
 def pendulum() -> Scene:

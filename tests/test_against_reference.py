@@ -16,8 +16,9 @@ from reference.compare import differences
 from reference.simulate import simulate as simulate_reference
 from reference.system import System
 
-from seacrane import Scene, cases, driven, simulate
+from seacrane import Scene, cases, simulate
 from seacrane._core import Curve
+from seacrane.analysis import driven
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.inputs.frames import rotation_matrix

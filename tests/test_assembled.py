@@ -7,8 +7,9 @@ import warnings
 import numpy as np
 import pytest
 
-from seacrane import AssemblyWarning, Curve, Scene
+from seacrane import Curve, Scene
 from seacrane.description.assembled import LARGEST_MOVE, LARGEST_TURN, moves
+from seacrane.warnings import AssemblyWarning
 
 ARM = 20.0  # m, hinge to the centre of the boom
 

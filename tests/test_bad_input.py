@@ -14,26 +14,23 @@ from hypothesis import strategies as st
 
 from seacrane import (
     Curve,
-    Evaluator,
     Frame,
-    HullLoads,
     Run,
     SampledController,
     Scene,
     SceneError,
     SimulationError,
     State,
-    StateSpaceBlock,
-    Waves,
     _core,
-    inverse_dynamics,
     simulate,
-    spline_curve,
 )
+from seacrane.analysis import Evaluator, inverse_dynamics
 from seacrane.crane import Payload
+from seacrane.hydro import StateSpaceBlock
+from seacrane.scene import HullLoads, Waves, spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 NAN, INF = float("nan"), float("inf")
 KINDS = tuple(joint_examples.KINDS)
@@ -586,9 +583,9 @@ def test_curves(make: Callable[[], Any], parts: tuple[str, ...]) -> None:
         case("dt negative", {"dt": -0.1, "integrator": "rk4"}, "dt is -0.1 s", "leave it out"),
         case("dt zero", {"dt": 0.0, "integrator": "rk4"}, "dt is 0.0 s", "leave it out"),
         case("dt nan", {"dt": NAN, "integrator": "rk4"}, "dt is nan s"),
-        case("max_step negative", {"max_step": -1.0}, "max_step is -1.0 s"),
-        case("max_step inf", {"max_step": INF}, "max_step is inf s"),
-        case("max_step zero", {"max_step": 0.0}, "max_step is 0.0 s; give a finite positive number"),
+        case("maximum_step negative", {"maximum_step": -1.0}, "maximum_step is -1.0 s"),
+        case("maximum_step inf", {"maximum_step": INF}, "maximum_step is inf s"),
+        case("maximum_step zero", {"maximum_step": 0.0}, "maximum_step is 0.0 s; give a finite"),
         case("dt zero", {"dt": 0.0}, "dt is 0.0 s; give a finite positive number, or leave it out"),
         case("integrator unknown", {"integrator": "euler"}, "euler", "dopri5"),
         case("integrator a number", {"integrator": 3}, "integrator is 3", "dopri5"),

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from test_statics import C33, C44, C55, LOAD, G, barge, hanging, on_deck
 
-from seacrane import Scene, SceneError, Tank, equilibrium, statics
+from seacrane import Scene, SceneError, equilibrium, statics
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.scene import Tank
 
 
 def pair(*, y: float = 8.0, capacity: float = 4e5, content: float = 2e5) -> dict[str, Tank]:

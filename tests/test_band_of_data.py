@@ -13,17 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane.hydro import (
-    DampingWarning,
-    HydroDatabase,
-    RoughDataWarning,
-    load_database,
-    read_capytaine,
-    read_wamit,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, load_database, read_capytaine, read_wamit, shipped_database
 from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.data.roughness import first_rough_value
+from seacrane.warnings import DampingWarning, RoughDataWarning
 
 
 def rough_from(database: HydroDatabase) -> float | None:

@@ -10,15 +10,10 @@ import numpy as np
 import pytest
 
 from seacrane import Scene, response_statistics
-from seacrane.hydro import (
-    BelowBandWarning,
-    HydroDatabase,
-    hydro_from_hull,
-    natural_frequency,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.sea import jonswap
+from seacrane.warnings import BelowBandWarning
 
 
 @cache
@@ -81,15 +76,15 @@ def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
     scene = vessel(strip())
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
-        scene.add_sea(strip(), hs=2.0, tp=tp, direction_deg=90.0, seed=1)
+        scene.add_sea(hs=2.0, tp=tp, direction_deg=90.0, seed=1)
         spectrum = jonswap(hs=2.0, tp=tp)
-        response_statistics(scene, database=strip(), spectrum=spectrum, heading=0.5 * np.pi, body="vessel")
+        response_statistics(scene, spectrum=spectrum, heading=0.5 * np.pi, body="vessel")
     told = [str(one.message) for one in seen if one.category is BelowBandWarning]
     assert len(told) == 2 * named
     assert all("0.73" in one and "method='capytaine'" in one for one in told)
 
 
 def test_other_sources_are_not_sent_to_another_method() -> None:
-    scene, other = vessel(strip()), replace(strip(), source="a table")
+    scene = vessel(replace(strip(), source="a table"))
     with pytest.warns(BelowBandWarning, match="covers these frequencies"):
-        scene.add_sea(other, hs=2.0, tp=14.0, direction_deg=90.0)
+        scene.add_sea(hs=2.0, tp=14.0, direction_deg=90.0)

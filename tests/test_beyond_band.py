@@ -103,7 +103,7 @@ def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> Non
 
 def sea_above(high: float, tp: float, heading: float) -> tuple[HydroDatabase, dict[str, Array]]:
     """A table that ends early, and the components of a sea that the shipped one holds in full."""
-    waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, omega_max=3.1)
+    waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, maximum_omega=3.1)
     return loaded(cut(0.1, high), *(np.array(x) for x in (waves.omega, waves.amplitude, waves.direction)))
 
 

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Evaluator, Result, Run, Scene, balance, cases, driven, simulate, spline_curve
+from seacrane import Result, Run, Scene, balance, cases, simulate
+from seacrane.analysis import Evaluator, driven
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.scene import spline_curve
 
 Array = NDArray[np.float64]
 G = 9.80665

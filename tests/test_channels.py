@@ -11,11 +11,11 @@ import pytest
 from test_restart import chain, crank
 
 from seacrane import Result, SceneError, _core, cases, simulate
+from seacrane.description.channels import DERIVED, FIXED, NAMED
 from seacrane.result import CHANNELS
-from seacrane.result.channels import DERIVED, FIXED, NAMED
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 TOOL = Path(__file__).parents[1] / "tools" / "channel_table.py"
 

@@ -56,7 +56,7 @@ def test_a_block_falls_past_a_box(turned: float) -> None:
 def test_it_has_a_limit_state_and_a_row() -> None:
     scene = falling()
     scene.add_clearance(name="deck", points="left", center=(2.0, 0.0, 0.0))
-    scene.add_limit_state(channel="clearance", min=6.0, where={"gap": "deck"})
+    scene.add_limit_state(channel="clearance", minimum=6.0, names={"gap": "deck"})
     result = simulate(scene, 1.0, dt_out=0.25)
     lowest = 10.0 - 0.5 * G
     (used,) = result.utilisation

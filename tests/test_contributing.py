@@ -1,34 +1,78 @@
-"""The worked examples of docs/contributing.md fit the code as it is."""
+"""The worked examples of docs/additions fit the code as it is, each by itself and all together."""
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import additions  # noqa: E402
+
 DOCUMENT = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
-EXAMPLES = re.findall(r"<summary>(.*?)</summary>\n\n```diff\n(.*?)```", DOCUMENT, re.DOTALL)
+EXAMPLES = [additions.addition(name) for name in additions.NAMES]
+BY_NAME = {"argvalues": EXAMPLES, "ids": additions.NAMES}
+KNOWS_NO_KIND = ("test_elements.py", "test_integrator_orders.py", "test_channels.py")  # those of Python
 
 
-def test_every_kind_has_an_example() -> None:
-    assert len(EXAMPLES) == DOCUMENT.count("```diff") >= 5
+def test_the_document_names_every_example_and_no_other() -> None:
+    assert set(re.findall(r"\(additions/(\w+)\)", DOCUMENT)) == set(additions.NAMES)
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="git is not there to apply a diff")
-@pytest.mark.parametrize(("name", "diff"), EXAMPLES, ids=[name for name, _ in EXAMPLES])
-def test_an_example_applies(name: str, diff: str) -> None:
-    command = ["git", "apply", "--check", "-"]
-    done = subprocess.run(command, cwd=ROOT, input=diff, capture_output=True, text=True)
-    assert done.returncode == 0, f"{name}: {done.stderr}"
+@pytest.mark.parametrize("example", **BY_NAME)
+def test_the_words_behind_which_an_example_is_inserted_stand_once(example: additions.Addition) -> None:
+    for insertion in example.insertions:
+        insertion.place((ROOT / insertion.file).read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize(("name", "diff"), EXAMPLES, ids=[name for name, _ in EXAMPLES])
-def test_an_addition_takes_at_most_three_files(name: str, diff: str) -> None:
-    assert 1 <= len(re.findall(r"^diff --git ", diff, re.MULTILINE)) <= 3
+@pytest.mark.parametrize("example", **BY_NAME)
+def test_an_addition_takes_at_most_three_files(example: additions.Addition) -> None:
+    assert 1 <= len(example.touched) <= 3
+    assert not any((ROOT / file).exists() for file in example.new)
+
+
+def test_an_example_is_inserted_beside_what_others_added(tmp_path: Path) -> None:
+    registry = tmp_path / "list.hpp"
+    registry.write_text("using Types = std::tuple<Weld, Distance,\n    Free, Another>;\n", encoding="utf-8")
+    additions.Insertion("list.hpp", "Distance, Free", ", Screw").into(tmp_path)
+    assert "Free, Screw, Another>" in registry.read_text(encoding="utf-8")
+    with pytest.raises(ValueError, match="holds 'Distance Free' 0 times; it has to hold it once"):
+        additions.Insertion("list.hpp", "Distance Free", "").into(tmp_path)
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(shutil.which("cmake") is None or shutil.which("g++") is None, reason="no compiler here")
+def test_the_package_with_every_example_compiles_and_passes_its_tests(tmp_path: Path) -> None:
+    """All in one build, which takes ten minutes: so an example also survives the additions of others."""
+    copy, installed, build = (tmp_path / name for name in ("copy", "installed", "build"))
+    for folder in ("cpp", "cmake", "licenses", "python", "tests", "studies"):
+        shutil.copytree(ROOT / folder, copy / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    for file in ("CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / file, copy)
+    for example in EXAMPLES:
+        example.into(copy)
+    settings = {
+        "SKBUILD_BUILD_DIR": str(build), "SKBUILD_CMAKE_DEFINE": "SEACRANE_WERROR=ON;SEACRANE_TESTS=ON",
+        "PYTHONPATH": str(installed),
+    }  # fmt: skip
+    pip = [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation"]
+    own = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    for command in (
+        [*pip, "--target", str(installed), str(copy)],
+        ["cmake", "--build", str(build), "--target", "seacrane_tests"],
+        ["ctest", "--test-dir", str(build), "--output-on-failure", "--no-tests=error"],
+        [*own, *(f"tests/{name}" for name in KNOWS_NO_KIND)],
+    ):
+        environment = {**os.environ, **settings}
+        done = subprocess.run(command, cwd=copy, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, f"{command}: {done.stdout[-5000:]}{done.stderr[-5000:]}"
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not there to compile a joint")

@@ -8,21 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    HookLoadControl,
-    HydroDatabase,
-    Kept,
-    LinearControl,
-    Scene,
-    SceneError,
-    controlled_mean,
-    ensemble,
-    simulate,
-)
+from seacrane import HydroDatabase, Kept, Scene, SceneError, ensemble, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
+from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import shipped_database
+from seacrane.statistics import controlled_mean
 
 Array = NDArray[np.float64]
 
@@ -75,11 +67,9 @@ def database() -> HydroDatabase:
 def test_the_control_is_the_run_in_small_waves(axis: str, derivative: int, database: HydroDatabase) -> None:
     """From rest on, with the transient of the start."""
     scene = vessel(hs=0.02, memory="passive", mooring_period=None)
-    control = LinearControl(
-        scene, database=database, body="vessel", axis=axis, t_end=40.0, after=3.0, derivative=derivative
-    )
+    control = LinearControl(scene, body="vessel", axis=axis, t_end=40.0, after=3.0, derivative=derivative)
     channel = ("position", "velocity", "acceleration")[derivative]
-    run = simulate(with_sea(scene, database, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
+    run = simulate(with_sea(scene, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
     late = run.time >= 3.0
     motion = run.select(channel, body="vessel", axis=axis)
     moved = motion[late] - (motion[0] if derivative == 0 else 0.0)
@@ -93,7 +83,7 @@ def lifted() -> Scene:
     """A load held by a crane over the side."""
     scene = Scene(name="over the side")
     scene.add_vessel(shipped_database(), memory="passive")
-    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, direction_deg=150.0)
+    scene.add_sea(hs=1.0, tp=8.0, direction_deg=150.0)
     scene.add_crane(
         foot=(33.0, 10.0, 10.0), theta=-1.0, s1=1.0, s2=1.5, held=True,
         payload=Payload(mass=2e4, link_length=8.0),
@@ -106,12 +96,12 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
     """With 20 seeds and the control as well as with three times as many."""
     scene = lifted()
     at: dict[str, Any] = {"body": "payload", "axis": "y"}
-    swing = Kept(channel="position", what="maximum", at=at, after=10.0)
+    swing = Kept(channel="position", what="maximum", names=at, after=10.0)
     runs = ensemble(
-        scene, over={"seed": range(1, 21)}, keep={"swing": swing}, database=database, t_end=60.0,
+        scene, over={"seed": range(1, 21)}, keep={"swing": swing}, t_end=60.0,
         rtol=1e-2, dt_out=0.5,
     )  # fmt: skip
-    control = LinearControl(scene, database=database, **at, t_end=60.0, after=10.0, dt=0.5)
+    control = LinearControl(scene, **at, t_end=60.0, after=10.0, dt=0.5)
     found = controlled_mean(
         runs.dataset.swing,
         controls=control.extremes(range(1, 21)),
@@ -127,10 +117,10 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
 def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"database": database, "t_end": 40.0, "after": 5.0, "dt": 0.25}
+    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
-        sea = with_sea(scene, database, {"seed": 2, "hs": hs})
+        sea = with_sea(scene, {"seed": 2, "hs": hs})
         run = simulate(sea, 40.0, rtol=1e-5, dt_out=0.25, channels=["hook_load"])
         load = run["hook_load"][run.time >= 5.0 - 1e-9, 0]
         assert np.allclose(control.times, run.time[run.time >= 5.0 - 1e-9])
@@ -171,16 +161,16 @@ def test_a_control_that_makes_no_sense(given: dict[str, Any], message: str, data
     usual: dict[str, Any] = {"scene": vessel(memory="none"), "body": "vessel", "axis": "z", "t_end": 40.0}
     asked = {**usual, **given}
     with pytest.raises(SceneError, match=message):
-        LinearControl(asked.pop("scene"), database=database, **asked)
+        LinearControl(asked.pop("scene"), **asked)
 
 
 def test_a_link_that_is_none_is_named(database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match="link is None; no load hangs from a link"):
-        HookLoadControl(vessel(memory="none"), database=database, t_end=10.0)
+        HookLoadControl(vessel(memory="none"), t_end=10.0)
     with pytest.raises(SceneError, match="link is 'lnk'; choose from link"):
-        HookLoadControl(lifted(), database=database, t_end=10.0, link="lnk")
+        HookLoadControl(lifted(), t_end=10.0, link="lnk")
 
 
 def test_a_convolution_is_refused(database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match="is a convolution"):
-        LinearControl(vessel(memory="convolution"), database=database, body="vessel", axis="z", t_end=10.0)
+        LinearControl(vessel(memory="convolution"), body="vessel", axis="z", t_end=10.0)

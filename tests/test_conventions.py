@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Curve, Scene, cases, driven, simulate
+from seacrane import Curve, Scene, cases, simulate
+from seacrane.analysis import driven
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.sea import WaveComponents
 

@@ -59,8 +59,8 @@ def test_rk4_has_order_four_on_the_payload() -> None:
 
 def test_dopri5_has_order_five_on_the_payload() -> None:
     steps = [1 / 16, 1 / 32, 1 / 64]
-    # A tolerance that every step meets leaves max_step as the step.
-    runs = [run(integrator="dopri5", rtol=0.1, max_step=h, formulation="redundant") for h in steps]
+    # A tolerance that every step meets leaves maximum_step as the step.
+    runs = [run(integrator="dopri5", rtol=0.1, maximum_step=h, formulation="redundant") for h in steps]
     for h, out in zip(steps, runs, strict=True):
         assert T_END / h <= out["stats"]["steps"] <= T_END / h + 4
     errors = [payload_error(out) for out in runs]

@@ -43,8 +43,8 @@ def test_the_reference_does_not_depend_on_the_method() -> None:
 @pytest.mark.parametrize("integrator, order", [("rk4", 4), ("dopri5", 5), ("tsit5", 5)])
 def test_one_step_methods_reach_their_order(integrator: str, order: int) -> None:
     steps = (0.1, 0.05, 0.025)  # shorter ones end in the rounding of the reference, 3e-13 m
-    # A tolerance that never rejects leaves the step to max_step.
-    settings = [{"dt": h} if integrator == "rk4" else {"rtol": 0.1, "max_step": h} for h in steps]
+    # A tolerance that never rejects leaves the step to maximum_step.
+    settings = [{"dt": h} if integrator == "rk4" else {"rtol": 0.1, "maximum_step": h} for h in steps]
     errors = [error(integrator=integrator, **setting) for setting in settings]
     observed = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
     # From above: the next term of the error is still felt at these steps.

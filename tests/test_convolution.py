@@ -12,29 +12,19 @@ import pytest
 from numpy.typing import NDArray
 from test_veres_run import at_file_damping, simulated_rao
 
-from seacrane import (
-    Curve,
-    Result,
-    RetardationFunctions,
-    Run,
-    Scene,
-    SceneError,
-    State,
-    TwistHistory,
-    cases,
-    load_database,
-    simulate,
-)
+from seacrane import Curve, Result, Run, Scene, SceneError, State, cases, load_database, simulate
 from seacrane.analysis.scene_report import scene_report
 from seacrane.hydro import (
     HydroDatabase,
+    RetardationFunctions,
+    TwistHistory,
     retardation_functions,
     shipped_database,
     vessel_parameters,
 )
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]

@@ -246,7 +246,7 @@ def test_add_to_a_scene() -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"mass": -1.0}, r"payload: mass is -1.0; it must be finite and greater than zero"),
+        ({"mass": -1.0}, r"payload: mass is -1.0; give a finite number above zero"),
         ({"link_length": math.nan}, r"payload: link_length is nan"),
         ({"size": (6.0, 0.0, 4.0)}, r"payload: size\[1\] is 0.0"),
     ],

@@ -7,8 +7,9 @@ import warnings
 import numpy as np
 import pytest
 
-from seacrane import CurrentInWavesWarning, FlowCoefficients, Scene, simulate
+from seacrane import FlowCoefficients, Scene, simulate
 from seacrane.hydro import shipped_database
+from seacrane.warnings import CurrentInWavesWarning
 
 ALONG = FlowCoefficients(angle=[0.0, np.pi / 2, np.pi], x=[0.6, 0.0, -0.6], y=[0, 0.8, 0], yaw=[0, 0, 0])
 PEAK_SPEED = 9.80665 * 8.0 / (2.0 * np.pi)  # m/s, of waves of 8 s: k U / w is U by it
@@ -17,7 +18,7 @@ PEAK_SPEED = 9.80665 * 8.0 / (2.0 * np.pi)  # m/s, of waves of 8 s: k U / w is U
 def told(*, speed: float, direction_deg: float, density: float = 1025.0) -> list[str]:
     scene = Scene(name="in a current")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(shipped_database(), hs=0.5, tp=8.0, direction_deg=0.0, count=40, seed=1)
+    scene.add_sea(hs=0.5, tp=8.0, direction_deg=0.0, count=40, seed=1)
     flow = scene.add_wind if density < 500.0 else scene.add_current
     flow(
         coefficients=ALONG, speed=speed, direction_deg=direction_deg, frontal_area=100.0, lateral_area=500.0,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seacrane import Curve, gust_curve, spline_curve
+from seacrane import Curve
+from seacrane.scene import gust_curve, spline_curve
 
 TIMES = np.linspace(0.0, 45.0, 91)
 SWING = -0.5 * np.pi * np.sin(0.5 * np.pi * TIMES / 45.0)  # ends at -90 deg, not at rest

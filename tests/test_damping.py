@@ -11,19 +11,10 @@ import pytest
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
-from seacrane import (
-    CompassDirectionWarning,
-    Curve,
-    Evaluator,
-    Run,
-    Scene,
-    SceneError,
-    _core,
-    cases,
-    natural_modes,
-    simulate,
-)
+from seacrane import Curve, Run, Scene, SceneError, _core, cases, natural_modes, simulate
+from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
+from seacrane.warnings import CompassDirectionWarning
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -252,7 +243,7 @@ def test_a_damped_scene_comes_back_from_its_file_and_goes_on_to_the_bit(tmp_path
         ("add_pendulum_damping", {"second": "hook"}, "pendulum damping 'swing': there is no body 'hook'"),
         ("add_pendulum_damping", {"first": "load"}, "joins 'load' to itself"),
         ("add_pendulum_damping", {"mass": "1e3"}, "mass is '1e3'; give a number"),
-        ("add_air_drag", {"drag_coefficient": -1.0}, "drag_coefficient is -1.0; give one of zero or more"),
+        ("add_air_drag", {"drag_coefficient": -1.0}, "drag_coefficient is -1.0; give a finite number"),
         ("add_air_drag", {"body": "hook"}, "air drag 'hook drag': there is no body 'hook'"),
         ("add_air_drag", {"frontal_area": -2.0}, "frontal_area is -2; it must not be negative"),
         ("add_air_drag", {"point": (0.0, 0.0)}, r"point has shape \(2,\); give \(3,\)"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import warnings
 from pathlib import Path
 
@@ -18,11 +17,11 @@ from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
-from seacrane.hydro.vessel.time_domain import MemoryFitWarning
+from seacrane.warnings import MemoryFitWarning
 
 SHORT_LIFT = """
 format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"
@@ -63,9 +62,9 @@ def test_a_lift_file_has_it_too(tmp_path: Path) -> None:
 
 def test_what_was_reached_is_told() -> None:
     scene = afloat(shipped_database())
-    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, count=20)
+    scene.add_sea(hs=1.0, tp=8.0, count=20)
     result = simulate(scene, t_end=1.0)
-    settings = json.loads(str(result.stats["settings"]))
+    settings = result.settings
     assert settings["memory"] == "by-motion"
     assert settings["memory_error"] == scene.provenance["vessel"].memory_error
 

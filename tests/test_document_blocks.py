@@ -15,11 +15,10 @@ from veres_writer import VeresRun
 ROOT = Path(__file__).resolve().parents[1]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 IMPORT = re.compile(r"^ {4}((?:from seacrane[.\w]* import|import seacrane) .+)$", re.MULTILINE)
-OWN_TEST = "docs/jobs.md"  # scripts of examples/jobs, each by itself: tests/test_jobs.py
 SAMPLE = ("README.md", "docs/getting-started.md", "docs/lines.md", "docs/stages.md", "docs/hydraulics.md")
 PATHS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
-RUN = [name for name, text in TEXTS.items() if BLOCK.search(text) and name != OWN_TEST]
+RUN = [name for name, text in TEXTS.items() if BLOCK.search(text)]
 
 
 def as_script(text: str) -> str:

@@ -24,7 +24,7 @@ QUOTED = re.compile(r"`(seacrane\s[^`]*)`")
 LISTING = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
 NO_COMMANDS = {"state"}  # the first line of a state file
 TOML = re.compile(r"^```toml\n(.*?)^```", re.DOTALL | re.MULTILINE)
-RUN = ("docs/getting-started.md", "docs/lift-files.md", "docs/report.md", "docs/studies.md")
+RUN = ("docs/getting-started.md", "docs/lift-files.md", "docs/answers.md", "docs/studies.md")
 
 
 def words(line: str) -> list[str]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import subprocess
 import sys
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
+PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
@@ -26,14 +29,28 @@ def test_no_table_is_older_than_its_file() -> None:
     assert done.returncode == 0, f"{done.stderr}python benchmarks/documents.py fills them"
 
 
-def test_a_table_that_differs_from_its_file_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def documents(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    import documents
+    return importlib.import_module("documents")
 
-    file = "benchmarks/results/one-evaluation.csv"
-    mark = f"<!-- table {file}; columns: scene; rows: scene = case1 | vessel -->"
-    stale = f"{mark}\n| scene |\n| --- |\n| case1 |\n<!-- end of table -->"
+
+FILE = "benchmarks/results/one-evaluation.csv"
+
+
+def test_a_table_that_differs_from_its_file_is_found(documents: Any) -> None:
+    mark = f"<!-- table {FILE}; columns: scene; rows: scene = case1 | vessel -->"
+    told = f"<p><sub>{documents.words(ROOT / FILE)}</sub></p><!-- end of table -->"
+    stale = f"{mark}\n| scene |\n| --- |\n| case1 |\n{told}"
     assert documents.filled(stale) == stale.replace("| case1 |\n", "| case1 |\n| vessel |\n")
+
+
+def test_a_place_leads_to_its_table_and_the_site_shows_it(documents: Any) -> None:
+    empty = f"<!-- place {FILE} -->\n<!-- end of place -->"
+    filled = documents.filled(empty, ROOT / "benchmarks")
+    assert "[one-evaluation.csv](results/one-evaluation.csv): " in filled
+    assert documents.filled(filled, ROOT / "benchmarks") == filled
+    assert "| scene | ns |" in documents.with_tables(filled)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,35 +12,19 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, _core, simulate
-from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 
 Array = NDArray[np.float64]
 TIMES = np.array([0.0, 3.3, 47.0, 600.0])
 
 
 @cache
-def database() -> HydroDatabase:
-    return shipped_database()
-
-
-def drifting(coefficient: Any, *, headings: int = 13, symmetric: bool = True) -> Any:
-    """A database that holds drift coefficients, coefficient(omega, heading) by motion."""
-    omega = np.linspace(0.2, 2.6, 25)
-    heading = np.linspace(0.0, np.pi if symmetric else 2.0 * np.pi, headings, endpoint=symmetric)
-    table = np.array([[coefficient(w, b) for w in omega] for b in heading])
-    drift = SimpleNamespace(heading=heading, omega=omega, coefficient=table)
-    hull = database()
-    return SimpleNamespace(
-        name="drifting",
-        drift=drift,
-        port_starboard_symmetric=symmetric,
-        omega=hull.omega,
-        restoring=hull.restoring,
-        g=hull.g,
-        depth=hull.depth,
-        full_circle=hull.full_circle,
-        force_at=hull.force_at,
-    )
+def drifting(*, headings: int = 13, lowest: float = 0.2, highest: float = 2.6) -> HydroDatabase:
+    """The shipped hull with the drift coefficients of `ship`."""
+    omega, heading = np.linspace(lowest, highest, 25), np.linspace(0.0, np.pi, headings)
+    table = np.array([[ship(w, b) for w in omega] for b in heading])
+    drift = DriftCoefficients(heading=heading, omega=omega, coefficient=table)
+    return replace(shipped_database(), name="drifting", drift=drift)
 
 
 def ship(w: float, b: float) -> list[float]:
@@ -146,17 +130,17 @@ def test_its_spectrum_is_pinksters() -> None:
     assert power[count:].max() < 1e-20 * expected[0]
 
 
-def moored(**sea_options: Any) -> Scene:
+def moored(database: HydroDatabase | None = None, **sea_options: Any) -> Scene:
     scene = Scene(name="moored")
-    scene.add_vessel(database(), mooring_period=100.0)
-    scene.add_sea(database(), **{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
+    scene.add_vessel(drifting() if database is None else database, mooring_period=100.0)
+    scene.add_sea(**{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
     return scene
 
 
 def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -> None:
     for direction_deg in (135.0, 225.0, -10.0):
         scene = moored(direction_deg=direction_deg)
-        scene.add_drift(drifting(ship))
+        scene.add_drift()
         assert scene.waves is not None
         assert scene.waves.hull().drift is not None
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
@@ -165,7 +149,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
         assert np.all(np.abs(scene.waves.hull().drift - expected) < 2e-3 * scale)
     port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
     for scene in (port, starboard):
-        scene.add_drift(drifting(ship))
+        scene.add_drift()
     assert port.waves is not None
     assert starboard.waves is not None
     mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
@@ -176,7 +160,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
 
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
-    scene.add_drift(drifting(ship))
+    scene.add_drift()
     assert scene.waves is not None
     assert scene.waves.hull().drift is not None
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
@@ -198,7 +182,7 @@ def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp
 def test_drift_at_the_actual_position(drift_first: bool) -> None:
     scene = moored()
     for step in ("add_drift", "use_actual_position")[:: 1 if drift_first else -1]:
-        getattr(scene, step)(drifting(ship))
+        getattr(scene, step)()
     waves = scene.waves
     assert waves is not None
     assert waves.hull().force_by_heading is not None
@@ -212,7 +196,7 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
     )
     yaw = 0.35
     turned = moored(direction_deg=135.0 - np.degrees(yaw))
-    turned.add_drift(drifting(ship))
+    turned.add_drift()
     assert turned.waves is not None
     assert turned.waves.hull().drift is not None
     scale = np.array(waves.amplitude) @ np.abs(turned.waves.hull().drift) * np.sum(waves.amplitude) + 1e-6
@@ -226,21 +210,20 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
 
 
 def test_what_is_missing_is_named() -> None:
-    scene = moored()
     with pytest.raises(SceneError, match="has no drift coefficients"):
-        scene.add_drift(SimpleNamespace(name="plain", drift=None))  # type: ignore[arg-type]
+        moored(shipped_database()).add_drift()
     with pytest.raises(SceneError, match="needs a sea"):
-        Scene().add_drift(drifting(ship))
-    narrow = drifting(ship)
-    narrow.drift.omega = np.linspace(0.6, 2.0, 25)
+        Scene().add_drift()
+    narrow = moored(drifting(lowest=0.6, highest=2.0))
     with pytest.raises(ValueError, match=r"omega = 0\.\d+ rad/s is outside .* 0\.6 to 2 rad/s"):
-        scene.add_drift(narrow)
-    scene.add_drift(narrow, outside="hold")
+        narrow.add_drift()
+    narrow.add_drift(outside="hold")
     with pytest.raises(SceneError, match="choose 'error' or 'hold'"):
-        scene.add_drift(narrow, outside="zero")  # type: ignore[arg-type]
+        narrow.add_drift(outside="zero")  # type: ignore[arg-type]
+    few = drifting(headings=3)
     with pytest.raises(ValueError, match="gaps above 45 deg are not interpolated"):
-        moored(direction_deg=100.0).add_drift(drifting(ship, headings=3))
-    moored(direction_deg=90.0).add_drift(drifting(ship, headings=3))  # a stored heading needs none
+        moored(few, direction_deg=100.0).add_drift()
+    moored(few, direction_deg=90.0).add_drift()  # a stored heading needs none
     waves, coefficient = sea()
     coefficient[3, 1] = np.inf
     with pytest.raises(ValueError, match=r"drift load: coefficient\(3, 1\) is inf"):

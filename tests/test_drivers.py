@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
 
-from seacrane import Curve, Run, Scene, SceneError, driven, inverse_dynamics, reflected_inertia, spline_curve
+from seacrane import Curve, Run, Scene, SceneError
+from seacrane.analysis import driven, inverse_dynamics, reflected_inertia
+from seacrane.scene import spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 MOTIONS = ("x", "y", "z", "roll", "pitch", "yaw")
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, Run, Scene, State, StateSpaceBlock
+from seacrane import Curve, Run, Scene, State
+from seacrane.hydro import StateSpaceBlock
 
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 Array = NDArray[np.float64]
@@ -32,7 +33,7 @@ def hauled(*, mass: float = 1e6, speed: float = -1.0, seed: int = 1) -> Scene:
         angular_velocity=0.01 * rng.normal(size=3),
     )  # fmt: skip
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0.5)], stiffness=1e3 * mass,
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0.5)], EA=1e3 * mass,
         length=99.4,
     )  # fmt: skip
     rate = Curve.quintic(start_time=0.0, end_time=1.0, start=0.0, end=speed)

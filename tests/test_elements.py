@@ -21,7 +21,7 @@ from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
 FORCELESS = ("heave compensator",)  # only its states are for others
@@ -152,6 +152,8 @@ def every_load() -> Scene:
         scene.add_load(kind=kind, **told | {"name": f"a {kind}"})
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 3.0))
     scene.replace("water", kind="vessel", floats=False)
+    for name in scene.bodies:
+        scene.replace(name, kind="body", size=(1.0, 2.0, 3.0))
     scene.add_load(kind="limit", limit="stop", name="end", joint="pin", coordinate="angle", minimum=-1.0)
     return scene
 

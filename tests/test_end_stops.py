@@ -111,7 +111,7 @@ def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None
     """The boom stops, its payload flies on, the wire snatches and lifts the boom off again; then it rests."""
     scene = cases.case2()
     scene.add_end_stop(joint="main_cylinder", minimum=-1.0, maximum=0.05)
-    scene.add_wire(joint="link")
+    scene.add_line(joint="link", rung="rigid")
     result = simulate(scene, t_end=8.0, dt_out=0.25, rtol=1e-8, formulation=formulation)
     assert [(e.name, e.kind) for e in result.events[:4]] == [
         ("main_cylinder.maximum", "contact"), ("link", "release"),

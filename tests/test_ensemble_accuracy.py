@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 from ensemble_studies import pendulum
 
-from seacrane import AccuracyNotHeldWarning, Ensemble, Kept, SceneError, ensemble, simulate
+from seacrane import Kept, SceneError, ensemble, simulate
 from seacrane.cases import vessel
-from seacrane.hydro import shipped_database
+from seacrane.ensembles import Ensemble
+from seacrane.warnings import AccuracyNotHeldWarning
 
 LIMIT = 1e-4
-TRACK = {"track": Kept(channel="position", at={"body": "bob"})}
+TRACK = {"track": Kept(channel="position", names={"body": "bob"})}
 GIVEN: dict[str, Any] = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
 STARTS = {"start": [1.0 + 0.02 * place for place in range(40)]}
 
@@ -44,15 +45,15 @@ def test_one_method_is_chosen_at_little_cost(chosen: Ensemble) -> None:
     assert len(told.checks) == 2
     assert not set(told.probes) & set(told.checks)
     same = ensemble(
-        pendulum, over=STARTS, integrator=told.method.integrator, rtol=told.method.used_tolerance, **GIVEN
+        pendulum, over=STARTS, integrator=told.method.integrator, rtol=told.method.used_rtol, **GIVEN
     )
     assert same.dataset.identical(chosen.dataset)
 
 
 def test_a_sea_is_as_cheap() -> None:
     """Of 25 storms one is the probe and one is checked."""
-    given: dict[str, Any] = {"over": {"seed": range(1, 26)}, "database": shipped_database()}
-    roll = {"roll": Kept(channel="vessel_motion", what="maximum", at={"motion": "roll"})}
+    given: dict[str, Any] = {"over": {"seed": range(1, 26)}}
+    roll = {"roll": Kept(channel="vessel_motion", what="maximum", names={"motion": "roll"})}
     told = ensemble(
         vessel(hs=1.0, memory="passive"), keep=roll, accuracy={"roll": 1e-3}, t_end=20.0, dt_out=0.5, **given
     ).accuracy

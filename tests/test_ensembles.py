@@ -29,26 +29,26 @@ from ensemble_studies import (
 )
 
 from seacrane import (
-    Ensemble,
     FileFormatError,
     HydroDatabase,
     Kept,
-    LatinHypercube,
     Method,
     Outputs,
     Result,
     Scene,
     SceneError,
     SimulationError,
-    WorkerVersionError,
     ensemble,
     simulate,
 )
 from seacrane.cases import vessel
+from seacrane.description.databases import without_databases
 from seacrane.description.file import described
+from seacrane.ensembles import Ensemble, LatinHypercube
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.study import Study
+from seacrane.errors import WorkerVersionError
 from seacrane.hydro import DriftCoefficients, shipped_database
 
 GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
@@ -100,8 +100,8 @@ def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
     distributed = pytest.importorskip(
         "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
     )
-    given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "database": database, "t_end": 2.0, "rtol": 1e-3}
-    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
+    given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "t_end": 2.0, "rtol": 1e-3}
+    keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
@@ -115,7 +115,7 @@ def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
 def test_seas_of_a_scene_are_those_of_add_sea(afloat: Scene, database: HydroDatabase) -> None:
     words: dict[str, Any] = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
     assert afloat.waves is not None
-    made, asked = with_sea(afloat, database, words), vessel(**words)
+    made, asked = with_sea(afloat, words), vessel(**words)
     assert made.waves is not None
     assert asked.waves is not None
     known = replace(asked.waves.provenance, repeat_period_s=None, repeat_found=None)
@@ -131,13 +131,13 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
     values[..., 0], values[..., 1] = (turn(heading)[:, None] * omega for turn in (np.cos, np.sin))
     drift = DriftCoefficients(heading=heading, omega=omega, coefficient=values)
     database = replace(shipped_database(), drift=drift)
-    scenes = [vessel(hs=0.0) for _ in range(2)]
+    scenes = [vessel(database=database, hs=0.0) for _ in range(2)]
     for seed, scene in enumerate(scenes):
         scene.add_sea(
-            database, seed=seed, hs=1.0, tp=7.0, spreading=6.0, phase=phase, drift=True, position=(3.0, -2.0),
+            seed=seed, hs=1.0, tp=7.0, spreading=6.0, phase=phase, drift=True, position=(3.0, -2.0),
             heading_deg=20.0,
         )  # fmt: skip
-    made, asked = with_sea(scenes[0], database, {"seed": 1}).waves, scenes[1].waves
+    made, asked = with_sea(scenes[0], {"seed": 1}).waves, scenes[1].waves
     assert made is not None
     assert asked is not None
     own, other = made.hull(), asked.hull()
@@ -150,7 +150,7 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
 def test_paths_change_elements_of_a_copy() -> None:
     scene = pendulum()
     scene.add_actuator(name="motor", joint="pin", stiffness=500.0, damping=50.0)
-    keep = {"x": Kept(channel="position", at={"body": "bob", "axis": "x"})}
+    keep = {"x": Kept(channel="position", names={"body": "bob", "axis": "x"})}
     there = ensemble(
         scene, over={"actuators.motor.stiffness": [500.0, 900.0], "gravity": [9.81, 1.62]}, keep=keep, **SWING
     )
@@ -355,7 +355,7 @@ def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_a_job_is_read_once_in_a_process() -> None:
-    study = Study(source=pendulum(), databases=None, t_end=1.0, method=Method(), outputs=Outputs(), keep=KEEP)
+    study = Study(source=pendulum(), t_end=1.0, method=Method(), outputs=Outputs(), keep=KEEP)
     data = pickle.dumps(Job(study))
     assert pickle.loads(data) is pickle.loads(data)
 
@@ -375,7 +375,7 @@ def test_a_job_is_read_once_in_a_process() -> None:
         ({"keep": {}}, "keep is {}"),
         ({"keep": {"failure": lowest}}, "'failure' is taken"),
         ({"keep": {"x": 3}}, "keep: x is 3"),
-        ({"keep": {"x": Kept(channel="position", step=0.15)}}, "no multiple of the output interval"),
+        ({"keep": {"x": Kept(channel="position", interval=0.15)}}, "no multiple of the output interval"),
         ({"keep": {"x": Kept(channel="position", after=5.0)}}, "after is 5 s, the run ends at 2 s"),
         ({"on_error": "ignore"}, "on_error is 'ignore'"),
         ({"executor": 4}, "executor is 4"),
@@ -391,12 +391,13 @@ def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
 
 
 def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> None:
-    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
-    with pytest.raises(SceneError, match="give the HydroDatabase of vessel 'vessel'"):
-        ensemble(afloat, over={"seed": [1]}, keep=keep)
-    other = replace(database, force=1.1 * database.force)
+    keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
+    scene = without_databases(afloat)
+    with pytest.raises(SceneError, match="vessel 'vessel' has no database, which a sea needs"):
+        ensemble(scene, over={"seed": [1]}, keep=keep)
+    scene.replace("vessel", kind="vessel", database=replace(database, force=1.1 * database.force))
     with pytest.raises(SceneError, match="the waves load vessel 'vessel' otherwise"):
-        ensemble(afloat, over={"seed": [1]}, keep=keep, database=other)
+        ensemble(scene, over={"seed": [1]}, keep=keep)
 
 
 def test_members_begin_where_they_are_told(tmp_path: Path) -> None:

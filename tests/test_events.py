@@ -19,8 +19,9 @@ from event_scenes import (
     scipy_pendulum,
 )
 
-from seacrane import ChatteringError, Run, Scene, SceneError, State, cases, integrator_names, simulate
+from seacrane import Run, Scene, SceneError, State, cases, integrator_names, simulate
 from seacrane._core import Body
+from seacrane.errors import ChatteringError
 
 
 def bounces(restitution: float, count: int) -> tuple[Array, Array]:
@@ -153,7 +154,7 @@ def test_every_integrator_finds_the_same_events(integrator: str) -> None:
 def snatched() -> Scene:
     """The lift of case 2 with a payload that is thrown up and falls into its wire."""
     scene = cases.case2()
-    scene.add_wire(joint="link")
+    scene.add_line(joint="link", rung="rigid")
     load = scene.bodies["payload"]
     scene.bodies["payload"] = Body(
         name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
@@ -201,7 +202,7 @@ def thrown(restitution: float) -> Scene:
         kind="distance", name="wire", first="a", second="b", point=(0.0, 0.1, 0.2),
         second_point=(1.0, -0.2, 0.0), length=3.0,
     )  # fmt: skip
-    scene.add_wire(joint="wire", restitution=restitution)
+    scene.add_line(joint="wire", rung="rigid", restitution=restitution)
     return scene
 
 
@@ -236,7 +237,7 @@ def test_what_starts_pulled_at_is_let_go_at_once() -> None:
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, LENGTH),
     )  # fmt: skip
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     result = simulate(scene, t_end=0.5, dt_out=0.1, rtol=1e-9)
     assert (result.events[0].time, result.events[0].kind) == (0.0, "release")
     fallen = LENGTH - 0.5 * GRAVITY * result.time**2
@@ -246,7 +247,7 @@ def test_what_starts_pulled_at_is_let_go_at_once() -> None:
 def test_wire_that_stays_taut_changes_nothing_in_a_lift() -> None:
     plain = cases.case2()
     limited = plain.copy()
-    limited.add_wire(joint="link")
+    limited.add_line(joint="link", rung="rigid")
     before = simulate(plain, t_end=5.0, dt_out=0.5, rtol=1e-8)
     after = simulate(limited, t_end=5.0, dt_out=0.5, rtol=1e-8)
     assert after.events == ()

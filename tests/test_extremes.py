@@ -114,7 +114,7 @@ OPEN = "joint or driver 'hinge': is open by 0.3 m or rad and projection does not
 DRIVEN: dict[str, Any] = {"axis": "driven-dead-centre", "value": -0.1}
 STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message=OPEN)
 HEEL: dict[str, Any] = {"axis": "heel", "value": 10.0}
-RK4 = Method(integrator="rk4", step=0.02)
+RK4 = Method(integrator="rk4", dt=0.02)
 
 
 @pytest.mark.parametrize(
@@ -161,7 +161,7 @@ def empty(method: Method) -> Row:
 
 
 def test_a_run_is_cut_off_when_its_time_is_over() -> None:
-    method = Method(formulation="redundant", integrator="rk4", step=1e-5)
+    method = Method(formulation="redundant", integrator="rk4", dt=1e-5)
     row = measure(short(1e4), method, NO_REFERENCE, 0.05, empty(method))
     assert row.verdict == rows.SLOW
     assert 0 < row.steps < 1e6
@@ -178,7 +178,7 @@ def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     assert done.energy < 1e-4
     assert verdict(Method(formulation="recursive", integrator="ida")).verdict == rows.REFUSED
     wild = AXES["memory"].case(-10.0)
-    stopped = verdict(Method(formulation="redundant", integrator="rk4", step=0.02), wild)
+    stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), wild)
     assert stopped.verdict == rows.STOPPED
     assert "vessel" in stopped.message
     monkeypatch.setattr("seacrane.run.run.Run.advance", raising(RuntimeError("mystery")))
@@ -225,8 +225,8 @@ def test_errors_are_against_a_reference_that_checks_itself() -> None:
     case = short(10.0)
     truth = reference_of(case, 5.0)
     assert truth.uncertainty["points"] < 1e-9 * truth.motion["points"]
-    loose = Method(formulation="redundant", integrator="bs32", tolerance=1e-3)
-    tight = Method(formulation="recursive", integrator="tsit5", tolerance=1e-9)
+    loose = Method(formulation="redundant", integrator="bs32", rtol=1e-3)
+    tight = Method(formulation="recursive", integrator="tsit5", rtol=1e-9)
     found = [measure(case, method, truth, 5.0, empty(method)) for method in (loose, tight)]
     errors = [row.relative_error("points") for row in found]
     assert 1e-6 < errors[0] < 1e-1

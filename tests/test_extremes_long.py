@@ -14,7 +14,7 @@ from stability_atlas.points import POINTS
 from stability_atlas.vessel_axes import AXES as VESSELS
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 TUMBLE = next(axis for axis in MECHANISMS if axis.name == "tumble")
 FOUR_BAR = next(axis for axis in MECHANISMS if axis.name == "four-bar")

@@ -31,7 +31,7 @@ def test_a_damped_stop_throws_nothing_back_higher(integrator: str, stop: tuple[f
     stiffness, truth = stop
     assert truth.uncertainty[POINTS.name] < 1e-8 * truth.motion[POINTS.name]
     for rtol, bound in ((1e-4, 2e-2), (1e-6, 1e-3)):
-        method = Method(formulation="redundant", integrator=integrator, tolerance=rtol)
+        method = Method(formulation="redundant", integrator=integrator, rtol=rtol)
         empty = Group(axis="soft-stop", value=stiffness, methods=(method,), limit_s=5.0).empty(method)
         row = measure(AXES["soft-stop"].case(stiffness), method, truth, 5.0, empty)
         assert row.verdict == "completed", row.message

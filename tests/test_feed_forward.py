@@ -7,19 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 import seacrane.analysis.rest_state
-from seacrane import (
-    Curve,
-    Scene,
-    SceneError,
-    UnstableRestWarning,
-    balance,
-    cases,
-    driven,
-    feed_forward,
-    quasi_static_loads,
-    simulate,
-)
+from seacrane import Curve, Scene, SceneError, balance, cases, simulate
+from seacrane.analysis import driven, feed_forward, quasi_static_loads
 from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.warnings import UnstableRestWarning
 
 Array = NDArray[np.float64]
 STROKES = ("main", "knuckle")

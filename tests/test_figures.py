@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from pathlib import Path
 from typing import Any
 
@@ -13,16 +12,12 @@ from matplotlib import cbook
 from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_result
 
 from seacrane import Frame, Scene, simulate
+from seacrane.crane.skeleton import crane_skeleton
 from seacrane.description.file_origin import roles_to_data
 from seacrane.figures import (
-    Line,
     Panel,
     PaperRuns,
     Sheet,
-    box_lines,
-    crane_skeleton,
-    motion_of,
-    overview_sheet,
     paper_findings,
     plot_overview,
     save_figure,
@@ -31,9 +26,12 @@ from seacrane.figures import (
     save_sheet,
 )
 from seacrane.figures.findings import amplitude_at, slew_stop
-from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_lines
-from seacrane.plotting.panel import draw
+from seacrane.figures.overview import overview_sheet
+from seacrane.figures.paper import motion_of
+from seacrane.figures.pose import box_lines, complete_skeleton, posed_lines, rotation_matrix, wire_lines
+from seacrane.plotting.panel import Line, draw
 from seacrane.result import MOTIONS, Result
+from seacrane.result.about import About
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -68,8 +66,8 @@ def posed_case2(*, dt: float = 1.0) -> Result:
     run["arrays"] |= {"vessel_motion": still}
     scene = Scene()
     scene.add_crane(crane, base="ground", payload=payload)
-    run["stats"]["cranes"] = json.dumps([roles_to_data(roles) for roles in scene.roles.values()])
-    return Result.from_arrays(**run)
+    about = About(cranes=[roles_to_data(roles) for roles in scene.roles.values()])
+    return Result.from_arrays(**run | {"about": about})
 
 
 @pytest.fixture(scope="module")

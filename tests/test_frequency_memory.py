@@ -23,6 +23,7 @@ from seacrane import (
     response_statistics,
     simulate,
 )
+from seacrane.description.databases import without_databases
 from seacrane.hydro import (
     HydroDatabase,
     motion_response,
@@ -106,7 +107,7 @@ def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
 
 def roll_at_resonance(scene: Scene, database: HydroDatabase, **options: object) -> complex:
     omega = np.linspace(0.45, 0.62, 86)
-    rao = motion_rao(scene, database=database, omega=omega, heading=BEAM, body="vessel", **options)
+    rao = motion_rao(scene, omega=omega, heading=BEAM, body="vessel", **options)
     return complex(rao[int(np.abs(rao[:, 3]).argmax()), 3])
 
 
@@ -170,12 +171,15 @@ def test_statistics_take_it_too() -> None:
 
 def test_what_does_not_fit_is_refused_by_name(shared: Path) -> None:
     scene, database = cases.vessel(hs=0.0), shipped_database()
-    with pytest.raises(SceneError, match="memory='database' needs a database"):
-        linear_model(scene, memory="database")
+    with pytest.raises(SceneError, match="has no database, which memory='database' needs"):
+        linear_model(without_databases(scene), memory="database")
     with pytest.raises(SceneError, match="'databse' is unknown to a linear model; choose scene or database"):
         linear_model(scene, memory="databse", database=database)
+    other = load_database(shared / "veres" / "supply")
+    with pytest.raises(SceneError, match=r"is from database 'hull_115' .digest"):
+        linear_model(scene, memory="database", database=other)
     with pytest.raises(SceneError, match=r"vessel 'vessel': has a mass of 1\.4e"):
-        linear_model(scene, memory="database", database=load_database(shared / "veres" / "supply"))
+        linear_model(scene, memory="database", database=replace(other, speed=2.0))
     linear = linear_model(scene, memory="database", database=database)
     with pytest.raises(SceneError, match="whose past is not in x"):
         linear.full_state(np.zeros(len(linear.a)))

@@ -22,7 +22,7 @@ from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import PartialSetWarning
+from seacrane.warnings import PartialSetWarning
 
 SHORT_RUN = 0.4  # s of processor time for each target
 MOST_CASES = 400

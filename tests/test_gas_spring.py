@@ -138,7 +138,7 @@ def test_it_is_drawn_and_kept_in_files(tmp_path: Path) -> None:
     [
         ({"volume": None}, r"give pressure and volume, or force and stiffness, both of one pair"),
         ({"force": 1e5, "stiffness": 1e4}, r"give pressure and volume, or force and stiffness"),
-        ({"pressure": -1.0}, r"pressure is -1.0; make it positive"),
+        ({"pressure": -1.0}, r"pressure is -1.0; give a finite number above zero"),
         ({"exponent": 3.0}, r"exponent is 3; give 1 \(slow\) to 1.67, 1.4 for nitrogen"),
         ({"damping": -1.0}, r"damping is -1; it must not be negative"),
         ({"maximum": 7.0}, r"length is 8 m, and its stops are at 0 and 7 m"),

@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from seacrane import Curve, GrowingModeWarning, Scene, _core, simulate, spline_curve
+from seacrane import Curve, Scene, _core, simulate
 from seacrane.run import modes
+from seacrane.scene import spline_curve
+from seacrane.warnings import GrowingModeWarning
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m
@@ -26,7 +28,7 @@ def swinging(damping_ratio: float = 0.0) -> Scene:
 
 
 def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
-    given = {"t_end": 6000.0, "dt_out": 1.0, "max_step": STEP, "rtol": 1e-2} | settings
+    given = {"t_end": 6000.0, "dt_out": 1.0, "maximum_step": STEP, "rtol": 1e-2} | settings
     return simulate(scene, integrator=integrator, **given)
 
 
@@ -53,14 +55,14 @@ def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(i
     ("damping_ratio", "integrator", "settings"),
     [
         (0.0, "verner65", {}),  # damps up to 2.5
-        (0.0, "rk4", {"max_step": None, "rtol": None, "dt": STEP}),
-        (0.0, "dopri5", {"max_step": 0.4}),
+        (0.0, "rk4", {"maximum_step": None, "rtol": None, "dt": STEP}),
+        (0.0, "dopri5", {"maximum_step": 0.4}),
         (0.001, "tsit5", {}),  # outweighs the growth
         (0.0, "tsit5", {"t_end": 1000.0, "rtol": 1e-4}),  # too short for the growth to matter
     ],
 )
 def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
-    given = {"max_step": STEP, "rtol": 1e-2} | settings
+    given = {"maximum_step": STEP, "rtol": 1e-2} | settings
     kept = {name: value for name, value in given.items() if value is not None}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -86,7 +88,7 @@ def hoisted(damping_ratio: float) -> Scene:
     scene.add_driver(joint="rail", curve=spline_curve(times=time, values=heave))
     scene.add_body(name="load", mass=20e3, inertia=[2e4] * 3, position=(0, 0, -30))
     scene.add_line(
-        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), stiffness=1e8,
+        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), EA=1e8,
         tension_at_start=20e3 * scene.gravity, damping_ratio=damping_ratio,
     )  # fmt: skip
     return scene
@@ -111,7 +113,7 @@ def test_what_step_control_has_stopped_is_not_told_to_grow_on() -> None:
     scene = Scene(name="two poses")
     scene.add_body(name="load", mass=60e3, inertia=[1e5] * 3, position=(0, 0, -10))
     scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1.5e8,
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1.5e8,
         tension_at_start=60e3 * scene.gravity,
     )  # fmt: skip
     scene.add_winch(line="wire", rate=Curve.quintic(start_time=50, end_time=60, start=0.0, end=0.1))

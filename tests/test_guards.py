@@ -21,25 +21,25 @@ from seacrane import (
     SceneError,
     SimulationError,
     State,
-    StiffWarning,
     _core,
     simulate,
 )
 from seacrane._core import integrators
 from seacrane.analysis import linearise
 from seacrane.cases import vessel
+from seacrane.errors import OutputMemoryError
 from seacrane.reporting import report
 from seacrane.reporting.paper import Study, study_report
 from seacrane.run import modes
-from seacrane.run.output_times import OutputMemoryError
-from seacrane.validity.hull_range import MeanHeadingWarning
-from seacrane.validity.range import (
+from seacrane.validity.range import findings
+from seacrane.warnings import (
     FullTurnWarning,
     LargeHeelWarning,
+    MeanHeadingWarning,
     NearSingularWarning,
     OutsideDatabaseWarning,
     PushingLinkWarning,
-    findings,
+    StiffWarning,
 )
 
 SIGNATURE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
@@ -192,7 +192,7 @@ def test_a_collapsed_step_names_the_state_and_what_to_try() -> None:
 
 @pytest.mark.parametrize(
     ("settings", "named"),
-    [({"integrator": "rk4", "dt": 1e-20}, "dt is below"), ({"max_step": 1e-20}, "max_step is below")],
+    [({"integrator": "rk4", "dt": 1e-20}, "dt is below"), ({"maximum_step": 1e-20}, "maximum_step is below")],
 )
 def test_a_step_below_the_resolution_of_time_is_refused(settings: dict[str, Any], named: str) -> None:
     with pytest.raises(SimulationError, match=named):
@@ -207,7 +207,7 @@ def test_the_nearest_approach_to_a_singular_position_is_told(formulation: str) -
         t_end = (np.pi / 2.0 - 0.5 - gap) / 0.2
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            result = simulate(folding(0.2), t_end=t_end, formulation=formulation, max_step=0.05)
+            result = simulate(folding(0.2), t_end=t_end, formulation=formulation, maximum_step=0.05)
         assert result.stats["smallest_pivot_joint"] == "link"
         # The ratio is told to a tenth, which is when the state is kept.
         assert result.stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
@@ -219,7 +219,7 @@ def test_the_nearest_approach_to_a_singular_position_is_told(formulation: str) -
 def test_a_run_into_a_singular_position_warns() -> None:
     t_end = (np.pi / 2.0 - 0.5 - 1e-5) / 0.2
     with pytest.warns(NearSingularWarning, match=r"joint 'link'.*depend on the others at t = 5.35"):
-        result = simulate(folding(0.2), t_end=t_end, formulation="redundant", max_step=0.05)
+        result = simulate(folding(0.2), t_end=t_end, formulation="redundant", maximum_step=0.05)
     assert "depend on the others" in str(result.stats["validity"])
 
 

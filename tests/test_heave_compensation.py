@@ -12,18 +12,8 @@ from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from seacrane import (
-    Curve,
-    Evaluator,
-    Result,
-    Run,
-    SampledController,
-    Scene,
-    SceneError,
-    State,
-    linear_model,
-    simulate,
-)
+from seacrane import Curve, Result, Run, SampledController, Scene, SceneError, State, linear_model, simulate
+from seacrane.analysis import Evaluator
 from seacrane.crane import KnuckleBoomCrane
 
 OMEGA = 0.7
@@ -58,7 +48,7 @@ def test_a_winch_leaves_the_load_the_residual(falls: int, winch_lag: float, lag:
 
 def test_a_quasi_static_line_follows_too() -> None:
     """Its stretch needs a smooth length, which the winch's lag gives."""
-    scene = hung(lag=0.1, stretch="quasi-static", omega=OMEGA, amplitude=0.1)
+    scene = hung(lag=0.1, rung="quasi-static", omega=OMEGA, amplitude=0.1)
     settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
     scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, TIP), winch="hoist", **settings)
     out = record(scene, 30.0, dt_out=0.1, rtol=1e-8)
@@ -123,7 +113,7 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
 
     fine = np.linspace(0.0, 20.0, 8001)
     x = solve_ivp(
-        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, max_step=5e-3
+        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, maximum_step=5e-3
     ).y
     assert_allclose(stroke, x[2][::20], atol=2e-6)
     wanted = (x[0] - x[1]) / 0.2 + (x[1] - x[2]) / 0.3
@@ -190,7 +180,7 @@ def moving_crane() -> Scene:
     scene.add_actuator(joint="pin", name="luff", stiffness=4e8, damping=8e7, feed_forward=-6e6)
     scene.add_body(name="load", mass=2e4, inertia=(1e4, 1e4, 1e4), position=(20.0, 0.0, -8.0))
     scene.add_line(
-        name="hoist", bodies=["boom", "load"], points=[(10.0, 0.0, 0.0), (0, 0, 0)], stiffness=2e8,
+        name="hoist", bodies=["boom", "load"], points=[(10.0, 0.0, 0.0), (0, 0, 0)], EA=2e8,
         length=20.0,
     )  # fmt: skip
     scene.add_winch(line="hoist", lag=0.1)

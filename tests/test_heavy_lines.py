@@ -19,21 +19,12 @@ from heavy_line_scenes import (
     weights_of_shape,
 )
 
-from seacrane import (
-    Curve,
-    LineLengthWarning,
-    Result,
-    Scene,
-    SceneError,
-    StiffWarning,
-    equilibrium,
-    fastest_mode,
-    heavy_line_tension,
-    natural_modes,
-    simulate,
-)
+from seacrane import Curve, Result, Scene, SceneError, equilibrium, natural_modes, simulate
+from seacrane.analysis import fastest_mode
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.result import heavy_line_tension
 from seacrane.scene.chain_shape import Chain
+from seacrane.warnings import LineLengthWarning, StiffWarning
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
@@ -99,13 +90,13 @@ def test_the_fastest_mode_is_what_the_document_says() -> None:
 
 
 def test_a_stiff_line_warns_of_its_mode_and_a_quasi_static_one_is_cheap() -> None:
-    stiff = {"stiffness": 1e10, "mass_per_length": 20.0, "velocity": 1.0}
+    stiff = {"EA": 1e10, "mass_per_length": 20.0, "velocity": 1.0}
     with pytest.warns(StiffWarning, match=r"'rosenbrock' or 'cvode-bdf'.* stretch of line 'wire' and"):
         slow = simulate(hanging(10, **stiff), t_end=15.0, integrator="dopri5", channels=["position"])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         quick = simulate(
-            hanging(10, **stiff, stretch="quasi-static"), t_end=15.0, integrator="dopri5", rtol=1e-4
+            hanging(10, **stiff, segment_rung="quasi-static"), t_end=15.0, integrator="dopri5", rtol=1e-4
         )
     assert quick.stats["evaluations"] < 0.02 * slow.stats["evaluations"]
     ends = [one.select("position", body="load")[-1] for one in (quick, slow)]
@@ -118,9 +109,9 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
         scene = Scene(name="falling")
         for name, place in (("one", (0.0, 0.0, 0.0)), ("two", along)):
             scene.add_body(name=name, mass=100.0, inertia=(1.0, 1.0, 1.0), position=place)
-        scene.add_heavy_line(
-            name="line", bodies=["one", "two"], points=np.zeros((2, 3)), stiffness=1e6, length=50.0,
-            mass_per_length=4.0, segments=1, diameter=0.1, density=1.2, drag_coefficient=1.1,
+        scene.add_line(
+            name="line", rung="with mass", bodies=["one", "two"], points=np.zeros((2, 3)), EA=1e6,
+            length=50.0, mass_per_length=4.0, segments=1, diameter=0.1, density=1.2, drag_coefficient=1.1,
         )  # fmt: skip
         speed = simulate(scene, t_end=5.0, rtol=1e-8).select("velocity", body="one")[:, 2]
         if area == 0.0:
@@ -130,8 +121,8 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
             assert speed[-1] == pytest.approx(-final * np.tanh(5.0 * G / final), rel=1e-6)
 
 
-@pytest.mark.parametrize("stretch", ["elastic", "quasi-static"])
-def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: str) -> None:
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(rung: str) -> None:
     """Described with its unstretched length; tension and stretch are those of the weights."""
     scene = Scene(name="deep")
     tip, point = scene.add_crane(base="ground", s1=2.0, s2=2.0).tip  # type: ignore[misc]
@@ -140,9 +131,9 @@ def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: 
     jib = scene.bodies[tip]
     top = jib.position + rotation_matrix(jib.quaternion) @ np.array(point)
     scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=top - [0.0, 0.0, 1000.0])
-    scene.add_heavy_line(
-        name="wire", bodies=[tip, "load"], points=[point, (0, 0, 0)], stiffness=2e8, length=1000.0,
-        mass_per_length=12.0, segments=20, stretch=stretch,
+    scene.add_line(
+        name="wire", rung="with mass", bodies=[tip, "load"], points=[point, (0, 0, 0)], EA=2e8, length=1000.0,
+        mass_per_length=12.0, segments=20, segment_rung=rung,
     )  # fmt: skip
     start = equilibrium(scene)
     runs = [simulate(scene, t_end=1.0, start=start, formulation=one) for one in ("redundant", "recursive")]
@@ -201,9 +192,9 @@ def test_a_chain_without_a_rest_shape_is_none() -> None:
         ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\); give \(2, 3\)"),
         ({"segments": 0}, "segments is 0; give 1 to 1000"),
         ({"segments": 2.5}, "segments is 2.5; give a whole number"),
-        ({"length": -1.0}, "length is -1.0; it must be finite and greater than zero"),
-        ({"mass_per_length": 0.0}, "mass_per_length is 0.0; it must be finite and greater"),
-        ({"stiffness": float("nan")}, "stiffness is nan; it must be finite"),
+        ({"length": -1.0}, "length is -1.0; give a finite number above zero"),
+        ({"mass_per_length": 0.0}, "mass_per_length is 0.0; give a finite number above"),
+        ({"EA": float("nan")}, "EA is nan; give a finite number"),
         ({"length": 20.0}, "length is 20 m over a span of 5 m, and it has no rest shape; give it less"),
     ],
 )
@@ -211,9 +202,9 @@ def test_what_makes_no_line_is_refused_by_name(given: dict[str, Any], message: s
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -5.0))
     line: dict[str, Any] = {
-        "bodies": ["ground", "load"], "points": np.zeros((2, 3)), "stiffness": 1e6, "length": 5.0,
+        "bodies": ["ground", "load"], "points": np.zeros((2, 3)), "EA": 1e6, "length": 5.0,
         "mass_per_length": 3.0, "segments": 4,
     }  # fmt: skip
-    with pytest.raises(SceneError, match=f"heavy line 'wire': {message}"):
-        scene.add_heavy_line(name="wire", **line | given)
+    with pytest.raises(SceneError, match=f"line 'wire': {message}"):
+        scene.add_line(name="wire", rung="with mass", **line | given)
     assert list(scene.bodies) == ["load"]

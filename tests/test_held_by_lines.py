@@ -29,7 +29,7 @@ def hung(
     scene.add_body(name="load", mass=LOAD, inertia=inertia, position=place - (0.0, 0.0, below))
     path = [tip, ("load", (0.0, 0.0, 0.0))] if drum is None else [drum, tip, ("load", (0.0, 0.0, 0.0))]
     scene.add_line(
-        name="hoist", bodies=[body for body, _ in path], points=[point for _, point in path], stiffness=3e8,
+        name="hoist", bodies=[body for body, _ in path], points=[point for _, point in path], EA=3e8,
         tension_at_start=LOAD * scene.gravity,
     )  # fmt: skip
     scene.add_winch(line="hoist")
@@ -137,7 +137,7 @@ position_m = [{x!r}, {y!r}, {z - 12.0!r}]
 name = "hoist"
 bodies = ["{body}", "load"]
 points_m = [{list(point)}, [0, 0, 0]]
-stiffness_N = 3e8
+EA_N = 3e8
 tension_at_start_N = {LOAD * G!r}
 
 [hold_pressures]

@@ -16,9 +16,7 @@ def hung(points: list[tuple[float, float, float]], bodies: list[str], *, length:
     """A load on a line with its falls, at rest."""
     scene = Scene(name="hung", gravity=G)
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
-    scene.add_line(
-        name="hoist", bodies=bodies, points=points, stiffness=1e8, length=length, damping_ratio=0.1
-    )
+    scene.add_line(name="hoist", bodies=bodies, points=points, EA=1e8, length=length, damping_ratio=0.1)
     scene.add_winch(line="hoist")
     return scene
 
@@ -54,16 +52,16 @@ def test_a_drum_on_deck_does_not_count_as_the_hook() -> None:
     assert_allclose(result["hook_load"], MASS * G, rtol=1e-3)
 
 
-def test_a_link_carries_its_tension_and_it_is_recorded_on_request_alone() -> None:
+def test_a_link_carries_its_tension_and_it_is_recorded_by_itself() -> None:
     scene = single()
     scene.add_body(name="weight", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(5.0, 0.0, -1.0))
     scene.add_joint(
         kind="distance", name="sling", first="ground", second="weight", point=(5.0, 0.0, 0.0),
         second_point=(5.0, 0.0, -1.0), length=1.0,
     )  # fmt: skip
-    assert "hook_load" not in simulate(scene, 0.1, dt_out=0.1)
-    scene.add_limit_state(channel="hook_load", max=1.2 * MASS * G, min=0.5 * MASS * G,
-                          where={"suspension": "hoist"})  # fmt: skip
+    assert "hook_load" in simulate(scene, 0.1, dt_out=0.1)
+    scene.add_limit_state(channel="hook_load", maximum=1.2 * MASS * G, minimum=0.5 * MASS * G,
+                          names={"suspension": "hoist"})  # fmt: skip
     result = simulate(scene, 0.5, dt_out=0.1)
     assert result.coords["suspension"] == ("sling", "hoist")
     assert_allclose(result["hook_load"][:, 0], result["tension"][:, 0])
@@ -73,8 +71,8 @@ def test_a_link_carries_its_tension_and_it_is_recorded_on_request_alone() -> Non
 
 
 def test_a_stage_ends_at_a_hook_load() -> None:
-    until = Until.channel("hook_load", suspension="hoist", above=5e4)
-    stages = [Stage(name="take up", until=until, longest=20.0, commands={"hoist.rate": -0.05})]
+    until = Until.channel("hook_load", suspension="hoist", minimum=5e4)
+    stages = [Stage(name="take up", until=until, maximum_duration=20.0, commands={"hoist.rate": -0.05})]
     result = simulate_stages(on_deck(), stages, dt_out=0.2)
     assert result["line_tension"][-1, 0] == pytest.approx(5e4, rel=1e-6)
 
@@ -86,7 +84,7 @@ def test_where_there_is_none_it_is_refused() -> None:
         SceneError, match="channel 'hook_load' is unknown to this scene; it needs a link, a wire"
     ):
         simulate(scene, 0.1, channels=["hook_load"])
-    scene.add_limit_state(channel="cylinder_pressure", max=1e7)
+    scene.add_limit_state(channel="cylinder_pressure", maximum=1e7)
     with pytest.raises(SceneError, match=r"limit state 'cylinder pressure': channel 'cylinder_pressure'"):
         simulate(scene, 0.1)
 
@@ -95,7 +93,7 @@ def test_where_there_is_none_it_is_refused() -> None:
 def test_lines_have_a_dynamic_factor_and_a_slack_margin(scene: Scene, falls: int) -> None:
     """The weight is static, whatever the run began with: the load starts 5 mm too high."""
     scene.replace("load", position=(0.0, 0.0, -19.995))
-    scene.add_limit_state(channel="hook_load", max=1e6)
+    scene.add_limit_state(channel="hook_load", maximum=1e6)
     table = summary(simulate(scene, 2.0, dt_out=0.01))
     tension, hook = table["line tension hoist"], table["hook load hoist"]
     assert tension.static_known and tension.static == pytest.approx(MASS * G / falls / 1e3)

@@ -11,22 +11,11 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, example, given, seed, settings
 from hypothesis import strategies as st
 
-from seacrane import (
-    Curve,
-    HullLoads,
-    MotionHistory,
-    MotionRaos,
-    Scene,
-    SceneError,
-    SimulationError,
-    Waves,
-    sea,
-    simulate,
-    spline_curve,
-)
+from seacrane import Curve, MotionHistory, MotionRaos, Scene, SceneError, SimulationError, sea, simulate
+from seacrane.scene import HullLoads, Waves, spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 NAN, INF = float("nan"), float("inf")
 SETTINGS = settings(
@@ -202,8 +191,9 @@ def test_names_of_any_script(name: str) -> None:
 
 
 SIMULATE: dict[str, Any] = {
-    "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "max_step": 0.05, "spectral_radius": None,
-    "formulation": "auto", "channels": None, "controllers": (), "start": None, "accuracy": None,
+    "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "maximum_step": 0.05,
+    "spectral_radius": None, "formulation": "auto", "channels": None, "controllers": (),
+    "start": None, "accuracy": None,
 }  # fmt: skip
 
 
@@ -214,7 +204,7 @@ SIMULATE: dict[str, Any] = {
 @example(key="rtol", value=5e-324)
 def test_simulate(key: str, value: Any) -> None:
     """Steps far below a microsecond are left out: they are what was asked for, and take their time."""
-    assume(not (key in ("dt", "max_step") and isinstance(value, float) and 0.0 < value < 1e-6))
+    assume(not (key in ("dt", "maximum_step") and isinstance(value, float) and 0.0 < value < 1e-6))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         result = refused(
@@ -295,7 +285,7 @@ def test_loads_on_a_hull(key: str, value: Any) -> None:
 
 RECORD: dict[str, Any] = {
     "time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)), "direction_deg": 0.0,
-    "position": (0.0, 0.0), "omega_min": None, "omega_max": None, "taper": 0.1, "name": "record",
+    "position": (0.0, 0.0), "minimum_omega": None, "maximum_omega": None, "taper": 0.1, "name": "record",
 }  # fmt: skip
 
 

@@ -11,19 +11,19 @@ import numpy as np
 import pytest
 from hull_shapes import box, joined, moved, sphere, wigley_offsets
 
-from seacrane import Scene, linear_model, response_summed, simulate
+from seacrane import Scene, linear_model, simulate
+from seacrane.analysis import response_summed
 from seacrane.hydro import (
-    FloatingPositionWarning,
     Hull,
     HydroDatabase,
     MemoryModel,
     OffsetTable,
     ParametricHull,
-    SubmergedPartWarning,
     fit_memory,
     hydro_from_hull,
     natural_frequency,
 )
+from seacrane.warnings import FloatingPositionWarning, SubmergedPartWarning
 
 SHIP = (100.0, 16.0, 6.0)
 RHO, G = 1025.0, 9.81
@@ -111,7 +111,7 @@ def test_the_memory_of_a_strip_database_has_no_surge(kind: str) -> None:
 def test_a_run_in_a_low_sea_follows_the_summed_response() -> None:
     scene = Scene(name="hull")
     scene.add_vessel(replace(ship_database(), memory=ship_memory("passive")), memory="passive")
-    scene.add_sea(ship_database(), hs=0.02, tp=8.0, direction_deg=150.0, count=60)
+    scene.add_sea(hs=0.02, tp=8.0, direction_deg=150.0, count=60)
     linear = linear_model(scene)
     summed = response_summed(linear, body="vessel")
     start = linear.full_state(summed.state_at(0.0))

@@ -12,17 +12,10 @@ import numpy as np
 import pytest
 from hull_shapes import wigley_offsets
 
-from seacrane.hydro import (
-    Hull,
-    HydroDatabase,
-    MeshConvergenceWarning,
-    OffsetTable,
-    ParametricHull,
-    hydro_from_hull,
-    shipped_database,
-)
+from seacrane.hydro import Hull, HydroDatabase, OffsetTable, ParametricHull, hydro_from_hull, shipped_database
 from seacrane.hydro.hull import hull_database
 from seacrane.hydro.hull.solution import HullSolution
+from seacrane.warnings import MeshConvergenceWarning
 
 SHIPPED = ParametricHull(  # tools/make_database.py, entrance and origin as its source text says
     length=115.0,

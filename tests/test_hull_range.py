@@ -8,20 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import (
+from seacrane import Result, Scene, simulate
+from seacrane.hydro import shipped_database
+from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
+from seacrane.validity.range import findings
+from seacrane.warnings import (
     ForwardSpeedWarning,
     LargeHeelWarning,
     MeanHeadingWarning,
     MeanPositionWarning,
     MooringTurnWarning,
     NoWaveLoadsWarning,
-    Result,
-    Scene,
-    simulate,
 )
-from seacrane.hydro import shipped_database
-from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
-from seacrane.validity.range import findings
 
 G = 9.80665
 
@@ -30,7 +28,7 @@ def moored(*, hs: float = 1.0, **vessel: Any) -> Scene:
     scene = Scene(name="moored")
     scene.add_vessel(shipped_database(), name="hull", **vessel)
     if hs:
-        scene.add_sea(shipped_database(), vessel="hull", hs=hs, tp=8.0, direction_deg=0.0, count=40)
+        scene.add_sea(vessel="hull", hs=hs, tp=8.0, direction_deg=0.0, count=40)
     return scene
 
 
@@ -92,7 +90,7 @@ def test_slow_motions_of_the_mooring_pass_the_low_pass() -> None:
 
 def test_loads_of_another_heading_than_the_start_warn_at_once() -> None:
     scene = moored(hs=0.0, heading_deg=30.0)
-    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, direction_deg=0.0, count=40, heading_deg=0.0)
+    scene.add_sea(vessel="hull", hs=1.0, direction_deg=0.0, count=40, heading_deg=0.0)
     _, found = told(scene, t_end=60.0)
     assert "'hull': yaw reaches 30" in found[MeanHeadingWarning]
     right = moored(heading_deg=30.0)
@@ -109,13 +107,13 @@ def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
     )  # fmt: skip
     _, calm = told(scene, t_end=60.0)
     assert not calm
-    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, count=40)
+    scene.add_sea(vessel="hull", hs=1.0, count=40)
     result, found = told(scene, t_end=60.0)
     assert result["vessel_motion"][-1, 0] > 100.0
     assert set(found) >= {MeanPositionWarning, ForwardSpeedWarning}
     assert "makes 4." in found[ForwardSpeedWarning]
     scene.waves = None
-    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, count=40, phase="actual")
+    scene.add_sea(vessel="hull", hs=1.0, count=40, phase="actual")
     assert set(told(scene, t_end=60.0)[1]) == {ForwardSpeedWarning}
 
 
@@ -149,7 +147,7 @@ def test_the_second_hull_is_judged_too() -> None:
     _, found = told(scene, t_end=60.0)
     assert "'barge': roll reaches" in found[LargeHeelWarning]
     assert found[NoWaveLoadsWarning].startswith("vessel 'barge': floats in the sea that loads 'hull'")
-    scene.add_sea(shipped_database(), vessel="barge")
+    scene.add_sea(vessel="barge")
     assert NoWaveLoadsWarning not in told(scene, t_end=10.0)[1]
 
 
@@ -158,10 +156,10 @@ def test_the_peak_is_found_from_the_components() -> None:
     scene.add_vessel(shipped_database())
     for tp in (7.0, 10.0, 14.0):
         scene.waves = None
-        scene.add_sea(shipped_database(), tp=tp, count=200)
+        scene.add_sea(tp=tp, count=200)
         assert scene.waves is not None
         assert peak_frequency(scene.waves) == pytest.approx(2.0 * np.pi / tp, rel=0.1)
     scene.waves = None
-    scene.add_sea(shipped_database(), count=1)
+    scene.add_sea(count=1)
     assert scene.waves is not None
     assert peak_frequency(scene.waves) == pytest.approx(float(scene.waves.omega[0]), rel=1e-12)

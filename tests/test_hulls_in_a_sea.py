@@ -13,21 +13,20 @@ from numpy.typing import NDArray
 
 from seacrane import (
     FlowCoefficients,
-    HullLoads,
     Result,
     Scene,
     SceneError,
-    Waves,
     balance,
     linear_model,
-    response_summed,
     simulate,
     simulate_to_file,
 )
 from seacrane.accuracy.quantities import quantities_of
+from seacrane.analysis import response_summed
 from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
+from seacrane.scene import HullLoads, Waves
 from seacrane.trading import rungs
 
 Array = NDArray[np.float64]
@@ -109,7 +108,7 @@ class Weather:
             scene.add_vessel(database(), name=name, **pose.place())
         for name in poses:
             scene.add_sea(
-                database(), vessel=name, hs=2.5, tp=8.0, count=25, direction_deg=self.direction_deg,
+                vessel=name, hs=2.5, tp=8.0, count=25, direction_deg=self.direction_deg,
                 spreading=self.spreading, seed=self.seed, phase=self.phase, drift=self.drift,
             )  # fmt: skip
             if self.wind_deg is not None:
@@ -133,11 +132,11 @@ class Weather:
             hulls={"hull": HullLoads(transfer=database().force_at(asked.omega, direction))},
         )
         if self.drift:
-            scene.add_drift(database())
+            scene.add_drift()
         if self.phase == "actual":
-            scene.use_actual_position(database())
+            scene.use_actual_position()
         if self.phase == "slow":
-            scene.use_slow_position(database())
+            scene.use_slow_position()
         if self.wind_deg is not None:
             blown(scene, "hull", self.wind_deg - pose.heading_deg)
         return scene
@@ -192,8 +191,8 @@ def two_hulls(**options: Any) -> Scene:
     scene = Scene(name="two")
     scene.add_vessel(database(), name="ship")
     scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=90.0)
-    scene.add_sea(database(), vessel="ship", count=20, direction_deg=0.0, **options)
-    scene.add_sea(database(), vessel="barge")
+    scene.add_sea(vessel="ship", count=20, direction_deg=0.0, **options)
+    scene.add_sea(vessel="barge")
     return scene
 
 
@@ -222,7 +221,7 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
     for phase in ("mean", "slow", "actual"):
         scene = Scene(name="ahead")
         scene.add_vessel(database(), position=(60.0, 0.0, 0.0), heading_deg=40.0)
-        scene.add_sea(database(), count=30, phase=phase)  # type: ignore[arg-type]
+        scene.add_sea(count=30, phase=phase)  # type: ignore[arg-type]
         loads.append(simulate(scene, t_end=0.1, channels=["wave_force"])["wave_force"][0])
     for other in loads[1:]:
         np.testing.assert_allclose(loads[0], other, atol=1e-7 * np.abs(loads[0]).max())
@@ -231,7 +230,7 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
 def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
     scene = Scene(name="given")
     scene.add_vessel(database(), position=(5.0, 0.0, 0.0))
-    scene.add_sea(database(), count=20, position=(12.0, -7.0), heading_deg=30.0)
+    scene.add_sea(count=20, position=(12.0, -7.0), heading_deg=30.0)
     assert scene.waves is not None
     hull = scene.waves.hull()
     assert hull.position == (12.0, -7.0) and hull.heading == pytest.approx(np.radians(30.0))
@@ -243,23 +242,23 @@ def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
     scene = two_hulls(hs=3.0)
     before = scene.waves
     assert before is not None and list(before.hulls) == ["ship", "barge"]
-    scene.add_sea(database(), vessel="barge", hs=3.0, count=20, direction_deg=0.0)
+    scene.add_sea(vessel="barge", hs=3.0, count=20, direction_deg=0.0)
     assert scene.waves is not None and scene.waves.phase is before.phase
     for change in ({"hs": 2.0}, {"tp": 9.0}, {"seed": 2}, {"direction_deg": 5.0}, {"count": 21}):
         given: dict[str, Any] = {"hs": 3.0, "count": 20, "direction_deg": 0.0, **change}
         for vessel in ("ship", "barge"):
             with pytest.raises(SceneError, match=f"'{vessel}' is given another sea than 'ship', 'barge' has"):
-                scene.add_sea(database(), vessel=vessel, **given)
+                scene.add_sea(vessel=vessel, **given)
     with pytest.raises(SceneError, match=r"relative_bound is 0\.1, that of 'ship', 'barge' is 1e-09"):
-        scene.add_sea(database(), vessel="barge", relative_bound=0.1)
+        scene.add_sea(vessel="barge", relative_bound=0.1)
     with pytest.raises(SceneError, match="no vessel 'tug', the scene has 'ship', 'barge'; call add_vessel"):
-        scene.add_sea(database(), vessel="tug")
+        scene.add_sea(vessel="tug")
     with pytest.raises(SceneError, match="the sea is on 'ship', 'barge'; name one of them"):
-        scene.add_drift(database())
+        scene.add_drift()
     with pytest.raises(SceneError, match="heading_deg is 'north'"):
-        scene.add_sea(database(), vessel="barge", heading_deg="north")  # type: ignore[arg-type]
+        scene.add_sea(vessel="barge", heading_deg="north")  # type: ignore[arg-type]
     with pytest.raises(SceneError, match="give finite"):
-        scene.add_sea(database(), vessel="barge", position=(np.nan, 0.0))
+        scene.add_sea(vessel="barge", position=(np.nan, 0.0))
 
 
 def test_the_papers_kinematics_refuse_a_heading() -> None:
@@ -271,8 +270,8 @@ def test_the_papers_kinematics_refuse_a_heading() -> None:
 
 def test_a_hull_may_be_at_the_moments_place_beside_one_at_its_mean() -> None:
     scene = two_hulls()
-    scene.use_actual_position(database(), vessel="barge")
-    scene.add_drift(database(), vessel="ship")
+    scene.use_actual_position(vessel="barge")
+    scene.add_drift(vessel="ship")
     result = simulate(scene, t_end=5.0, dt_out=0.5)
     assert np.abs(result.select("drift_force", vessel="ship")).max() > 1.0
     assert not result.select("drift_force", vessel="barge").any()
@@ -323,7 +322,7 @@ def test_the_linear_model_sums_the_loads_of_all_hulls() -> None:
     runs = simulate(both, t_end=0.5)
     roll = quantities_of(both, both.compile(), None)["roll"].values(runs)
     assert roll.shape == (runs.time.size, 2, 1)
-    names = {variant.rung for variant in rungs.variants(both, database(), quick=True)}
+    names = {variant.rung for variant in rungs.variants(both, quick=True)}
     assert rungs.PRESCRIBED not in names and rungs.LINEAR in names
 
 
@@ -332,7 +331,7 @@ def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> No
     scene.add_vessel(database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
     scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
     for body in ("ship", "barge"):
-        scene.add_sea(database(), vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
+        scene.add_sea(vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
     apart = float(np.hypot(90.0, 20.0))
     scene.add_spring(name="hawser", first="ship", second="barge", stiffness=2e7, natural_length=apart)
     linear = linear_model(scene, vessel="ship")
@@ -386,7 +385,7 @@ def test_balance_tells_the_wrench_on_every_vessel() -> None:
 def test_a_prescribed_vessel_moves_along_its_own_heading() -> None:
     scene = Scene(name="prescribed")
     scene.add_vessel(database(), position=(30.0, 10.0, 0.0), heading_deg=-70.0)
-    scene.add_sea(database(), count=20)
+    scene.add_sea(count=20)
     run = simulate(scene, t_end=8.0, dt_out=0.05, rtol=1e-9)
     held = rungs.with_prescribed_vessel(scene, run.time, run["vessel_motion"])
     again = simulate(held, t_end=8.0, dt_out=0.5, rtol=1e-9)

@@ -74,11 +74,11 @@ def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
             position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
         )  # fmt: skip
         scene.add_line(
-            name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e8,
+            name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e8,
             tension_at_start=20e3 * scene.gravity,
         )  # fmt: skip
         if in_a_sea:
-            scene.add_sea(database, hs=3.0, tp=7.0, seed=5)
+            scene.add_sea(hs=3.0, tp=7.0, seed=5)
         found.append([(one.pressure, one.pressure_rod) for one in scene.hold_pressures().values()])
     assert found[1] == found[0]
 

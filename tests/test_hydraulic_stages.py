@@ -55,9 +55,9 @@ def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
     curve = Curve.constant(value=0.6).then(time=0.5, curve=shut)
     scene = raised(command=curve, viscous_friction=2e4, makeup_flow=4e-4)
     bound = 1.02 * simulate(scene, 0.5)["hydraulic_pressure"][-1, 0, 1]
-    high = Until.channel("hydraulic_pressure", above=bound, hydraulic_cylinder="ram", chamber="rod")
+    high = Until.channel("hydraulic_pressure", minimum=bound, hydraulic_cylinder="ram", chamber="rod")
     stages = [
-        Stage(name="lift", until=high, longest=2.0),
+        Stage(name="lift", until=high, maximum_duration=2.0),
         Stage(name="burst", duration=1.0, commands={"ram.rupture": HOLE}),
     ]
     result = simulate_stages(scene, stages, dt_out=0.05, rtol=1e-8)

@@ -13,7 +13,8 @@ from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from seacrane import BoilingOilWarning, Run, Scene, SceneError, SimulationError, simulate
+from seacrane import Run, Scene, SceneError, SimulationError, simulate
+from seacrane.warnings import BoilingOilWarning
 
 Array = NDArray[np.float64]
 VAPOUR, ATMOSPHERE, BURST = 2e3, 1e5, 0.2  # Pa, Pa, s

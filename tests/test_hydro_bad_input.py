@@ -15,22 +15,24 @@ import pytest
 from seacrane import Scene
 from seacrane.hydro import (
     AdditionalMatrices,
-    DampingWarning,
-    HeadingGapWarning,
     HydroDatabase,
-    InfiniteFrequencyWarning,
-    MemoryMismatchWarning,
     MemoryModel,
-    NonPassiveMemoryWarning,
     RollDamping,
-    RollDampingWarning,
-    WaterMismatchWarning,
     fit_memory,
     load_database,
     shipped_database,
     vessel_parameters,
 )
 from seacrane.hydro.data.data_warnings import warn_of_water
+from seacrane.warnings import (
+    DampingWarning,
+    HeadingGapWarning,
+    InfiniteFrequencyWarning,
+    MemoryMismatchWarning,
+    NonPassiveMemoryWarning,
+    RollDampingWarning,
+    WaterMismatchWarning,
+)
 
 
 @contextmanager

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import AssumedInertiaWarning, HydroDatabase, load_database, read_bemio, shipped_database
+from seacrane.hydro import HydroDatabase, load_database, read_bemio, shipped_database
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import AssumedInertiaWarning
 
 HEIGHT = 1.9  # m, of the centre of gravity
 BODY = "body1/hydro_coeffs"

@@ -14,17 +14,11 @@ import xarray
 from seacrane import Scene
 from seacrane.cli import main
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hydro import (
-    HydroDatabase,
-    MissingMotionsWarning,
-    load_database,
-    read_capytaine,
-    read_wamit,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, load_database, read_capytaine, read_wamit, shipped_database
 from seacrane.hydro.data.relations import damping_from_forces
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import MissingMotionsWarning
 
 ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
 NAMES = np.array(["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"])
@@ -185,12 +179,12 @@ def test_the_depth_chosen_is_that_of_the_sea(tmp_path: Path, capsys: pytest.Capt
     assert found.depth == 20.0
     scene = Scene()
     scene.add_vessel(shipped_database(), memory="convolution")
-    scene.add_sea(found, hs=1.0, tp=9.0)
+    scene.add_sea(hs=1.0, tp=9.0)
     assert scene.waves is not None and scene.waves.depth == 20.0
     scene.waves = None
     deep = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
     with pytest.raises(SceneError, match=r"inf m deep, .* are for 20 m, .*SeaState\(depth=20\)"):
-        scene.add_sea(found, sea=deep)
+        scene.add_sea(sea=deep)
     shipped_database().save(tmp_path / "deep.nc")
     with pytest.raises(FileFormatError, match="is of a depth of inf m, not of 20 m"):
         load_database(tmp_path / "deep.nc", depth=20.0)

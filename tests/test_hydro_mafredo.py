@@ -20,15 +20,8 @@ from orcaflex_writer import EVENTS, UNITS, G, assert_same, hull_part, model, wri
 from test_hydro_capytaine import layout
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import (
-    AssumedDensityWarning,
-    AssumedSymmetryWarning,
-    HydroDatabase,
-    available_speeds,
-    load_database,
-    read_capytaine,
-    read_orcaflex,
-)
+from seacrane.hydro import HydroDatabase, available_speeds, load_database, read_capytaine, read_orcaflex
+from seacrane.warnings import AssumedDensityWarning, AssumedSymmetryWarning
 
 
 def library() -> Any:

@@ -11,15 +11,9 @@ import pytest
 from test_hydro_capytaine import solved_barge
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import (
-    AssumedDensityWarning,
-    AssumedInertiaWarning,
-    HydroDatabase,
-    load_database,
-    read_nemoh,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, load_database, read_nemoh, shipped_database
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import AssumedDensityWarning, AssumedInertiaWarning
 
 CENTRE = np.array([3.0, 0.0, -2.0])  # of the rotations, from the origin of the mesh
 

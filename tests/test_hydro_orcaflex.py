@@ -17,8 +17,9 @@ from orcaflex_writer import EVENTS, UNITS, G, assert_same, hull_part, model, wri
 
 from seacrane.cli import main
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, PartialSetWarning, load_database, read_orcaflex
+from seacrane.hydro import HydroDatabase, load_database, read_orcaflex
 from seacrane.hydro.data.relations import damping_from_forces
+from seacrane.warnings import PartialSetWarning
 
 pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
 

@@ -20,10 +20,7 @@ import seacrane
 from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
-    EncounterFrequencyWarning,
     HydroDatabase,
-    PartialSetWarning,
-    SeveralSpeedsWarning,
     available_speeds,
     fit_memory,
     load_database,
@@ -32,6 +29,7 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.data.encounter import encounter_frequency, wavenumber
+from seacrane.warnings import EncounterFrequencyWarning, PartialSetWarning, SeveralSpeedsWarning
 
 G = 9.81
 
@@ -82,7 +80,7 @@ def test_a_speed_that_is_not_there_is_named(speed: float, tmp_path: Path) -> Non
         load_database(stem, speed=speed)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.hydro.EncounterFrequencyWarning")  # five frequencies only
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.EncounterFrequencyWarning")  # five frequencies only
 def test_speeds_that_are_not_in_every_file(tmp_path: Path) -> None:
     run = VeresRun(speeds=(0.0, 4.0, 8.0), omega=np.linspace(0.2, 2.4, 5))
     stem = run.write(tmp_path, leave_out={".re8": [8.0], ".re2": [0.0]})
@@ -93,7 +91,7 @@ def test_speeds_that_are_not_in_every_file(tmp_path: Path) -> None:
         load_database(stem)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.hydro.EncounterFrequencyWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.EncounterFrequencyWarning")
 def test_a_speed_that_files_print_with_other_digits_is_listed_once(tmp_path: Path) -> None:
     """Knots in m/s: seven digits in .re1 and .re8, five decimals in .re2."""
     run = VeresRun(speeds=(0.0, 5.1444446, 10.288889), omega=np.linspace(0.2, 2.4, 5))

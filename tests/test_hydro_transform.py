@@ -17,8 +17,6 @@ from seacrane.hydro import (
     AdditionalMatrices,
     DriftCoefficients,
     HydroDatabase,
-    InfiniteFrequencyWarning,
-    QuadraticDampingWarning,
     RollDamping,
     fit_memory,
     load_database,
@@ -30,6 +28,7 @@ from seacrane.hydro import (
 from seacrane.hydro.memory.certificate import is_energy_form
 from seacrane.hydro.vessel.stability import free_vessel_system
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import InfiniteFrequencyWarning, QuadraticDampingWarning
 
 PARITY = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 POINTS = [(7.0, 0.0, 0.0), (0.0, 0.0, -3.0), (-11.0, 4.0, 2.5)]

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, PartialSetWarning, load_database, read_veres
+from seacrane.hydro import HydroDatabase, load_database, read_veres
+from seacrane.warnings import PartialSetWarning
 
 TO_OURS = np.array([-1, -1, 1, -1, -1, 1])
 KEY = ["0", "9", "19", "24", "27", "31", "35"]

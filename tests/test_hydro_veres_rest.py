@@ -16,13 +16,13 @@ from veres_writer import VeresRun
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
-    HydrostaticsWarning,
     VeresHydrostatics,
     load_database,
     read_veres,
     read_veres_hydrostatics,
 )
 from seacrane.hydro.readers.veres_files import read_matrices
+from seacrane.warnings import HydrostaticsWarning
 
 TO_OURS = np.array([-1.0, -1.0, 1.0])  # surge, sway, yaw
 

@@ -11,9 +11,7 @@ import pytest
 
 from seacrane.hydro import (
     HydroDatabase,
-    MemoryFitWarning,
     RigidPart,
-    RollDampingWarning,
     fit_memory,
     load_database,
     motion_response,
@@ -22,6 +20,7 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
+from seacrane.warnings import MemoryFitWarning, RollDampingWarning
 
 CRANE = RigidPart(mass=390e3, position=np.array([-33.0, 10.0, 18.0]), inertia=np.diag([2.0e7, 3.0e7, 2.5e7]))
 

@@ -15,11 +15,7 @@ import pytest
 from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
-    AssumedDensityWarning,
-    AssumedInertiaWarning,
     HydroDatabase,
-    PartialSetWarning,
-    RoughDataWarning,
     fit_memory,
     load_database,
     motion_response,
@@ -29,6 +25,12 @@ from seacrane.hydro import (
 )
 from seacrane.hydro.data.motion import motion_errors
 from seacrane.result import Result
+from seacrane.warnings import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    PartialSetWarning,
+    RoughDataWarning,
+)
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.hydro import MainParticulars, ikeda_roll_damping, shipped_database
-from seacrane.hydro.hull.ikeda_components import bilge_keels, eddy, friction, friction_at_speed, lift
+from seacrane.hydro.hull.ikeda import bilge_keels, eddy, friction, friction_at_speed, lift
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 
 Array = NDArray[np.float64]

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from seacrane.cli import doctor_command
 from seacrane.cli.command_line import main
+from seacrane.cli.doctor_command import chosen_packages
 from seacrane.files import sole_writer
-from seacrane.installation import build, pace, packages
-from seacrane.installation.packages import chosen_packages
+from seacrane.installation import build, pace
 from seacrane.result.partial_file import PartialFile
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
 
@@ -152,12 +153,12 @@ def test_versions_are_compared_as_numbers() -> None:
 def test_the_doctor_finds_all_that_is_needed_or_names_it(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(packages, "requires", lambda name: ["numpy>=2.0", "absent-thing>=9"])
+    monkeypatch.setattr(doctor_command, "requires", lambda name: ["numpy>=2.0", "absent-thing>=9"])
     assert main(["doctor"]) == 1
     told = capsys.readouterr().out
     assert "missing: absent-thing: not installed; pip install 'absent-thing>=9'" in told
     assert "speed" not in told
-    monkeypatch.setattr(packages, "requires", lambda name: ["numpy>=2.0", "absent>=1; extra == 'view'"])
+    monkeypatch.setattr(doctor_command, "requires", lambda name: ["numpy>=2.0", "absent>=1; extra == 'view'"])
     assert main(["doctor"]) == 0
     told = capsys.readouterr().out
     assert "times real time" in told and "absent [view]" in told and "all that is needed is there" in told

@@ -11,8 +11,8 @@ from test_convergence import payload_error, run
 from seacrane import _core, integrator_names
 
 # By order: the longer of two steps (s) at which the error of a one-step method is neither rounding nor
-# beyond its leading term, the other half of it. A pair takes it as max_step, with a tolerance that every step
-# meets.
+# beyond its leading term, the other half of it. A pair takes it as maximum_step, with a tolerance that every
+# step meets.
 STEPS = {1: 1 / 256, 2: 1 / 128, 3: 1 / 32, 4: 1 / 64, 5: 1 / 32, 6: 1 / 8, 7: 1 / 12, 8: 1 / 5}
 STEPS_BY_NAME = {"rosenbrock": 1 / 64, "tsit5": 1 / 16}
 # Methods that choose their order, or iterate to the tolerance: bounds of the slope of the error over the
@@ -43,7 +43,9 @@ def measured_order(integrator: str) -> float:
     method = _core.integrator(integrator)
     step = STEPS_BY_NAME.get(integrator, STEPS[method.order])
     fixed = method.setting == "dt"
-    return observed(*(at(rtol=1e-10, dt=h) if fixed else at(rtol=0.1, max_step=h) for h in (step, step / 2)))
+    return observed(
+        *(at(rtol=1e-10, dt=h) if fixed else at(rtol=0.1, maximum_step=h) for h in (step, step / 2))
+    )
 
 
 @pytest.mark.parametrize("integrator", integrator_names())

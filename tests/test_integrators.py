@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,10 +12,11 @@ from integrator_table import integrator_table
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_convergence import exact, payload_error, run
 
-from seacrane import Evaluator, Run, Scene, SceneError, _core, cases, integrator_names, simulate
+from seacrane import Run, Scene, SceneError, _core, cases, integrator_names, simulate
+from seacrane.analysis import Evaluator
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 
 @pytest.mark.parametrize(
@@ -121,8 +121,8 @@ def test_steps_equal_those_of_scipy(integrator: str, method: type[RungeKutta]) -
     """The same pair from SciPy's coefficients, on the same derivative: equal to rounding."""
     scene = tumbling()
     model = scene.compile()
-    h, steps = 1 / 64, 16  # short enough for the choice of the first step to be max_step
-    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, max_step=h,
+    h, steps = 1 / 64, 16  # short enough for the choice of the first step to be maximum_step
+    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, maximum_step=h,
               formulation="redundant")  # fmt: skip
     y = np.array(own.core.state.values)
     own.advance(h * steps)
@@ -139,10 +139,10 @@ def test_dense_output_equals_that_of_scipy(integrator: str, method: type[RungeKu
     scene = tumbling()
     model = scene.compile()
     h, n = 1 / 64, 5
-    own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, max_step=h,
+    own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, maximum_step=h,
               channels=["position", "velocity", "angular_velocity"])  # fmt: skip
     y = np.array(own.core.state.values)
-    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, max_step=h, rtol=0.1, atol=1e3)
+    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, maximum_step=h, rtol=0.1, atol=1e3)
     solver.step()
     own.advance(h)
     assert own.core.statistics()["steps"] == 1
@@ -222,7 +222,7 @@ def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: 
     size = np.abs(rows).max(axis=1)
     product = np.linalg.lstsq(rows / size[:, None], x[6:12] / size, rcond=None)[0][0]
     assert abs(product) ** (1 / 3) == pytest.approx(radius, rel=1e-2)
-    assert json.loads(str(result.stats["settings"]))["spectral_radius"] == radius
+    assert result.settings["spectral_radius"] == radius
 
 
 @pytest.mark.parametrize(

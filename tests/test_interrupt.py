@@ -325,7 +325,7 @@ def test_notes_that_no_file_can_hold_are_refused_before_the_run(name: str) -> No
 def test_notes_of_every_plain_kind_reach_the_result_and_settings_stay_its_own(tmp_path: Path) -> None:
     scene = ball_on_a_pin()
     scene.notes.update(limit=np.inf, table=np.eye(2), place=tmp_path, rtol="looked fine to me")
-    settings = json.loads(str(simulate(scene, t_end=0.1).stats["settings"]))
+    settings = simulate(scene, t_end=0.1).settings
     noted = settings["notes"]
     assert noted["table"] == [[1.0, 0.0], [0.0, 1.0]]
     assert noted["place"] == str(tmp_path)

@@ -17,7 +17,7 @@ from seacrane.analysis.linearise import jacobian
 from seacrane.analysis.reduced_coordinates import Terms
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 

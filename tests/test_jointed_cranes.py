@@ -155,7 +155,7 @@ def test_scenes_go_to_files_and_back(name: str, tmp_path: Path) -> None:
 
 
 def test_both_are_drawn_by_their_members(lattice: JointedCrane) -> None:
-    from seacrane.viewer.crane_shapes import crane_shapes
+    from seacrane.viewer.bodies import crane_shapes
 
     scene = fixed(lattice, boom=0.7)
     shapes = crane_shapes(scene, None)
@@ -213,7 +213,7 @@ def test_radius_is_found_by_luffing(lattice: JointedCrane) -> None:
         ('luffs = { boom = "boom hinge" }', 'luffs = { boom = "slw" }', "which is no revolute joint"),
         ('luff = "boom"', 'luff = "jib"', "holds luff 'jib'; the luffs are 'boom'"),
         ("falls = 12", "falls = 2.5", "write a whole number"),
-        ("stiffness = 60.0e6", "stiffness = -1.0", "stiffness is -1; it must be greater than zero"),
+        ("EA = 60.0e6", "EA = -1.0", "EA is -1; it must be greater than zero"),
         ("total_mass = 171000.0", "total_mass = 171.0", "the bodies add up to 171000 kg"),
         (
             'first = { body = "house", point',
@@ -277,7 +277,7 @@ def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
     (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
     text = """
 format = "seacrane lift"
-version = 1
+version = 2
 
 [scene]
 name = "lattice"

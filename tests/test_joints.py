@@ -12,7 +12,7 @@ from multibody_runs import crane_scene, quaternion_about, record
 from seacrane import Scene, SceneError
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 FREEDOMS = {
     "weld": 0,

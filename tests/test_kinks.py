@@ -155,7 +155,7 @@ def recorded(samples: int) -> Scene:
 
 def test_a_record_of_ten_thousand_samples_is_not_ten_thousand_restarts() -> None:
     scene = recorded(10_001)
-    truth = simulate(scene, t_end=100.0, integrator="dopri5", rtol=1e-6, max_step=0.01)
+    truth = simulate(scene, t_end=100.0, integrator="dopri5", rtol=1e-6, maximum_step=0.01)
     for rtol in (1e-2, 1e-4, 1e-6):
         for integrator in ("dopri5", "verner76", "cvode-bdf"):
             result = simulate(scene, t_end=100.0, rtol=rtol, integrator=integrator)
@@ -178,7 +178,7 @@ def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: i
     rng = np.random.default_rng(seed)
     scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
     span: dict[str, Any] = {"t_end": 20.0, "dt_out": 0.25}
-    reference = simulate(scene, integrator="dop853", rtol=1e-11, max_step=0.05, **span)
+    reference = simulate(scene, integrator="dop853", rtol=1e-11, maximum_step=0.05, **span)
     motion = float(np.abs(reference["position"] - reference["position"][0]).max())
     limit = max(motion, 0.01) * 10.0 ** rng.uniform(-6.0, -2.0)
     result = simulate(scene, accuracy={"position": limit}, **span)

@@ -18,7 +18,8 @@ from ensemble_studies import pendulum
 from numpy.typing import NDArray
 from random_scenes import KINDS, Shape, build
 
-from seacrane import Ensemble, Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
@@ -26,7 +27,7 @@ from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, mod
 Array = NDArray[np.float64]
 LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
 needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
-TRACK = Kept(channel="position", at={"body": "payload"}, step=2.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=2.0)
 MORE = "the lifts differ in more than their seas: in"
 STORM: dict[str, Any] = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
 
@@ -40,7 +41,7 @@ def seas(scene: Scene, count: int) -> list[Scene]:
     """The scene in other seas; one without a sea as often as it is."""
     if scene.waves is None:
         return [scene] * count
-    return [with_sea(scene, shipped_database(), {"seed": seed}) for seed in range(1, count + 1)]
+    return [with_sea(scene, {"seed": seed}) for seed in range(1, count + 1)]
 
 
 def differences(
@@ -114,7 +115,7 @@ def stats(result: Result) -> list[float]:
 @pytest.mark.parametrize("lanes", LANES)
 def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int) -> None:
     study: dict[str, Any] = {
-        "over": {"seed": range(1, 6)}, "database": shipped_database(),
+        "over": {"seed": range(1, 6)},
         "keep": {"track": TRACK, "stats": stats},
         "t_end": 20.0, "dt_out": 1.0, "channels": ("position",),
     }  # fmt: skip
@@ -131,7 +132,7 @@ def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int)
 @needs_lanes
 def test_a_member_does_not_depend_on_what_runs_it() -> None:
     study: dict[str, Any] = {
-        "over": {"seed": range(1, 9)}, "database": shipped_database(), "keep": {"track": TRACK}, "lanes": 4,
+        "over": {"seed": range(1, 9)}, "keep": {"track": TRACK}, "lanes": 4,
         **STORM,
     }  # fmt: skip
     alone = ensemble(case("case2"), pack=8, **study).dataset.track
@@ -152,11 +153,9 @@ def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
         "wave_elevation",
     )
     keep = {name: Kept(channel=name) for name in names if name in scene.compile().channel_names()}
-    made = ensemble(
-        scene, over={"seed": [1, 2]}, database=shipped_database(), keep=keep, t_end=5.0, rtol=1e-9, lanes=4
-    ).dataset
+    made = ensemble(scene, over={"seed": [1, 2]}, keep=keep, t_end=5.0, rtol=1e-9, lanes=4).dataset
     for seed in (1, 2):
-        result = simulate(with_sea(scene, shipped_database(), {"seed": seed}), t_end=5.0, rtol=1e-9)
+        result = simulate(with_sea(scene, {"seed": seed}), t_end=5.0, rtol=1e-9)
         for name in keep:
             scale = np.abs(result[name]).max()
             assert np.abs(made[name].sel(seed=seed) - result[name]).max() < 1e-6 * scale, name
@@ -218,7 +217,7 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     """In lanes where all have it; else kept apart, whichever is first."""
     study: dict[str, Any] = {
         "over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8,
-        "keep": {"sway": Kept(channel="vessel_motion", what="mean", at={"motion": "sway"})},
+        "keep": {"sway": Kept(channel="vessel_motion", what="mean", names={"motion": "sway"})},
     }  # fmt: skip
     alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
     assert np.abs(alone.sway - beside.sway).max() < 1e-5
@@ -234,9 +233,9 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
 def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) -> None:
     axes = {"seed": [1, 2, 3, 4], "bodies.vessel.mass": [1.0e7, 1.3e7]}
     over = dict(reversed(axes.items())) if seed == "last" else axes
-    source, heave = case("vessel"), {"heave": Kept(channel="position", at={"axis": "z"}, step=1.0)}
+    source, heave = case("vessel"), {"heave": Kept(channel="position", names={"axis": "z"}, interval=1.0)}
     study: dict[str, Any] = {
-        "over": over, "keep": heave, "t_end": 4.0, "rtol": 1e-8, "database": shipped_database(),
+        "over": over, "keep": heave, "t_end": 4.0, "rtol": 1e-8,
     }  # fmt: skip
     alone, beside = (ensemble(source, lanes=lanes, **study).dataset for lanes in (1, 4))
     assert np.abs(alone.heave - beside.heave).max() < 1e-6
@@ -248,7 +247,7 @@ def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) 
     ("other", "told"),
     [
         ({"rtol": 1e-5}, "different methods"),
-        ({"max_step": 0.01}, "different methods"),
+        ({"maximum_step": 0.01}, "different methods"),
         ({"t_end": 2.0}, "end at different times"),
         ({"integrator": "tsit5"}, "different methods"),
     ],
@@ -389,7 +388,7 @@ def test_instructions_are_those_that_linux_tells_of(monkeypatch: pytest.MonkeyPa
 @needs_lanes
 def test_lanes_are_the_default_where_a_sea_varies() -> None:
     keep = {"lanes": why}
-    study: dict[str, Any] = {"database": shipped_database(), "keep": keep, "t_end": 0.5, "rtol": 1e-2}
+    study: dict[str, Any] = {"keep": keep, "t_end": 0.5, "rtol": 1e-2}
     assert (ensemble(case("vessel"), over={"seed": [1, 2]}, **study).dataset.lanes == 4).all()
     assert (ensemble(case("vessel"), over={"seed": [1, 2]}, pack=2, **study).dataset.lanes == 1).all()
     assert (ensemble(case("vessel"), over={"gravity": [9.8, 9.81]}, **study).dataset.lanes == 1).all()

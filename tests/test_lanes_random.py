@@ -27,7 +27,7 @@ pytestmark = [
 T_END = 3.0
 METHODS: list[dict[str, Any]] = [
     *({"rtol": 1e-9, "integrator": name} for name in ("dopri5", "tsit5", "dop853", "dopri5-stiff")),
-    {"rtol": 1e-9, "integrator": "dopri5", "max_step": 0.05},
+    {"rtol": 1e-9, "integrator": "dopri5", "maximum_step": 0.05},
     {"integrator": "rk4", "dt": 0.01},
 ]
 MEMORIES = ("per-pair", "per-pair", "by-motion", "convolution")
@@ -59,7 +59,7 @@ def afloat(rng: np.random.Generator) -> Callable[[], Scene]:
         scene: Scene = getattr(cases, name)(database=drifting(), seed=int(rng.integers(1, 9)), **other)
         if rng.random() < 0.5:
             words = {"hs": float(rng.uniform(1, 4)), "direction_deg": float(rng.uniform(0, 360))}
-            scene = with_sea(scene, drifting(), words)
+            scene = with_sea(scene, words)
         return scene
 
     return make

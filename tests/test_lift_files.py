@@ -16,7 +16,6 @@ import pytest
 from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 
 from seacrane import (
-    AngleUnitWarning,
     FileFormatError,
     Lift,
     Method,
@@ -38,7 +37,7 @@ from seacrane.lift.lines import lines_of
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import CURVES, TABLES
 from seacrane.sea import cos_2s, jonswap
-from seacrane.sea.spectra import SteepSeaWarning
+from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "lift-files.md"
@@ -100,8 +99,8 @@ def test_the_lift_with_every_table_has_every_table() -> None:
 
 def test_method_outputs_and_end_time(tmp_path: Path) -> None:
     lift = lift_of(PENDULUM, tmp_path)
-    assert lift.method == Method(integrator="rk4", step=0.01)
-    assert lift.outputs == Outputs(dt=0.5, channels=("position", "constraint_error", "energy_balance"))
+    assert lift.method == Method(integrator="rk4", dt=0.01)
+    assert lift.outputs == Outputs(dt_out=0.5, channels=("position", "constraint_error", "energy_balance"))
     assert lift.t_end == 2.0
     result = lift.simulate()
     other = simulate(lift.scene(), 2.0, method=lift.method, outputs=lift.outputs)
@@ -141,7 +140,7 @@ systems = [
     lift = lift_of(text, tmp_path)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
-    scene.add_sea(database, vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
+    scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
     assert lift.scene() == scene
 
 
@@ -273,9 +272,9 @@ MISTAKES = {
     "a missing key": (HEAD + '[[body]]\nname = "a"', 3, "[[body]] 1 has no mass_kg; add it"),
     "an unknown choice": (HEAD + '[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
     "an unknown integrator": (HEAD + '[method]\nintegrator = "dopri6"', 4, "nearest: dopri5"),
-    "a tolerance out of range": (HEAD + "[method]\ntolerance = 3", 4, "tolerance is 3"),
+    "a tolerance out of range": (HEAD + "[method]\nrtol = 3", 4, "rtol is 3"),
     "a list for a table": (HEAD + "[[run]]\nt_end_s = 1", 3, "write [run], once"),
-    "a number for a table": (HEAD + "wire = 3", 3, "write [wire], or [[wire]] for each of several"),
+    "a number for a table": (HEAD + "line = 3", 3, "write [line], or [[line]] for each of several"),
     "an unknown curve": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "line" }', 5, "one of constant"),
     "a gust of a joint": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "gust" }', 5, "one of constant"),
     "a piece without a time": (
@@ -284,7 +283,7 @@ MISTAKES = {
     ),
     "no pieces": (HEAD + '[driver]\njoint = "x"\ncurve_m = []', 5, "give a number or a table"),
     "a date": (HEAD + "[notes]\nday = 2026-01-01", 3, "notes are numbers, texts"),
-    "another version": ('format = "seacrane lift"\nversion = 2', 2, "this seacrane reads version = 1"),
+    "another version": ('format = "seacrane lift"\nversion = 3', 2, "this seacrane reads version = 2"),
     "half a line": (HEAD + "[sea]\nhs_m =", 4, "Invalid value"),
     "half a list": (HEAD + "[sea]\n\nx = [1,", 5, "at the end of the file; truncated or malformed TOML"),
     "a key twice": (HEAD + "[sea]\nhs_m = 1\nhs_m = 2", 5, "Cannot overwrite a value"),
@@ -310,8 +309,10 @@ BUILT = {
         ARM.replace("reference_deg", "reference_m"), "reference_m", "give reference_rad or reference_deg"
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
-    "a joint that is not there": (HEAD + '[wire]\njoint = "rope"\n', "[wire]", "there is no joint 'rope'"),
-    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "no [vessel] named 'barge'"),
+    "a joint that is not there": (
+        HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
+    ),
+    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
     "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),
@@ -503,7 +504,7 @@ def test_every_keyword_is_a_key(name: str) -> None:
 PLAIN = {
     "air", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
-    "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
+    "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "rtol",
     "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
     "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
     "drag_coefficient",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import copy
-import json
 import subprocess
 import sys
+from dataclasses import replace
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -15,13 +15,15 @@ import pytest
 from test_report import Page
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import Event, FileFormatError, Frame, Report, Result, Scene, SceneError, cases, report, simulate
+from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, report, simulate
+from seacrane.answers import Report
 from seacrane.reporting.limits import judged_bounds
 from seacrane.reporting.measures import statistics_of
 from seacrane.reporting.registry import SECTIONS
 from seacrane.reporting.section import Section, compose
+from seacrane.result import About, Event
 
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")  # thrown on purpose
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose
 NASTY = "<img src=x onerror=alert(1)>&\"'"
 
 
@@ -40,7 +42,7 @@ def swinging(*, wire: bool, speed: float = 3.0, name: str = "swing", body: str =
     )  # fmt: skip
     scene.add_roles(link="rope")
     if wire:
-        scene.add_wire(joint="rope")
+        scene.add_line(joint="rope", rung="rigid")
     return scene
 
 
@@ -147,17 +149,15 @@ def test_links_and_wires_are_judged() -> None:
 def test_ranges_are_judged_by_what_was_recorded(lift: Result) -> None:
     bounds = {one.name: one for one in judged_bounds(lift)}
     assert bounds["main_cylinder"].bound == "0 to 5 m" and bounds["main_cylinder"].held
-    described = json.loads(str(lift.stats["bounds"]))
-    described[0]["maximum"] = 1e-4 * float(lift["stroke"].max())
-    described[0]["minimum"] = -1.0
-    far = {**lift.stats, "bounds": json.dumps(described)}
+    first = {**lift.about.bounds[0], "maximum": 1e-4 * float(lift["stroke"].max()), "minimum": -1.0}
+    far = replace(lift.about, bounds=[first, *lift.about.bounds[1:]])
     arrays = {**lift.channels, "coordinate": lift["coordinate"] + 0.5}
-    moved = Result.from_arrays(time=lift.time, arrays=arrays, coords=lift.coords, stats=far)
+    moved = Result.from_arrays(time=lift.time, arrays=arrays, coords=lift.coords, stats=lift.stats, about=far)
     broken = {one.name: one for one in judged_bounds(moved)}["main_cylinder"]
     assert broken.held is False and broken.words.endswith("m beyond")
     assert "of 3 not held" in report(moved).html
     unknown = {name: values for name, values in lift.channels.items() if name != "coordinate"}
-    silent = Result.from_arrays(time=lift.time, arrays=unknown, coords=lift.coords, stats=lift.stats)
+    silent = replace(lift, channels=unknown)
     assert {one.held for one in judged_bounds(silent) if one.kind == "range"} == {None}
 
 
@@ -213,18 +213,16 @@ def test_what_is_no_result_is_refused() -> None:
 
 
 NOTES = {
-    "no JSON": ({"bounds": "{"}, "section 'At a glance' cannot be made: JSONDecodeError"),
-    "no list": ({"bounds": "7"}, "section 'At a glance' cannot be made: TypeError"),
-    "an unknown kind": ({"bounds": '[{"kind": "spell"}]'}, "cannot be made: KeyError: 'spell'"),
-    "an outline of text": ({"outline": '{"bodies": {"king": "x"}}'}, "section 'Scene' cannot be made"),
+    "no mapping": (About(outline={"bodies": 7}), "section 'Scene' cannot be made: TypeError"),
+    "an unknown kind": (About(bounds=[{"kind": "spell"}]), "cannot be made: KeyError: 'spell'"),
+    "an outline of text": (About(outline={"bodies": {"king": "x"}}), "section 'Scene' cannot be made"),
 }
 
 
 @pytest.mark.parametrize("case", NOTES)
 def test_notes_that_no_run_writes_are_told(case: str) -> None:
-    notes, message = NOTES[case]
-    run = crane_run(t_end=1.0)
-    run["stats"] |= notes
+    about, message = NOTES[case]
+    run = crane_run(t_end=1.0) | {"about": about}
     with pytest.raises(FileFormatError, match=message):
         report(Result.from_arrays(**run))
 

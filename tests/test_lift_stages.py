@@ -8,26 +8,21 @@ import numpy as np
 import pytest
 from lift_examples import HEAD, ON_DECK
 
-from seacrane import (
-    Curve,
-    FileFormatError,
-    Lift,
-    Move,
-    Result,
-    Scene,
-    Stage,
-    Tank,
-    Until,
-    simulate_stages,
-)
+from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, Until, simulate_stages
 from seacrane.cli import main
 from seacrane.hydro import shipped_database
+from seacrane.scene import Tank
 
 STAGES = (
     Stage(name="hold", duration=1.05),
-    Stage(name="lift off", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -0.05}),
     Stage(
-        name="raise", until=Until.length("hoist", below=19.6), longest=60.0,
+        name="lift off",
+        until=Until.release("on deck"),
+        maximum_duration=60.0,
+        commands={"hoist.rate": -0.05},
+    ),
+    Stage(
+        name="raise", until=Until.length("hoist", maximum=19.6), maximum_duration=60.0,
         commands={"hoist.rate": Move(to=-0.4, over=1.0)},
     ),
     Stage(name="stop", duration=1.0, commands={"hoist.rate": Curve.constant(value=0.0)}),
@@ -73,16 +68,16 @@ def test_tables_are_stages(tmp_path: Path) -> None:
 
 def test_a_channel_is_waited_for_in_its_unit(tmp_path: Path) -> None:
     waits = (
-        '{ channel = "position", above_m = 3, where = { body = "load", axis = "z" } }, '
-        '{ tension = "hoist", below_N = 0 }'
+        '{ channel = "position", minimum_m = 3, names = { body = "load", axis = "z" } }, '
+        '{ tension = "hoist", maximum_N = 0 }'
     )
-    text = ON_DECK.replace('{ length = "hoist", below_m = 19.6 }', waits)
+    text = ON_DECK.replace('{ length = "hoist", maximum_m = 19.6 }', waits)
     stage = lift_of(text, tmp_path).stages[2]
-    high = Until.channel("position", above=3.0, body="load", axis="z")
-    assert stage.until == (high, Until.tension("hoist", below=0.0))
-    slewed = '{ channel = "slew_angle", below_deg = -10 }'
-    stage = lift_of(ON_DECK.replace('{ length = "hoist", below_m = 19.6 }', slewed), tmp_path).stages[2]
-    assert stage.until == (Until.channel("slew_angle", below=np.radians(-10.0)),)
+    high = Until.channel("position", minimum=3.0, body="load", axis="z")
+    assert stage.until == (high, Until.tension("hoist", maximum=0.0))
+    slewed = '{ channel = "slew_angle", maximum_deg = -10 }'
+    stage = lift_of(ON_DECK.replace('{ length = "hoist", maximum_m = 19.6 }', slewed), tmp_path).stages[2]
+    assert stage.until == (Until.channel("slew_angle", maximum=np.radians(-10.0)),)
     stage = lift_of(ON_DECK.replace("{ release =", "{ contact ="), tmp_path).stages[1]
     assert stage.until == (Until.contact("on deck"),)
 
@@ -120,25 +115,25 @@ MISTAKES = {
         "commands: 'hoist.rate' is given twice",
     ),
     "two waits": (
-        "below_m = 19.6",
-        'below_m = 19.6, contact = "deck"',
+        "maximum_m = 19.6",
+        'maximum_m = 19.6, contact = "deck"',
         "until: has length and contact; give one",
     ),
     "no wait": ('{ release = "on deck" }', "{ }", "until: has nothing to wait for; give one of"),
-    "where of a line": (
-        "below_m = 19.6",
-        'below_m = 19.6, where = { line = "hoist" }',
-        "where goes with channel",
+    "names of a line": (
+        "maximum_m = 19.6",
+        'maximum_m = 19.6, names = { line = "hoist" }',
+        "names goes with channel",
     ),
     "a bound of a limit": (
         'release = "on deck"',
-        'release = "on deck", above_m = 1',
-        "above stands beside release",
+        'release = "on deck", minimum_m = 1',
+        "minimum stands beside release",
     ),
     "a unit": (
-        "below_m = 19.6",
-        "below_N = 19.6",
-        "below_N: channel 'line_unstretched_length' is in m; give below_m",
+        "maximum_m = 19.6",
+        "maximum_N = 19.6",
+        "maximum_N: channel 'line_unstretched_length' is in m; give maximum_m",
     ),
     "an end of the run": ("[outputs]", "[run]\nt_end_s = 9\n\n[outputs]", "[run] stands beside [[stage]]"),
 }
@@ -234,7 +229,7 @@ def test_tanks_are_filled_as_by_calls(tmp_path: Path) -> None:
 def test_ballast_that_cannot_be_is_told_by_its_line(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=r"line 23: .*tanks has 'port' twice"):
         lift_of(BALLAST.replace('"starboard"', '"port"'), tmp_path).scene()
-    with pytest.raises(FileFormatError, match=r"\[ballast\].*capacity is -1 kg"):
+    with pytest.raises(FileFormatError, match=r"\[ballast\].*capacity is -1.0 kg"):
         lift_of(BALLAST.replace("capacity_kg = 400e3", "capacity_kg = -1"), tmp_path).scene()
     with pytest.raises(FileFormatError, match=r"\[balance\] stands beside \[ballast\]"):
         lift_of(BALLAST + '\n[balance]\nbody = "vessel"\n', tmp_path).scene()

@@ -9,17 +9,10 @@ import numpy as np
 import pytest
 from test_summary import pendulum
 
-from seacrane import (
-    Curve,
-    LargeSwingWarning,
-    LoadInHullWarning,
-    OverloadWarning,
-    Scene,
-    simulate,
-    statics,
-)
+from seacrane import Curve, Scene, simulate, statics
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
 
 JOINTS = ("A", "main_cylinder", "knuckle_cylinder")
 
@@ -47,9 +40,7 @@ def test_a_swing_on_a_line_beyond_20_deg_warns(speed: float, warned: bool) -> No
     scene.add_body(
         name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(speed, 0, 0)
     )
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e8, length=8.9991
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8, length=8.9991)
     found = told(scene, 3.0)
     assert (LargeSwingWarning in found) == warned
     assert not warned or "line 'wire': 'load' swings" in found[LargeSwingWarning]
@@ -59,7 +50,7 @@ def test_a_swing_on_a_line_beyond_20_deg_warns(speed: float, warned: bool) -> No
 def test_a_line_that_does_not_alone_hold_its_body_is_not_judged(second: str) -> None:
     scene = Scene(name="held")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(4.0, 0, 0))
-    wire = {"points": np.zeros((2, 3)), "bodies": ["ground", "load"], "stiffness": 1e7}
+    wire = {"points": np.zeros((2, 3)), "bodies": ["ground", "load"], "EA": 1e7}
     scene.add_line(name="wire", length=8.99, **wire)  # type: ignore[arg-type]
     if second == "tugger":
         wire = wire | {"points": [(20.0, 0.0, -9.0), (0.0, 0.0, 0.0)]}

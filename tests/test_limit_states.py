@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
 from pathlib import Path
 
@@ -15,7 +14,6 @@ from test_summary import LENGTH, MASS, G, pendulum
 from seacrane import (
     FileFormatError,
     Lift,
-    LimitState,
     Result,
     Scene,
     SceneError,
@@ -24,15 +22,17 @@ from seacrane import (
     simulate_to_file,
     summary,
 )
+from seacrane.result import About
+from seacrane.scene import LimitState
 
 TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 
 
 def limited() -> Scene:
     scene = pendulum()
-    scene.add_limit_state(channel="link_tension", max=2.5e4, min=1.5e4)
+    scene.add_limit_state(channel="link_tension", maximum=2.5e4, minimum=1.5e4)
     scene.add_limit_state(
-        name="swing", channel="position", where={"body": "load", "axis": "x"}, max=1.0, min=-2
+        name="swing", channel="position", names={"body": "load", "axis": "x"}, maximum=1.0, minimum=-2
     )
     return scene
 
@@ -56,9 +56,9 @@ def test_utilisation_by_hand(swinging: Result) -> None:
 def states_of(low: float | None, high: float | None, values: list[float]) -> float:
     run = crane_run(t_end=1.0)
     tension = np.resize(np.array(values), run["time"].size)
-    state = {"name": "t", "channel": "link_tension", "maximum": high, "minimum": low, "where": {}}
-    stats = {**run["stats"], "limit_states": json.dumps([state])}
-    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "stats": stats})
+    state = LimitState(name="t", channel="link_tension", maximum=high, minimum=low)
+    about = About(limit_states=(state,))
+    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "about": about})
     return result.utilisation[0].utilisation
 
 
@@ -75,7 +75,7 @@ def test_every_kind_of_bound() -> None:
 
 def test_of_a_name_left_open_the_worst_counts(swinging: Result) -> None:
     scene = pendulum()
-    scene.add_limit_state(channel="position", where={"body": "load"}, max=1.0, min=-10.0)
+    scene.add_limit_state(channel="position", names={"body": "load"}, maximum=1.0, minimum=-10.0)
     (used,) = simulate(scene, t_end=5.0).utilisation
     assert used.curve == "x" and "position load (x)" in str(simulate(scene, t_end=5.0).utilisation)
 
@@ -92,10 +92,10 @@ def test_it_is_in_files_summaries_and_reports(swinging: Result, tmp_path: Path) 
     assert told.load().utilisation == swinging.utilisation
 
 
-@pytest.mark.parametrize("noted", ["{", "[1]", '[{"name": "a"}]', '[{"channel": "tension", "where": 5}]'])
-def test_a_result_with_notes_that_no_run_writes_is_refused_by_name(noted: str) -> None:
+def test_a_limit_state_that_no_scene_has_is_refused_by_name() -> None:
     run = crane_run(t_end=1.0)
-    broken = Result.from_arrays(**run | {"stats": {**run["stats"], "limit_states": noted}})
+    about = About(limit_states=(LimitState(name="t", channel="link_tension"),))
+    broken = Result.from_arrays(**run | {"about": about})
     with pytest.raises(FileFormatError, match="limit states are none that a run writes"):
         broken.utilisation.largest  # noqa: B018 - the property itself is asked for
 
@@ -105,7 +105,7 @@ def test_scene_files_and_copies_keep_them(tmp_path: Path) -> None:
     scene.save(tmp_path / "scene.json")
     assert Scene.load(tmp_path / "scene.json") == scene == scene.copy()
     assert Scene.load(tmp_path / "scene.json").limit_states["swing"] == LimitState(
-        name="swing", channel="position", maximum=1.0, minimum=-2.0, where={"body": "load", "axis": "x"}
+        name="swing", channel="position", maximum=1.0, minimum=-2.0, names={"body": "load", "axis": "x"}
     )
     scene.remove("swing")
     assert list(scene.limit_states) == ["link tension"]
@@ -113,7 +113,7 @@ def test_scene_files_and_copies_keep_them(tmp_path: Path) -> None:
 
 def test_a_channel_that_is_not_usual_is_recorded_and_one_left_out_is_told() -> None:
     scene = pendulum()
-    scene.add_limit_state(channel="acceleration", where={"body": "load"}, max=50.0)
+    scene.add_limit_state(channel="acceleration", names={"body": "load"}, maximum=50.0)
     assert "acceleration" in simulate(scene, t_end=0.2)
     partial = simulate(scene, t_end=0.2, channels=["position"])
     assert partial.utilisation[0].kept is None and "not recorded" in str(partial.utilisation)
@@ -125,12 +125,15 @@ def test_a_channel_that_is_not_usual_is_recorded_and_one_left_out_is_told() -> N
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"channel": "link_tension"}, "has neither max nor min"),
-        ({"channel": "link_tension", "max": 0.0}, "max is 0; a utilisation is over a finite value"),
-        ({"channel": "link_tension", "max": np.nan}, "max is nan"),
-        ({"channel": "link_tension", "max": 1.0, "min": 2.0}, "min is 2 and max 1; min must be below max"),
-        ({"channel": "link_tension", "max": "1"}, "max is '1'; give a number"),
-        ({"channel": "position", "max": 1.0, "where": "load"}, "where is 'load'; give names"),
+        ({"channel": "link_tension"}, "has neither maximum nor minimum"),
+        ({"channel": "link_tension", "maximum": 0.0}, "maximum is 0; a utilisation is over a finite value"),
+        ({"channel": "link_tension", "maximum": np.nan}, "maximum is nan"),
+        (
+            {"channel": "link_tension", "maximum": 1.0, "minimum": 2.0},
+            "minimum is 2 and maximum 1; minimum must",
+        ),
+        ({"channel": "link_tension", "maximum": "1"}, "maximum is '1'; give a number"),
+        ({"channel": "position", "maximum": 1.0, "names": "load"}, "names is 'load'; give names"),
     ],
 )
 def test_what_states_no_limit_is_refused(given: dict[str, object], words: str) -> None:
@@ -138,7 +141,7 @@ def test_what_states_no_limit_is_refused(given: dict[str, object], words: str) -
         pendulum().add_limit_state(**given)  # type: ignore[arg-type]
     scene = limited()
     with pytest.raises(SceneError, match="the name is used twice"):
-        scene.add_limit_state(channel="position", name="swing", max=1.0)
+        scene.add_limit_state(channel="position", name="swing", maximum=1.0)
 
 
 def lift(text: str) -> Scene:
@@ -146,32 +149,35 @@ def lift(text: str) -> Scene:
 
 
 def test_a_lift_gives_limits_with_their_unit() -> None:
-    scene = lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_deg = 5\nmin_deg = -5')
+    scene = lift('channel = "vessel_motion"\nnames = { motion = "roll" }\nmaximum_deg = 5\nminimum_deg = -5')
     (state,) = scene.limit_states.values()
     assert (state.maximum, state.minimum) == pytest.approx((np.radians(5.0), np.radians(-5.0)))
     with pytest.raises(
-        FileFormatError, match="max_m: channel 'vessel_motion' is in rad; give max_rad or max_deg"
+        FileFormatError, match="maximum_m: channel 'vessel_motion' is in rad; give maximum_rad or maximum_deg"
     ):
-        lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_m = 5')
-    with pytest.raises(FileFormatError, match="max_deg: channel 'link_tension' is in N; give max_N"):
-        lift('channel = "link_tension"\nmax_deg = 5')
+        lift('channel = "vessel_motion"\nnames = { motion = "roll" }\nmaximum_m = 5')
+    with pytest.raises(FileFormatError, match="maximum_deg: channel 'link_tension' is in N; give maximum_N"):
+        lift('channel = "link_tension"\nmaximum_deg = 5')
     with pytest.raises(
-        FileFormatError, match=r"max_m: channel 'vessel_motion' is in .*name one of its curves"
+        FileFormatError, match=r"maximum_m: channel 'vessel_motion' is in .*name one of its curves"
     ):
-        lift('channel = "vessel_motion"\nmax_m = 5')
+        lift('channel = "vessel_motion"\nmaximum_m = 5')
 
 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"channel": "tensoin"}, "channel 'tensoin' is unknown to this scene; it offers: position"),
+        ({"channel": "tensoin"}, "channel 'tensoin' does not exist; did you mean 'tension'"),
         ({"channel": "stroke"}, "limit state 'stroke': channel 'stroke' is unknown to this scene"),
-        ({"channel": "position", "where": {"body": "lode"}}, "there is no body 'lode'; choose from load"),
-        ({"channel": "position", "where": {"hook": "hook"}}, "has no dimension 'hook'; it has axis, body"),
+        ({"channel": "position", "names": {"body": "lode"}}, "there is no body 'lode'; choose from load"),
+        (
+            {"channel": "position", "names": {"hook": "hook"}},
+            "has no dimension 'hook'; its dimensions are body, axis",
+        ),
     ],
 )
 def test_what_the_scene_does_not_have_is_refused_before_the_run(given: dict[str, object], words: str) -> None:
     scene = pendulum()
-    scene.add_limit_state(max=1.0, **given)  # type: ignore[arg-type]
     with pytest.raises(SceneError, match=words):
+        scene.add_limit_state(maximum=1.0, **given)  # type: ignore[arg-type]
         simulate(scene, t_end=1.0)

@@ -37,7 +37,7 @@ from seacrane.cli.run_command import costs
             lambda s: s.add_end_stop(joint="air", coordinate="x", minimum=-1.0, restitution=1.5),
             "give 0 to 1",
         ),
-        (lambda s: s.add_wire(joint="air"), "a wire takes a distance joint"),
+        (lambda s: s.add_line(joint="air", rung="rigid"), "a wire takes a distance joint"),
         (lambda s: s.add_seat(joint="air"), "a seat takes a weld joint"),
         (
             lambda s: s.add_friction(joint="air", coordinate="x", load=-1.0, speed=1.0),
@@ -120,7 +120,7 @@ def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> 
             kind="distance", name=name, first="ground", second="ball", point=(x, 0.3 * x, 0.0),
             second_point=(0.0, 0.0, -1.0), length=2.5,
         )  # fmt: skip
-        scene.add_wire(joint=name)
+        scene.add_line(joint=name, rung="rigid")
     result = simulate(scene, t_end=3.0, dt_out=0.1, integrator="cvode-adams", rtol=1e-8)
     reference = simulate(scene, t_end=3.0, dt_out=0.1, rtol=1e-10)
     assert result.stats["formulation"] == "redundant"

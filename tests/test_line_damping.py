@@ -19,7 +19,7 @@ def below_a_ship(order: int) -> Scene:
     scene.add_body(name="load", mass=MASS, inertia=(MASS, MASS, MASS), position=(0, 40, 5))
     scene.add_line(
         name="hoist", bodies=["vessel", "load"][::order], points=[(0, 40, 25), (0, 0, 0)][::order],
-        stiffness=2e7, tension_at_start=0.8 * MASS * G,
+        EA=2e7, tension_at_start=0.8 * MASS * G,
     )  # fmt: skip
     return scene
 
@@ -66,11 +66,11 @@ def on_slings(**line: Any) -> Scene:
     scene.add_body(name="hook", mass=500.0, inertia=(50.0, 50.0, 50.0), position=(0, 0, -20.0))
     scene.add_body(name="box", mass=MASS, inertia=(4e4, 4e4, 6e4), position=(0, 0, -25.0))
     scene.add_bridle(
-        name="sling", hook="hook", load="box", stiffnesses=2e8,
+        name="sling", hook="hook", load="box", EA=2e8,
         points=[(2, 1, 1), (-2, 1, 1), (-2, -1, 1), (2, -1, 1)],
     )  # fmt: skip
     scene.add_line(
-        name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), stiffness=3e7,
+        name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=3e7,
         tension_at_start=(MASS + 500.0) * G, **line,
     )  # fmt: skip
     return scene
@@ -113,5 +113,5 @@ def test_what_hangs_on_a_seat_counts_as_lifted() -> None:
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     scene.add_joint(kind="weld", name="deck", first="ground", second="load")
     scene.add_seat(joint="deck")
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7)
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7)
     assert bounce(scene)[0] == pytest.approx(MASS, rel=1e-9)

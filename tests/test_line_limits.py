@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 FORMULATIONS = ["redundant", "recursive"]
 
 
-def pendulum(stiffness: float | None, *, stretch: str = "elastic", damping: float = 0.3) -> Scene:
+def pendulum(stiffness: float | None, *, rung: str = "elastic", damping: float = 0.3) -> Scene:
     """2 t on 8 m, let go at 1 rad; the line is as long under its tension there as the rigid link."""
     scene = Scene(name="pendulum")
     place = 8.0 * np.array([np.sin(1.0), 0.0, -np.cos(1.0)])
@@ -27,21 +27,21 @@ def pendulum(stiffness: float | None, *, stretch: str = "elastic", damping: floa
         )
     else:
         scene.add_line(
-            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=stiffness,
-            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), damping_ratio=damping, stretch=stretch,
+            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,
+            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), damping_ratio=damping, rung=rung,
         )  # fmt: skip
     return scene
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
-@pytest.mark.parametrize("stretch", ["elastic", "quasi-static"])
-def test_motion_and_tension_tend_to_the_rigid_link_as_one_over_ea(stretch: str, formulation: str) -> None:
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_motion_and_tension_tend_to_the_rigid_link_as_one_over_ea(rung: str, formulation: str) -> None:
     settings: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-9, "formulation": formulation}
     rigid = record(pendulum(None), 6.0, **settings)
     moved, pulled = [], []
     stiffnesses = np.array([1e7, 1e8, 1e9])
     for stiffness in stiffnesses:
-        out = record(pendulum(float(stiffness), stretch=stretch), 6.0, **settings)
+        out = record(pendulum(float(stiffness), rung=rung), 6.0, **settings)
         moved.append(np.abs(out["position"] - rigid["position"]).max())
         pulled.append(np.abs(out["line_tension"][10:, 0] - rigid["tension"][10:, 0]).max())
     for errors in (moved, pulled):
@@ -64,10 +64,10 @@ def falling(speed: float, *, stiffness: float | None, ratio: float = 0.02, along
             kind="distance", name="rope", first="ground", second="load", point=(0, 0, 0),
             second_point=(0.0, 0.0, -10.0 + slack), length=10.0,
         )  # fmt: skip
-        scene.add_wire(joint="rope", restitution=restitution)
+        scene.add_line(joint="rope", rung="rigid", restitution=restitution)
     else:
         scene.add_line(
-            name="rope", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=10.0 * stiffness,
+            name="rope", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=10.0 * stiffness,
             length=10.0, damping_ratio=ratio,
         )  # fmt: skip
     return scene
@@ -110,11 +110,11 @@ def test_the_peak_of_a_snatch_grows_as_v_root_km(speed: float, stiffness: float)
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
-@pytest.mark.parametrize("stretch", ["elastic", "quasi-static"])
-def test_the_energy_ledger_converges_with_the_order_of_the_method(stretch: str, formulation: str) -> None:
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_the_energy_ledger_converges_with_the_order_of_the_method(rung: str, formulation: str) -> None:
     residuals = []
     for step in (8e-3, 4e-3, 2e-3):
-        scene = pendulum(2e6, stretch=stretch, damping=0.05)
+        scene = pendulum(2e6, rung=rung, damping=0.05)
         out = record(scene, 2.0, integrator="rk4", dt=step, rtol=1e-6, formulation=formulation)
         residuals.append(np.abs(out["energy_balance"]).max())
     assert np.diff(np.log2(residuals)) == pytest.approx(-4.5, abs=0.7)  # of order 4, of the damping 5
@@ -132,7 +132,7 @@ def test_the_energy_ledger_closes_through_a_snatch_as_the_tolerance_falls() -> N
     assert max(residuals[2], np.abs(damped["energy_balance"]).max() / damped["absolute_work"][-1]) < 1e-6
 
 
-def flying(stretch: str) -> Scene:
+def flying(rung: str) -> Scene:
     """Three bodies without weight, one line over all of them; it is taut, and its ends fly apart."""
     scene = Scene(name="flying", gravity=0.0)
     places = {"first": (0.0, 0.0, 0.0), "block": (4.0, 0.0, 1.0), "last": (8.0, 1.0, 0.0)}
@@ -144,7 +144,7 @@ def flying(stretch: str) -> Scene:
     length = 2.0 * np.sqrt(17.0) + (np.sqrt(18.0) - np.sqrt(17.0))
     scene.add_line(
         name="rope", bodies=["first", "block", "last"], points=[(0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.1)],
-        stiffness=2e6, length=0.95 * length, stretch=stretch,
+        EA=2e6, length=0.95 * length, rung=rung,
     )  # fmt: skip
     return scene
 

@@ -1,4 +1,4 @@
-"""Lines with stretch="auto": what they become in a run, why, and what happens where the choice was wrong."""
+"""Lines with rung="auto": what they become in a run, why, and what happens where the choice was wrong."""
 
 from __future__ import annotations
 
@@ -14,16 +14,11 @@ from numpy.typing import NDArray
 
 from seacrane import (
     Curve,
-    EnergyErrorWarning,
-    LineRungWarning,
-    PushingLineWarning,
-    QuasiStaticLineWarning,
     Result,
     Run,
     SampledController,
     Scene,
     SceneError,
-    StiffWarning,
     cases,
     equilibrium,
     natural_modes,
@@ -34,6 +29,13 @@ from seacrane.analysis.excitation import curve_frequency, excitations
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
 from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, tension_error
+from seacrane.warnings import (
+    EnergyErrorWarning,
+    LineRungWarning,
+    PushingLineWarning,
+    QuasiStaticLineWarning,
+    StiffWarning,
+)
 
 Array = NDArray[np.float64]
 STIFF = 1e4 * STIFFNESS  # N, EA of 10 m
@@ -41,7 +43,7 @@ STIFF = 1e4 * STIFFNESS  # N, EA of 10 m
 
 def automatic(scene: Scene, **change: Any) -> Scene:
     """The scene with its hoist automatic."""
-    scene.replace("hoist", stretch="auto", **change)
+    scene.replace("hoist", rung="auto", **change)
     return scene
 
 
@@ -55,8 +57,8 @@ def heaved(*, omega: float = 0.8, amplitude: float = 1.0, stiffness: float = STI
     )
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -10.0))
     scene.add_line(
-        name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), stiffness=stiffness,
-        length=10.0 / (1.0 + MASS * G / stiffness), stretch="auto",
+        name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), EA=stiffness,
+        length=10.0 / (1.0 + MASS * G / stiffness), rung="auto",
     )  # fmt: skip
     return scene
 
@@ -70,8 +72,8 @@ def over_the_top() -> Scene:
         name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0), velocity=(speed, 0, 0)
     )
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=STIFF,
-        length=10.0 / (1.0 + tension / STIFF), stretch="auto",
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=STIFF,
+        length=10.0 / (1.0 + tension / STIFF), rung="auto",
     )  # fmt: skip
     return scene
 
@@ -79,13 +81,13 @@ def over_the_top() -> Scene:
 def rung_of(scene: Scene, t_end: float = 1.0, **settings: Any) -> tuple[str, str]:
     """The rung of its hoist, and why."""
     rung = Run(scene, t_end, **settings).rungs["hoist"]
-    return rung.stretch, rung.reason
+    return rung.name, rung.reason
 
 
 @pytest.mark.parametrize(("stiffness", "expected"), [(1e7, "elastic"), (1e8, "quasi-static")])
 def test_case2_takes_the_rung_that_its_stiffness_allows(stiffness: float, expected: str) -> None:
     rung = Run(case2_on_a_line("auto", stiffness), 100.0).rungs["link"]
-    assert rung.stretch == expected
+    assert rung.name == expected
     assert "% of what the swing of its load makes of it, its own frequency being" in rung.reason
 
 
@@ -100,10 +102,10 @@ def test_stiff_costs_like_soft_by_itself() -> None:
 def test_it_is_the_run_of_the_rung_it_takes() -> None:
     chosen = simulate(heaved(), 4.0, dt_out=0.5)
     given = heaved()
-    given.replace("hoist", stretch="quasi-static")
+    given.replace("hoist", rung="quasi-static")
     assert np.array_equal(chosen["position"], simulate(given, 4.0, dt_out=0.5)["position"])
     soft, elastic = heaved(stiffness=1e6), heaved(stiffness=1e6)
-    elastic.replace("hoist", stretch="elastic")
+    elastic.replace("hoist", rung="elastic")
     assert np.array_equal(
         simulate(soft, 4.0, dt_out=0.5)["position"], simulate(elastic, 4.0, dt_out=0.5)["position"]
     )
@@ -120,7 +122,7 @@ def test_the_error_that_it_names_is_that_of_the_run() -> None:
         tension = []
         for rung in ("quasi-static", "elastic"):
             scene.replace(
-                "hoist", stretch=rung, stiffness=stiffness, damping_ratio=0.2,
+                "hoist", rung=rung, EA=stiffness, damping_ratio=0.2,
                 length=10.0 / (1.0 + MASS * G / stiffness),
             )  # fmt: skip
             with warnings.catch_warnings():
@@ -144,9 +146,9 @@ def test_whatever_it_takes_is_near_the_elastic_line(seed: int) -> None:
     place = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     scene.replace("load", mass=mass, inertia=mass * np.eye(3), position=place)
     strain = mass * G * np.cos(angle) / stiffness
-    scene.replace("hoist", stiffness=stiffness, length=length / (1.0 + strain))
+    scene.replace("hoist", EA=stiffness, length=length / (1.0 + strain))
     chosen = simulate(scene, 10.0, dt_out=0.05, rtol=1e-7)
-    scene.replace("hoist", stretch="elastic")
+    scene.replace("hoist", rung="elastic")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         elastic = simulate(scene, 10.0, dt_out=0.05, rtol=1e-7)
@@ -154,7 +156,7 @@ def test_whatever_it_takes_is_near_the_elastic_line(seed: int) -> None:
     assert np.abs(chosen["line_tension"] - elastic["line_tension"]).max() < 0.01 * mass * G
 
 
-def several(rng: np.random.Generator, stretch: str) -> Scene:
+def several(rng: np.random.Generator, rung: str) -> Scene:
     """Loads one below the other, or one beside a tugger, that swing from where they start."""
     scene, mass, length = Scene(name="several"), 10.0 ** rng.uniform(3, 5), rng.uniform(3.0, 40.0)
     angle, upper = rng.uniform(0.0, 0.3), rng.uniform(0.0, 0.5)
@@ -166,7 +168,7 @@ def several(rng: np.random.Generator, stretch: str) -> Scene:
     carried = mass + (below if kind != "tugger" else 0.0)
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), damping_ratio=0.01,
-        stiffness=10.0 ** rng.uniform(7, 10), stretch=stretch,
+        EA=10.0 ** rng.uniform(7, 10), rung=rung,
         tension_at_start=carried * G * (np.cos(angle) + (rng.random() < 0.3) * upper),
     )  # fmt: skip
     if kind != "tugger":
@@ -174,14 +176,14 @@ def several(rng: np.random.Generator, stretch: str) -> Scene:
         scene.add_body(name="box", mass=below, inertia=below * np.eye(3), position=under)
         scene.add_line(
             name="lower", bodies=["load", "box"], points=np.zeros((2, 3)), damping_ratio=0.01,
-            stiffness=10.0 ** rng.uniform(6, 10), stretch=stretch,
+            EA=10.0 ** rng.uniform(6, 10), rung=rung,
             tension_at_start=below * G * (1.0 + ringing),
         )  # fmt: skip
     if kind != "below":
         beside = place + np.array([rng.uniform(5.0, 20.0), 0.0, 0.0])
         scene.add_line(
             name="tugger", bodies=["ground", "load"], points=[beside, np.zeros(3)],
-            stiffness=10.0 ** rng.uniform(5, 8), stretch=rng.choice([stretch, "elastic"]), damping_ratio=0.01,
+            EA=10.0 ** rng.uniform(5, 8), rung=rng.choice([rung, "elastic"]), damping_ratio=0.01,
             tension_at_start=rng.uniform(0.0, 0.1) * mass * G,
         )  # fmt: skip
     return scene
@@ -191,8 +193,8 @@ def apart(seed: int) -> tuple[float, bool]:
     """By how much tensions with lines chosen by the run differ from elastic ones, over the weight of all
     loads; and whether a line is quasi-static at all."""
     runs = []
-    for stretch in ("auto", "elastic"):
-        scene = several(np.random.default_rng(seed), stretch)
+    for rung in ("auto", "elastic"):
+        scene = several(np.random.default_rng(seed), rung)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             runs.append(simulate(scene, 10.0, dt_out=0.02, rtol=1e-7))
@@ -223,17 +225,17 @@ def test_a_line_that_rings_makes_its_neighbours_elastic() -> None:
         ("upper", ["ground", "load"], 1.5e9, 2600.0), ("lower", ["load", "box"], 2e8, 624.0),
     ):  # fmt: skip
         scene.add_line(
-            name=name, bodies=bodies, points=np.zeros((2, 3)), stiffness=stiffness, damping_ratio=0.0,
-            tension_at_start=pull * G, stretch="auto",
+            name=name, bodies=bodies, points=np.zeros((2, 3)), EA=stiffness, damping_ratio=0.0,
+            tension_at_start=pull * G, rung="auto",
         )  # fmt: skip
     rungs = Run(scene, 5.0).rungs
     assert rungs["lower"].reason.startswith("its tension of ") and "would ring" in rungs["lower"].reason
     assert "of what line 'lower' makes of it, which is elastic and may ring" in rungs["upper"].reason
     scene.replace("lower", length=3.0 / (1.0 + 600.0 * G / 2e8))
-    assert {rung.stretch for rung in Run(scene, 5.0).rungs.values()} == {"quasi-static"}
+    assert {rung.name for rung in Run(scene, 5.0).rungs.values()} == {"quasi-static"}
 
 
-def in_resonance(stretch: str, omega: float) -> Scene:
+def in_resonance(rung: str, omega: float) -> Scene:
     """180 t on 2,000 m of wire below a tip that heaves; its own frequency is 1.05 rad/s."""
     scene = Scene(name="deep")
     scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
@@ -241,8 +243,8 @@ def in_resonance(stretch: str, omega: float) -> Scene:
     scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=0.2, omega=omega, phase=np.pi / 2))
     scene.add_body(name="load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000.0))
     scene.add_line(
-        name="hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), stiffness=4e8, damping_ratio=0.02,
-        tension_at_start=180e3 * G, stretch=stretch, settling=0.02,
+        name="hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, damping_ratio=0.02,
+        tension_at_start=180e3 * G, rung=rung, settling=0.02,
     )  # fmt: skip
     return scene
 
@@ -287,7 +289,7 @@ def test_the_frequency_of_a_line_is_that_of_its_mode() -> None:
     series.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     for name, bodies, at in (("upper", ["ground", "block"], 0.0), ("lower", ["block", "load"], 0.0)):
         series.add_line(
-            name=name, bodies=bodies, points=[(0, 0, at), (0, 0, 0)], stiffness=1e8, damping_ratio=0.0,
+            name=name, bodies=bodies, points=[(0, 0, at), (0, 0, 0)], EA=1e8, damping_ratio=0.0,
             length=5.0 / (1.0 + MASS * G / 1e8),
         )  # fmt: skip
     model = series.compile(merge=False)
@@ -307,8 +309,8 @@ def test_the_frequency_of_a_line_is_that_of_its_mode() -> None:
     ],
 )
 def test_it_stays_elastic_where_the_bound_does_not_hold(make: Any, words: str) -> None:
-    stretch, reason = rung_of(make())
-    assert stretch == "elastic"
+    rung, reason = rung_of(make())
+    assert rung == "elastic"
     assert words in reason
 
 
@@ -341,8 +343,8 @@ def test_it_stays_elastic_where_something_would_shake_it() -> None:
         (stepped_winch(0.0), "its winch has no lag"),
         (stopped, "SoftStop 'buffer' may shake a line"),
     ):
-        stretch, reason = rung_of(scene, 3.0)
-        assert stretch == "elastic"
+        rung, reason = rung_of(scene, 3.0)
+        assert rung == "elastic"
         assert words in reason
     for integrator in ("ida", "generalized-alpha"):
         assert f"'{integrator}' has no accelerations" in rung_of(heaved(), integrator=integrator)[1]
@@ -352,23 +354,23 @@ def test_it_stays_elastic_where_something_would_shake_it() -> None:
         kind="prismatic", name="rail", first="ground", second="float", point=(0, 0, -20), axis=(0, 0, 1)
     )
     scene.add_end_stop(name="stop", joint="rail", minimum=-1.0)
-    stretch, reason = rung_of(scene)
-    assert stretch == "elastic"
+    rung, reason = rung_of(scene)
+    assert rung == "elastic"
     assert "limit 'stop' makes impacts" in reason
 
 
 def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
     expected = over_the_top()
-    expected.replace("hoist", stretch="elastic")
+    expected.replace("hoist", rung="elastic")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", StiffWarning)
         elastic = simulate(expected, 2.5, dt_out=0.1, rtol=1e-6)
         assert np.min(elastic["line_tension"]) == 0.0
-        with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*began anew from its start"):
+        with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*a second run from"):
             result = simulate(over_the_top(), 2.5, dt_out=0.1, rtol=1e-6)
     assert np.array_equal(result["position"], elastic["position"])
     assert result.stats["line_rungs"].startswith(
-        "hoist: elastic: the run began anew: line 'hoist': its stretch"
+        "hoist: elastic: a first run was not: line 'hoist': its stretch"
     )
     assert "it goes slack at t = " in result.stats["validity"]
     assert result.time[0] == 0.0
@@ -395,7 +397,7 @@ def test_a_run_goes_on_with_the_rung_of_its_start(tmp_path: Path) -> None:
     rest.advance(4.0)
     assert_allclose(rest.state.values, whole.state.values, atol=1e-9)
     scene = heaved()
-    scene.replace("hoist", stretch="elastic")
+    scene.replace("hoist", rung="elastic")
     other = simulate(scene, 1.0).state
     assert rung_of(heaved(), 2.0, start=other)[0] == "elastic"
     result = simulate(heaved(), 0.5, dt_out=0.1)
@@ -410,9 +412,9 @@ def test_rest_modes_and_files_take_it_as_elastic(tmp_path: Path) -> None:
     rest = equilibrium(scene)
     assert_allclose(rest.values, equilibrium(elastic).values, atol=1e-12)
     assert_allclose(natural_modes(scene).natural_period, natural_modes(elastic).natural_period)
-    stiff = automatic(hung(stretch=0.0), stiffness=STIFF)
+    stiff = automatic(hung(stretch=0.0), EA=STIFF)
     settled = Run(stiff, 1.0, start=equilibrium(stiff))
-    assert settled.rungs["hoist"].stretch == "quasi-static"
+    assert settled.rungs["hoist"].name == "quasi-static"
     settled.advance(1.0)
     assert_allclose(settled.state.values[2], equilibrium(stiff).values[2], atol=1e-9)
     scene.save(tmp_path / "scene.json")
@@ -451,12 +453,12 @@ def test_the_error_law_is_the_closed_form() -> None:
     assert LARGEST_ERROR < 0.01
 
 
-def shaken(stretch: str) -> Scene:
+def shaken(rung: str) -> Scene:
     """A block whose short drop is faster than a load falls; the strain follows too late to go slack."""
     scene = heaved()
     drop = Curve.quintic(start_time=0.5, end_time=0.65, start=0.0, end=-0.1)
     scene.replace("guide.displacement", curve=drop)
-    scene.replace("hoist", stretch=stretch)
+    scene.replace("hoist", rung=rung)
     return scene
 
 
@@ -470,7 +472,7 @@ def test_a_line_that_pushes_for_a_moment_is_told() -> None:
 def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_RINGING", np.inf)
     monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_ERROR", np.inf)
-    with pytest.warns(LineRungWarning, match="and it pushed for a moment. 'auto' had chosen its stretch"):
+    with pytest.warns(LineRungWarning, match="and it pushed for a moment. 'auto' had chosen its rung"):
         out = simulate(shaken("auto"), 1.0, dt_out=0.01)
     assert np.min(out["line_tension"]) == 0.0
     assert np.array_equal(out["position"], simulate(shaken("elastic"), 1.0, dt_out=0.01)["position"])
@@ -478,7 +480,7 @@ def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_an_energy_that_does_not_close_is_told() -> None:
     scene = heaved(stiffness=1e10)
-    scene.replace("hoist", stretch="elastic")
+    scene.replace("hoist", rung="elastic")
     with pytest.warns(
         EnergyErrorWarning, match=r"run: energy_balance reaches .* this is not the scene's motion"
     ):

@@ -9,18 +9,8 @@ import numpy as np
 import pytest
 from line_scenes import MASS, G, hung
 
-from seacrane import (
-    Curve,
-    LiftedStartWarning,
-    LineLengthWarning,
-    Scene,
-    SceneError,
-    Stage,
-    WinchLimitWarning,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Curve, Scene, SceneError, Stage, equilibrium, simulate, simulate_stages
+from seacrane.warnings import LiftedStartWarning, LineLengthWarning, WinchLimitWarning
 
 DRUM: dict[str, float] = {"lag": 0.1, "drum_inertia": 500.0, "drum_radius": 0.5}
 
@@ -112,7 +102,7 @@ def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
 def test_lines_that_pull_against_each_other_lift_by_what_is_left() -> None:
     scene = hung(stretch=2.0 * MASS * G / 3e6)
     scene.add_line(
-        name="stay", bodies=["load", "ground"], points=[(0, 0, 0), (0, 0, -30.0)], stiffness=1e7,
+        name="stay", bodies=["load", "ground"], points=[(0, 0, 0), (0, 0, -30.0)], EA=1e7,
         tension_at_start=MASS * G,
     )  # fmt: skip
     assert not any("LiftedStartWarning" in one for one in told(scene))
@@ -123,9 +113,7 @@ def test_a_load_on_its_seat_that_is_lifted_at_once_is_told() -> None:
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     scene.add_joint(kind="weld", name="deck", first="ground", second="load")
     scene.add_seat(joint="deck")
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7, length=9.9
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=9.9)
     with pytest.warns(LiftedStartWarning, match="2.58 times its weight"):
         simulate(scene, 0.1, dt_out=0.1)
 
@@ -133,7 +121,7 @@ def test_a_load_on_its_seat_that_is_lifted_at_once_is_told() -> None:
 def test_a_stage_that_connects_a_line_too_short_is_told() -> None:
     scene = hung()
     scene.add_line(
-        name="tag", bodies=["ground", "load"], points=[(1.0, 0, -10.0), (0, 0, 0)], stiffness=1e6, length=0.71
+        name="tag", bodies=["ground", "load"], points=[(1.0, 0, -10.0), (0, 0, 0)], EA=1e6, length=0.71
     )
     stages = [Stage(name="wait", duration=0.1), Stage(name="hook on", duration=0.1, connect=["tag"])]
     with pytest.warns(
@@ -149,11 +137,11 @@ def test_a_stage_that_connects_a_line_too_short_is_told() -> None:
 def test_a_winch_on_a_line_with_mass_is_refused() -> None:
     scene = Scene(name="deep")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -100.0))
-    scene.add_heavy_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e8, length=100.0,
-        mass_per_length=12.0, segments=4,
+    scene.add_line(
+        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e8,
+        length=100.0, mass_per_length=12.0, segments=4,
     )  # fmt: skip
-    words = r"line 'wire\.1': is a segment of heavy line 'wire', and what a winch pays out has no mass"
+    words = r"line 'wire\.1': is a segment of line 'wire'; rung 'with mass' takes no winch"
     with pytest.raises(SceneError, match=words):
         scene.add_winch(line="wire.1", rate=0.1)
     scene.replace("wire.1", kind="load", winch=True)

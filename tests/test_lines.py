@@ -17,22 +17,21 @@ from scipy.integrate import solve_ivp
 
 from seacrane import (
     Curve,
-    Evaluator,
-    LineLengthWarning,
     Result,
     Run,
     Scene,
     SceneError,
     State,
-    WinchLimitWarning,
     equilibrium,
     integrator_names,
     linear_model,
     natural_modes,
     simulate,
 )
+from seacrane.analysis import Evaluator
 from seacrane.description.outline import outline_of
 from seacrane.viewer.wires import wires_of
+from seacrane.warnings import LineLengthWarning, WinchLimitWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)
@@ -105,8 +104,8 @@ def pendulum(t: float, y: Array, scene: Scene, *, mass: float = 2e3) -> Array:
     along = place / length
     strain = length / l0 - 1.0
     strain_rate = (along @ velocity - rate * length / l0) / l0
-    damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * mass / l0) * l0
-    tension = max(0.0, line.stiffness * strain + damping * strain_rate)
+    damping = 2.0 * line.damping_ratio * np.sqrt(line.EA * mass / l0) * l0
+    tension = max(0.0, line.EA * strain + damping * strain_rate)
     command = np.clip(line.rate.evaluate([t])[0, 0], -line.maximum_rate, line.maximum_rate)
     bound = line.maximum_acceleration
     gravity = np.array([0.0, 0.0, -G])
@@ -122,7 +121,7 @@ def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
     start = np.concatenate([body.position, body.velocity, [8.5, 0.0]])
     times = np.linspace(0.0, 5.0, 51)
     expected = solve_ivp(
-        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, max_step=2e-3
+        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, maximum_step=2e-3
     ).y.T
     out = record(scene, 5.0, dt_out=0.1, rtol=1e-9)
     assert_allclose(out["position"][:, 0], expected[:, :3], atol=2e-7)
@@ -371,7 +370,7 @@ def bad(**change: Any) -> Scene:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"stiffness": 0.0}, "stiffness is 0 N; give EA"),
+        ({"EA": 0.0}, "EA is 0 N; give the tension over the strain, positive"),
         ({"length": 0.0}, "length is 0 m at t = 0 s; an unstretched length must be positive"),
         ({"length": -1.0}, "length is -1 m"),
         ({"damping_ratio": -0.1}, "damping_ratio is -0.1; it must not be negative"),

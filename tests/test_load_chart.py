@@ -7,17 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seacrane import (
-    FileFormatError,
-    LoadChart,
-    Scene,
-    SceneError,
-    load_chart,
-    plot_load_chart,
-    statics,
-)
+from seacrane import FileFormatError, Scene, SceneError, load_chart, statics
+from seacrane.answers import LoadChart
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.crane.data_file import DEFAULT_PATH, parse
+from seacrane.figures import plot_load_chart
 from seacrane.hydro import shipped_database
 
 MASS = 5e4

@@ -130,7 +130,7 @@ def test_force_table_is_linear_between_its_times_and_held_outside() -> None:
     scene = ball()
     loads = [[2.0, 0, 0, 0, 0, 0], [4.0, 0, 0, 0, 0, 0.5]]
     scene.add_force_table(name="gust", body="ball", times=[1.0, 2.0], loads=loads)
-    out = record(scene, 3.0, max_step=0.05, dt_out=0.5)
+    out = record(scene, 3.0, maximum_step=0.05, dt_out=0.5)
     np.testing.assert_allclose(out["acceleration"][:, 0, 0] * MASS, [2, 2, 2, 3, 4, 4, 4], atol=1e-12)
     # The impulse: 2 N over 1 s, 3 N s on the slope, 4 N over 1 s. Steps end anywhere around the two kinks,
     # each costs at most (slope 2 N/s) h^2 / 2 / m with h = 0.05 s.

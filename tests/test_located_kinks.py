@@ -25,7 +25,7 @@ def hoisted(*, rate: Curve | float = -0.5, minimum: float = 9.5, lag: float = 0.
     scene = Scene(name="hoist")
     scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7,
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
         tension_at_start=1e4 * G, damping_ratio=0.0,
     )  # fmt: skip
     scene.add_winch(line="hoist", rate=rate, minimum_length=minimum, lag=lag)
@@ -65,7 +65,7 @@ def test_random_hoists_stop_at_their_minimum_length(formulation: str) -> None:
 
 
 def test_accuracy_holds_where_a_winch_comes_to_its_end() -> None:
-    truth = simulate(hoisted(), 4.0, dt_out=0.1, integrator="dop853", rtol=1e-11, max_step=0.01)
+    truth = simulate(hoisted(), 4.0, dt_out=0.1, integrator="dop853", rtol=1e-11, maximum_step=0.01)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found = simulate(hoisted(), 4.0, dt_out=0.1, accuracy={"position": 1e-3})

@@ -21,14 +21,15 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
+from seacrane.hydro.data.packed import packed
 from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem
 from seacrane.hydro.memory.oscillators import GroupData, first_guess
 from seacrane.hydro.vessel.stability import largest_growth_rate
-from seacrane.hydro.vessel.time_domain import MemoryFitWarning
 from seacrane.sea import jonswap
+from seacrane.warnings import MemoryFitWarning
 
 Array = NDArray[np.float64]
 
@@ -217,11 +218,7 @@ def test_limits_out_of_range_are_refused(limit: float) -> None:
 
 
 def same(first: MemoryModel, second: MemoryModel) -> bool:
-    arrays = [(a, b) for a, b in zip(first.blocks, second.blocks, strict=True)]
-    equal = all(
-        np.array_equal(getattr(a, name), getattr(b, name)) for a, b in arrays for name in kept.BLOCK_ARRAYS
-    )
-    return equal and np.array_equal(first.added_mass, second.added_mass) and first.rows == second.rows
+    return packed(first) == packed(second)
 
 
 def test_a_fit_is_found_on_disk_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -230,7 +227,7 @@ def test_a_fit_is_found_on_disk_again(tmp_path: Path, monkeypatch: pytest.Monkey
     database = shipped_database()
     first = fit_memory(database=database, kind="by-motion", limit=0.2)
     files = list((tmp_path / "memory").iterdir())
-    assert [file.suffix for file in files] == [".npz"]
+    assert [file.suffix for file in files] == [".memory"]
     monkeypatch.setattr(kept, "_of_process", {})
     real = fitting.fit_by_motion
 

@@ -13,7 +13,7 @@ from seacrane.analysis.scene_report import scene_report
 from seacrane.scene.wind_current import FlowCoefficients
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
 COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")

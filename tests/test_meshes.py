@@ -223,7 +223,7 @@ def test_scene_files_hold_the_triangles(tmp_path: Path) -> None:
 def test_a_lift_names_the_file(tmp_path: Path) -> None:
     binary_stl(tmp_path / "box.stl", 1e3 * CORNERS[FACES])
     (tmp_path / "lift.toml").write_text(
-        'format = "seacrane lift"\nversion = 1\n'
+        'format = "seacrane lift"\nversion = 2\n'
         '[[body]]\nname = "ball"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\n'
         '[[mesh]]\nbody = "ball"\nfile = "box.stl"\nscale = 1e-3\nframe = { point_m = [0, 0, 5] }\n'
     )

@@ -9,18 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    Lift,
-    MooringSpring,
-    OwnMooringWarning,
-    Scene,
-    SceneError,
-    linear_model,
-    mooring_matrix,
-    simulate,
-)
+from seacrane import Lift, Scene, SceneError, linear_model, simulate
 from seacrane.description.outline import outline_of
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene import MooringSpring, mooring_matrix
+from seacrane.warnings import OwnMooringWarning
 
 Array = NDArray[np.float64]
 FOUR = [
@@ -214,7 +207,7 @@ def test_lift_files_hold_matrices_and_springs(tmp_path: Any) -> None:
     ):
         file = tmp_path / "lift.toml"
         file.write_text(
-            'format = "seacrane lift"\nversion = 1\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
+            'format = "seacrane lift"\nversion = 2\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
             f"{key}\n"
         )
         assert Lift.load(file).scene().springs == vessel(mooring=mooring).springs

@@ -24,7 +24,7 @@ from seacrane import Scene, SimulationError
 from seacrane.inputs.frames import rotation_matrix
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 INERTIA = (3.0, 2.0, 1.0)
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)

@@ -7,17 +7,8 @@ import pytest
 from linear_scenes import crane_with_payload, reference_vessel, rod
 from numpy.typing import NDArray
 
-from seacrane import (
-    LinearModel,
-    Scene,
-    SceneError,
-    cases,
-    driven,
-    equilibrium,
-    linear_model,
-    natural_modes,
-    simulate,
-)
+from seacrane import Scene, SceneError, cases, equilibrium, linear_model, natural_modes, simulate
+from seacrane.analysis import LinearModel, driven
 
 Array = NDArray[np.float64]
 G = 9.80665

@@ -12,7 +12,7 @@ from reference_problems import bricard
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, simulate
-from seacrane.validity.range import NearSingularWarning
+from seacrane.warnings import NearSingularWarning
 
 FORMULATIONS = ("redundant", "recursive")
 GRAVITY = 9.80665
@@ -66,7 +66,7 @@ def test_rank_is_watched_beside_redundant_joints(formulation: str) -> None:
             warnings.simplefilter("error")
             without_redundancy_warning()
             stats = simulate(
-                folding(0.5, pins=2, rate=0.2), t_end=t_end, formulation=formulation, max_step=0.05
+                folding(0.5, pins=2, rate=0.2), t_end=t_end, formulation=formulation, maximum_step=0.05
             ).stats
         assert stats["smallest_pivot_joint"] == "link"
         assert stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
@@ -81,7 +81,9 @@ def test_a_run_with_redundant_joints_into_a_singular_position_warns(formulation:
     with warnings.catch_warnings():
         without_redundancy_warning()
         with pytest.warns(NearSingularWarning, match=r"joint 'link'.*at t = 5.35"):
-            simulate(scene, t_end=(0.5 * np.pi - 0.5 - 1e-5) / 0.2, formulation=formulation, max_step=0.05)
+            simulate(
+                scene, t_end=(0.5 * np.pi - 0.5 - 1e-5) / 0.2, formulation=formulation, maximum_step=0.05
+            )
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

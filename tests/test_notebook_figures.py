@@ -11,13 +11,14 @@ from seacrane.plotting.figure import new_figure
 SHOWN = """
 import sys
 import numpy as np
-from seacrane import Scene, plot_history, plot_track, simulate
+from seacrane import Scene, simulate
+from seacrane.figures import plot_track
 from IPython.core.formatters import DisplayFormatter
 
 scene = Scene(name="stone")
 scene.add_body(name="stone", mass=1.0, inertia=np.eye(3))
 result = simulate(scene, t_end=1.0)
-for figure in (plot_history(result, "position"), plot_track(result, "stone")):
+for figure in (result.plot("position"), plot_track(result, "stone")):
     data, _ = DisplayFormatter().format(figure)
     assert data["image/png"].startswith(b"\\x89PNG"), data
 assert "matplotlib.pyplot" not in sys.modules

@@ -157,11 +157,9 @@ CALLS: dict[str, Callable[[], object]] = {
     "statics": lambda: statics(ship()),
     "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel": 6.0}),
     "natural modes": lambda: natural_modes(ship()),
-    "motion RAO": lambda: motion_rao(
-        ship(), database=shipped_database(), omega=[0.5, 1.0], heading=2.0, body="vessel"
-    ),
+    "motion RAO": lambda: motion_rao(ship(), omega=[0.5, 1.0], heading=2.0, body="vessel"),
     "statistics": lambda: response_statistics(
-        ship(), database=shipped_database(), spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
+        ship(), spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
     ),
     "run": lambda: simulate(cases.case2(), 1.0),
     "fit of a memory": fit,
@@ -181,7 +179,6 @@ def test_members_have_one_thread_whatever_runs_beside_them() -> None:
     keep = {"threads": lambda result: float(max(threads()))}
     over = {"seed": [1, 2, 3, 4]}
     study: dict[str, Any] = {
-        "database": shipped_database(),
         "keep": keep,
         "t_end": 0.5,
         "pack": 1,

@@ -17,8 +17,6 @@ import pytest
 from operability_scenes import HEAVE, PITCH, SHORT, WEIGHT, soft_wire, vessel
 
 from seacrane import (
-    AllowableHs,
-    AlphaFactor,
     Criterion,
     HydroDatabase,
     Run,
@@ -28,20 +26,21 @@ from seacrane import (
     cases,
     equilibrium,
     linear_model,
-    plot_allowable_hs,
     response_statistics,
-    response_summed,
     simulate,
 )
+from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
+from seacrane.figures import plot_allowable_hs
 from seacrane.hydro import shipped_database
+from seacrane.operability import AllowableHs, AlphaFactor
 from seacrane.operability.alpha import alpha_of
 from seacrane.operability.cells import Cells
-from seacrane.operability.circle import over_circle
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
+from seacrane.operability.table import over_circle
 from seacrane.operability.time_domain import ByTime, first_crossing
 from seacrane.sea import jonswap
 
@@ -55,7 +54,7 @@ def database() -> HydroDatabase:
 def tested(database: HydroDatabase) -> AllowableHs:
     return allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=[7.0, 9.0], direction_deg=[135.0, 180.0], hs=[1.0, 2.0, 3.0],
-        database=database, **SHORT,
+        **SHORT,
     )  # fmt: skip
 
 
@@ -63,20 +62,20 @@ def tested(database: HydroDatabase) -> AllowableHs:
 def slack(database: HydroDatabase) -> AllowableHs:
     tension = Criterion(channel="line_tension", maximum=4.0 * WEIGHT, exposure=900.0)
     return allowable_hs(
-        soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[2.0, 4.0, 6.0], database=database,
+        soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[2.0, 4.0, 6.0],
         **SHORT,
     )  # fmt: skip
 
 
 def by_frequency(scene: Scene, criteria: Any, database: HydroDatabase, **given: Any) -> AllowableHs:
     asked = {"tp": 9.0, "direction_deg": 135.0, "hs": [50.0]} | given
-    return allowable_hs(scene, criteria=criteria, database=database, domain="frequency", **asked)
+    return allowable_hs(scene, criteria=criteria, domain="frequency", **asked)
 
 
 def test_hs_is_what_the_linear_statistics_say(database: HydroDatabase) -> None:
     """2 sqrt(m0) per metre of Hs, from the other implementation of the response."""
     motion = response_statistics(
-        linear_model(vessel()), database=database, spectrum=jonswap(hs=1.0, tp=9.0),
+        linear_model(vessel()), spectrum=jonswap(hs=1.0, tp=9.0),
         heading=np.radians(135.0), body="vessel",
     )  # fmt: skip
     found = by_frequency(vessel(), [PITCH], database)
@@ -96,11 +95,11 @@ def test_every_channel_of_the_linear_model_is_that_of_a_run(database: HydroDatab
     """From the same state in small waves: forces, velocities, angles. What differs is of second order."""
     criteria = (
         Criterion(channel="hook_load", maximum=2e5),
-        Criterion(channel="position", where={"body": "payload", "axis": "y"}, maximum=1.0),
-        Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=1.0),
-        Criterion(channel="cylinder_force", where={"cylinder": "main"}, maximum=1e7),
+        Criterion(channel="position", names={"body": "payload", "axis": "y"}, maximum=1.0),
+        Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=1.0),
+        Criterion(channel="cylinder_force", names={"cylinder": "main"}, maximum=1e7),
         Criterion(channel="sidelead", maximum=0.1),
-        Criterion(channel="point_acceleration", where={"point": "deck", "axis": "z"}, maximum=1.0),
+        Criterion(channel="point_acceleration", names={"point": "deck", "axis": "z"}, maximum=1.0),
     )
     apart = np.array([_difference_of_run_and_model(hs, criteria, database) for hs in (0.005, 0.001)])
     assert np.all(apart[1] < 0.01)
@@ -115,20 +114,20 @@ def _difference_of_run_and_model(
     scene.add_point(name="deck", body="vessel", point=(20.0, 5.0, 8.0))
     rest = equilibrium(scene, time=50.0)
     still = held(scene, time=50.0).copy(waves=scene.waves)
-    linear = LinearSeas(still, rest, database, criteria)
+    linear = LinearSeas(still, rest, criteria)
     assert still.waves is not None
     start, told = linear.in_waves(still.waves, 50.0, 50.0 + 0.5 * np.arange(101))
     run = simulate(
         still, t_end=100.0, start=start, dt_out=0.5, rtol=1e-9, channels=[one.channel for one in criteria]
     )
-    found = np.stack([run.curve(one.channel, **one.where) for one in criteria], axis=1)
+    found = np.stack([run.curve(one.channel, **one.names) for one in criteria], axis=1)
     return list(np.std(found - told, axis=0) / np.std(told, axis=0))
 
 
 def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
     """y = ... + D f: what a push does at once, against the mass of the vessel with its added mass."""
     model = linear_model(vessel())
-    place = Criterion(channel="point_acceleration", where={"point": "bow", "axis": "z"}, maximum=1.0)
+    place = Criterion(channel="point_acceleration", names={"point": "bow", "axis": "z"}, maximum=1.0)
     scene = vessel()
     scene.add_point(name="bow", body="vessel", point=(50.0, 0.0, 0.0))
     d = linear_channels(linear_model(scene), [place]).d[0]
@@ -141,7 +140,7 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs, datab
     assert np.all(tested.dataset["domain"] == "frequency")
     assert np.nanmax(tested.dataset["difference"]) < 0.05
     cell = allowable_hs(
-        vessel(), criteria=[HEAVE, PITCH], tp=9.0, direction_deg=135.0, hs=[1.0, 2.0], database=database,
+        vessel(), criteria=[HEAVE, PITCH], tp=9.0, direction_deg=135.0, hs=[1.0, 2.0],
         domain="time", **SHORT,
     ).dataset.isel(tp=0, direction_deg=0)  # fmt: skip
     linear = tested.dataset.sel(tp=9.0, direction_deg=135.0)
@@ -153,9 +152,9 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs, datab
 
 def test_runs_begin_without_the_transient_of_a_soft_mooring(database: HydroDatabase) -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
-    sway = Criterion(channel="vessel_motion", where={"motion": "sway"}, maximum=0.5, motion=True,
+    sway = Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
                      statistic="significant", name="sway")  # fmt: skip
-    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "database": database, "criteria": [sway]}
+    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
     runs = allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
     linear = allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
     found = runs.dataset.isel(tp=0, direction_deg=0)
@@ -202,9 +201,7 @@ def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs, database: Hy
 
 def test_a_looser_demand_takes_the_linear_model(database: HydroDatabase) -> None:
     tension = Criterion(channel="line_tension", maximum=1.5 * WEIGHT, exposure=900.0)
-    found = allowable_hs(
-        soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[4.0], database=database, **SHORT
-    )
+    found = allowable_hs(soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[4.0], **SHORT)
     assert found.dataset["domain"].item() == "frequency"  # the wire stays taut
 
 
@@ -229,9 +226,7 @@ def test_largest_hs_caps_both_domains(tested: AllowableHs) -> None:
 
 def test_a_bound_beyond_which_the_scene_rests_allows_nothing(database: HydroDatabase) -> None:
     low = Criterion(channel="line_tension", maximum=0.5 * WEIGHT)
-    found = allowable_hs(
-        soft_wire(), criteria=[low], tp=8.0, direction_deg=120.0, hs=[4.0], database=database, **SHORT
-    )
+    found = allowable_hs(soft_wire(), criteria=[low], tp=8.0, direction_deg=120.0, hs=[4.0], **SHORT)
     assert found.dataset["allowable_hs"].item() == 0.0
     assert found.dataset["reason"].item() == "a bound is exceeded at rest"
 
@@ -240,7 +235,7 @@ def test_short_crested_seas_move_a_vessel_less_from_ahead_and_more_from_the_side
     database: HydroDatabase,
 ) -> None:
     roll = Criterion(
-        channel="vessel_motion", where={"motion": "roll"}, maximum=0.05, statistic="significant", name="roll"
+        channel="vessel_motion", names={"motion": "roll"}, maximum=0.05, statistic="significant", name="roll"
     )
     long = by_frequency(vessel(), [roll], database, direction_deg=[90.0, 150.0])
     short = by_frequency(vessel(spreading=2.0), [roll], database, direction_deg=[90.0, 150.0])
@@ -253,7 +248,7 @@ def test_memory_without_states_is_left_to_runs(database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match="convolution"):
         by_frequency(scene, [HEAVE], database)
     found = allowable_hs(
-        scene, criteria=[HEAVE], tp=9.0, direction_deg=180.0, hs=[1.0, 3.0], database=database,
+        scene, criteria=[HEAVE], tp=9.0, direction_deg=180.0, hs=[1.0, 3.0],
         duration=100.0, start_up=20.0, seeds=[1, 2, 3], rtol=1e-3,
     )  # fmt: skip
     assert found.dataset["domain"].item() == "time"
@@ -267,7 +262,7 @@ def test_a_spectrum_that_changes_its_shape_is_left_to_runs(database: HydroDataba
 
 def test_threads_and_a_store_change_nothing(database: HydroDatabase, tmp_path: Path) -> None:
     asked: dict[str, Any] = {
-        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "database": database,
+        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0],
         "domain": "time", "duration": 200.0, "start_up": 50.0, "seeds": [1, 2, 3],
     }  # fmt: skip
     alone = allowable_hs(vessel(), **asked)
@@ -283,7 +278,7 @@ def test_threads_and_a_store_change_nothing(database: HydroDatabase, tmp_path: P
 
 def test_ctrl_c_ends_it_and_the_store_goes_on(database: HydroDatabase, tmp_path: Path) -> None:
     asked: dict[str, Any] = {
-        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "database": database,
+        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0],
         "domain": "time", "duration": 2000.0, "seeds": [1, 2, 3], "store": tmp_path / "storms",
     }  # fmt: skip
 
@@ -449,18 +444,17 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
         ({"domain": "both"}, "domain is 'both'; choose"),
         ({"alpha": 0.8}, "alpha is 0.8; give AlphaFactor"),
         ({"hours": 0.0}, "hours is 0.0"),
-        ({"database": None}, "database is None and the sea varies"),
     ],
 )
 def test_what_makes_no_sense_is_refused(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match=message):
-        allowable_hs(vessel(), **{"database": database, **ASKED, **given})
+        allowable_hs(vessel(), **{**ASKED, **given})
 
 
 def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
     scene = vessel()
     with pytest.raises(SceneError, match="has no sea"):
-        allowable_hs(scene.copy(waves=None), database=database, **ASKED)
+        allowable_hs(scene.copy(waves=None), **ASKED)
 
 
 @pytest.mark.parametrize(
@@ -510,7 +504,6 @@ def test_progress_is_shown_of_every_step(
         "duration": 100.0,
         "start_up": 0.0,
         "seeds": [1, 2, 3],
-        "database": database,
     }
     allowable_hs(vessel(), **asked, domain="time")
     assert not capsys.readouterr().err
@@ -530,26 +523,26 @@ def test_nothing_is_warned_of(database: HydroDatabase) -> None:
 def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is(database: HydroDatabase) -> None:
     """Runs begin in the linear steady state, which keeps the lengths of lines."""
     found = {}
-    for stretch in ("elastic", "quasi-static"):
-        scene = Scene(name=stretch)
+    for rung in ("elastic", "quasi-static"):
+        scene = Scene(name=rung)
         scene.add_vessel(database)
-        scene.add_sea(database, hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
+        scene.add_sea(hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
         scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
         scene.add_line(
-            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], stiffness=1e8,
-            tension_at_start=5e3 * 9.80665, stretch=stretch, damping_ratio=0.05,
+            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], EA=1e8,
+            tension_at_start=5e3 * 9.80665, rung=rung, damping_ratio=0.05,
         )  # fmt: skip
         limit = Criterion(
-            channel="line_tension", where={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
+            channel="line_tension", names={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             table = allowable_hs(
-                scene, criteria=[limit], tp=[7.0], direction_deg=[120.0], database=database, domain="time",
+                scene, criteria=[limit], tp=[7.0], direction_deg=[120.0], domain="time",
                 seeds=range(1, 4), duration=150.0, start_up=50.0, hs=(1.0, 1.5, 2.0), rtol=1e-3,
             )  # fmt: skip
         assert not table.failures
-        found[stretch] = float(table.dataset["allowable_hs"].values[0, 0])
+        found[rung] = float(table.dataset["allowable_hs"].values[0, 0])
     assert found["quasi-static"] == pytest.approx(found["elastic"], rel=0.05)
     assert found["elastic"] > 1.0
 

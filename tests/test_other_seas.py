@@ -20,7 +20,7 @@ from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.hydro.data import excitation
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
 
-PATH = {"track": Kept(channel="position", at={"body": "vessel"})}
+PATH = {"track": Kept(channel="position", names={"body": "vessel"})}
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
         kind="distance", name="wire", first="vessel", second="load", point=(0.0, 25.0, 20.0),
         second_point=(0.0, 25.0, 10.0),
     )  # fmt: skip
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     return scene
 
 
@@ -136,22 +136,22 @@ WORDS: dict[str, list[Any]] = {
 def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
     scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
-    there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, database=database, **given)
+    there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, **given)
     for value in WORDS[word]:
-        alone = simulate(with_sea(scene, database, {word: value}), **given)
+        alone = simulate(with_sea(scene, {word: value}), **given)
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
 
 
 def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> None:
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3}
     scene = wind_sea_and_swell(database, 1)
-    there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, database=database, **given)
+    there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, **given)
     for seed in (1, 2):
         ran = simulate(wind_sea_and_swell(database, seed), **given, channels=["position"])
         alone = ran.select("position", body="vessel")
         assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
     with pytest.raises(SceneError, match="is a SeaState, of which the seed can vary, and not hs, tp"):
-        ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, database=database, **given)
+        ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, **given)
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> Non
             "'measured' of the sea is a record",
         ),
         (
-            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, omega_max=1.5, count=20),
+            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, maximum_omega=1.5, count=20),
             "is not the one that its record describes",
         ),
     ],
@@ -176,7 +176,7 @@ def test_a_sea_that_cannot_be_made_again_is_refused(
 ) -> None:
     scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
     with pytest.raises(SceneError, match=message):
-        ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database)
+        ensemble(scene, over={"seed": [1, 2]}, keep=PATH)
 
 
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
@@ -200,16 +200,14 @@ def test_a_scene_is_compiled_once_for_all_its_seas(
     masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
     over = {path: masses, "seed": range(4)}
     compiled = counted(monkeypatch)
-    there = ensemble(scene, over=over, lanes=1, keep=PATH, database=database, **given)
+    there = ensemble(scene, over=over, lanes=1, keep=PATH, **given)
     assert len(compiled) == len(masses)
     monkeypatch.setattr(prepared, "MOST_HELD", 1)
-    turned = ensemble(
-        scene, over={"seed": range(4), path: masses}, lanes=1, keep=PATH, database=database, pack=3, **given
-    )
+    turned = ensemble(scene, over={"seed": range(4), path: masses}, lanes=1, keep=PATH, pack=3, **given)
     assert len(compiled) == len(masses) + 8  # none is held for as long as the next sea
     assert there.failures == turned.failures == {}
     assert np.array_equal(there.dataset.track, turned.dataset.track.transpose(*there.dataset.track.dims))
-    heavier = with_sea(with_values(scene, {path: masses[1]}), database, {"seed": 2})
+    heavier = with_sea(with_values(scene, {path: masses[1]}), {"seed": 2})
     alone = simulate(heavier, **given, channels=["position"]).select("position", body="vessel")
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
 
@@ -222,7 +220,6 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     given: dict[str, Any] = {
         "over": over,
         "keep": PATH,
-        "database": database,
         "lanes": 1,
         "t_end": 1.0,
         "rtol": 1e-3,
@@ -235,7 +232,7 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
 
 def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: HydroDatabase) -> None:
     over = [{"bodies.vessel.mass": mass, "seed": 1} for mass in (-1.0, 2e7)]
-    there = ensemble(cases.vessel(database=database), over=over, keep=PATH, database=database, t_end=1.0)
+    there = ensemble(cases.vessel(database=database), over=over, keep=PATH, t_end=1.0)
     assert list(there.failures) == [0]
     assert "mass" in there.failures[0]
 
@@ -250,7 +247,7 @@ def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) 
     run = Run(scene, 1.0)
     with pytest.raises(SceneError, match="loads other vessels than it was compiled with"):
         run.in_sea(replace(waves, hulls={}))
-    scene.use_actual_position(database)
+    scene.use_actual_position()
     assert scene.waves is not None
     with pytest.raises(SceneError, match="another kind of position"):
         run.in_sea(scene.waves)
@@ -279,12 +276,12 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
     scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "max_step": 0.5}
+    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
     given |= {"integrator": "tsit5", "channels": ["position"]}
-    there = ensemble(scene, over={"seed": [5]}, keep=PATH, database=database, **given)
+    there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        alone = simulate(with_sea(scene, database, {"seed": 5}), **given)
+        alone = simulate(with_sea(scene, {"seed": 5}), **given)
     assert "makes an oscillation of body 'box' grow" in str(alone.stats["validity"])
     assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Evaluator, Result, SceneError, cases, simulate
+from seacrane import Result, SceneError, cases, simulate
+from seacrane.analysis import Evaluator
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix

@@ -17,11 +17,10 @@ from seacrane import (
     cases,
     ensemble,
     extremes,
-    plot_history,
     simulate,
 )
-from seacrane.result.channels import CHANNELS, FIXED
-from seacrane.result.pick import Pick, column_name, pick_of
+from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.pick import Pick, column_name, pick_of
 
 
 @pytest.fixture(scope="module")
@@ -119,16 +118,16 @@ def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_pa
 
 def test_what_is_kept_is_said_by_a_text() -> None:
     roll = {"motion": "roll"}
-    assert Kept.of_text("roll.std") == Kept(channel="vessel_motion", what="standard_deviation", at=roll)
+    assert Kept.of_text("roll.std") == Kept(channel="vessel_motion", what="standard_deviation", names=roll)
     assert Kept.of_text("hook_load.max") == Kept(channel="hook_load", what="maximum")
     assert Kept.of_text("load_state[hoist.length]") == Kept(
-        channel="load_state", at={"state_name": "hoist.length"}
+        channel="load_state", names={"state_name": "hoist.length"}
     )
-    late = Kept(channel="position", what="minimum", at={"body": "load", "axis": "z"}, after=60.0)
+    late = Kept(channel="position", what="minimum", names={"body": "load", "axis": "z"}, after=60.0)
     assert Kept.of_text("position[load, z, after=60].min") == late
     assert Kept(channel="position[load, z, after=60]", what="minimum") == late
     with pytest.raises(SceneError, match="give each name once"):
-        Kept(channel="position[load, z]", at={"axis": "x"})
+        Kept(channel="position[load, z]", names={"axis": "x"})
     with pytest.raises(SceneError, match="did you mean 'hook_load'"):
         Kept.of_text("hok_load.max")
 
@@ -139,7 +138,7 @@ def test_an_ensemble_keeps_by_text_what_it_keeps_by_value() -> None:
     scene.add_joint(
         kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
     )
-    value = Kept(channel="position", what="minimum", at={"body": "bob", "axis": "z"})
+    value = Kept(channel="position", what="minimum", names={"body": "bob", "axis": "z"})
     found = ensemble(
         scene, over={"gravity": [9.0, 9.8]}, keep={"low": "position[bob, z].min", "same": value}, t_end=1.0
     )
@@ -149,21 +148,21 @@ def test_an_ensemble_keeps_by_text_what_it_keeps_by_value() -> None:
 
 
 def test_criteria_conditions_extremes_and_plots_take_the_text(lift: Result) -> None:
-    given = {"where": {"body": "load", "axis": "z"}, "maximum": 1.0}
+    given = {"names": {"body": "load", "axis": "z"}, "maximum": 1.0}
     assert Criterion(channel="position[load, z]", maximum=1.0) == Criterion(channel="position", **given)
-    assert Until.channel("position[load, z]", above=1.0) == Until.channel(
-        "position", above=1.0, body="load", axis="z"
+    assert Until.channel("position[load, z]", minimum=1.0) == Until.channel(
+        "position", minimum=1.0, body="load", axis="z"
     )
-    figures = plot_history(lift, "roll"), plot_history(lift, "vessel_motion", motion="roll")
+    figures = lift.plot("roll"), lift.plot("vessel_motion", motion="roll")
     drawn = [figure.axes[0].lines[0].get_ydata() for figure in figures]
     assert np.array_equal(*drawn)
     several = simulate(cases.vessel(), t_end=200.0, dt_out=0.5)
-    by_text = extremes(several, channel="roll", start=20.0)
-    by_names = extremes(several, channel="vessel_motion", motion="roll", start=20.0)
+    by_text = extremes(several, channel="roll", after=20.0)
+    by_names = extremes(several, channel="vessel_motion", motion="roll", after=20.0)
     assert str(by_text) == str(by_names)
     for ask in (
         lambda: Criterion(channel="roll[after=3]", maximum=1.0),
-        lambda: Until.channel("vessel_motion[roll, after=3]", above=1.0),
+        lambda: Until.channel("vessel_motion[roll, after=3]", minimum=1.0),
         lambda: extremes(lift, channel="vessel_motion[roll, after=3]"),
     ):
         with pytest.raises(SceneError):

@@ -10,26 +10,15 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import (
-    Event,
-    Scene,
-    SceneError,
-    cases,
-    plot_history,
-    plot_overview,
-    plot_rao,
-    plot_reactions,
-    plot_scene,
-    plot_spectrum,
-    plot_track,
-    simulate,
-)
+from seacrane import Scene, SceneError, cases, plot_overview, simulate
+from seacrane.figures import plot_rao, plot_reactions, plot_scene, plot_spectrum, plot_track
 from seacrane.figures.overview import overview_sheet
-from seacrane.figures.plots import draw_track, history_sheet, rao_sheet, spectrum_sheet
-from seacrane.figures.traces import traces
+from seacrane.figures.plots import draw_track, rao_sheet, spectrum_sheet
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import draw
-from seacrane.result import Result
+from seacrane.result import Event, Result
+from seacrane.result.history import history_sheet
+from seacrane.result.traces import traces
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +44,7 @@ def test_a_history_has_a_panel_for_each_unit(lift: Result) -> None:
         ("vessel motion", "deg", ["roll", "pitch", "yaw"]),
         ("position", "m", ["payload x", "payload y", "payload z"]),
     ]
-    assert [cell.get_ylabel() for cell in plot_history(lift, "link_tension").axes] == ["link tension [kN]"]
+    assert [cell.get_ylabel() for cell in lift.plot("link_tension").axes] == ["link tension [kN]"]
 
 
 def test_extremes_and_events_are_marked() -> None:
@@ -63,7 +52,7 @@ def test_extremes_and_events_are_marked() -> None:
     at = 7.3
     run["arrays"]["link_tension"][73] = 3e5
     events = [Event(time=at, name="link", kind="contact"), Event(time=9.0, name="link", kind="release")]
-    figure = plot_history(Result.from_arrays(**run, events=events), "link_tension")
+    figure = Result.from_arrays(**run, events=events).plot("link_tension")
     (cell,) = figure.axes
     peaks = [line for line in cell.lines if line.get_marker() == "^"]
     (peak,) = peaks
@@ -92,9 +81,9 @@ def test_what_rounding_alone_draws_is_left_out() -> None:
 
 
 def test_a_figure_of_directions_says_the_axes_once(lift: Result) -> None:
-    for figure in (plot_overview(lift), plot_history(lift, "vessel_motion", "position"), plot_track(lift)):
+    for figure in (plot_overview(lift), lift.plot("vessel_motion", "position"), plot_track(lift)):
         assert words_of(figure).count(AXES_NOTE) == 1
-    for figure in (plot_history(lift, "link_tension"), plot_reactions(lift), draw_track(lift)):
+    for figure in (lift.plot("link_tension"), plot_reactions(lift), draw_track(lift)):
         assert AXES_NOTE not in words_of(figure), "no direction, or on a page that says it itself"
 
 
@@ -110,7 +99,7 @@ def test_a_long_label_takes_two_lines(lift: Result) -> None:
 def test_every_picture_is_a_figure_of_matplotlib(lift: Result) -> None:
     """One call each, and no window."""
     for figure in (
-        plot_overview(lift), plot_history(lift, "stroke"), plot_spectrum(lift, "wave_elevation"),
+        plot_overview(lift), lift.plot("stroke"), plot_spectrum(lift, "wave_elevation"),
         plot_track(lift), plot_reactions(lift),
     ):  # fmt: skip
         assert isinstance(figure, Figure)
@@ -120,15 +109,15 @@ def test_every_picture_is_a_figure_of_matplotlib(lift: Result) -> None:
 def test_a_constant_looks_constant() -> None:
     run = crane_run(t_end=5.0)
     run["arrays"]["link_tension"] = 9e4 * (1 + 1e-13 * np.sin(np.arange(run["time"].size)))
-    (cell,) = plot_history(Result.from_arrays(**run), "link_tension").axes
+    (cell,) = Result.from_arrays(**run).plot("link_tension").axes
     low, high = cell.get_ylim()
     assert low < 85.0 and high > 95.0
 
 
 def test_a_spectrum_keeps_the_variance_and_finds_the_frequency() -> None:
     result = vessel_result(t_end=400.0)
-    (panel,) = spectrum_sheet(result, "wave_elevation", start=10.0).panels
-    omega = spectrum_sheet(result, "wave_elevation", start=10.0).abscissa
+    (panel,) = spectrum_sheet(result, "wave_elevation", after=10.0).panels
+    omega = spectrum_sheet(result, "wave_elevation", after=10.0).abscissa
     (line,) = panel.lines
     late = result["wave_elevation"][result.time >= 10.0]
     assert np.trapezoid(line.values, omega) == pytest.approx(late.var(), rel=0.05)
@@ -155,17 +144,16 @@ def test_reactions_are_sizes(lift: Result) -> None:
 
 def test_an_rao_is_that_of_the_frequency_domain() -> None:
     from seacrane import motion_rao
-    from seacrane.hydro import shipped_database
 
-    database, scene = shipped_database(), cases.vessel(hs=0.0, memory="none")
+    scene = cases.vessel(hs=0.0, memory="none")
     omega = np.array([0.5, 0.8])
-    sheet = rao_sheet(scene, database, "vessel", (0.0, 0.0, 0.0), (90.0, 180.0), omega)
-    rao = np.abs(motion_rao(scene, database=database, omega=omega, heading=np.pi / 2, body="vessel"))
+    sheet = rao_sheet(scene, "vessel", (0.0, 0.0, 0.0), (90.0, 180.0), omega)
+    rao = np.abs(motion_rao(scene, omega=omega, heading=np.pi / 2, body="vessel"))
     panels = {panel.quantity: panel for panel in sheet.panels}
     np.testing.assert_allclose(panels["about x"].lines[0].values, np.degrees(rao[:, 3]))
     np.testing.assert_allclose(panels["z"].lines[0].values, rao[:, 2])
     assert panels["z"].lines[1].label == "180 deg" and panels["about x"].unit == "deg/m"
-    assert len(plot_rao(scene, database=database, body="vessel", omega=omega).axes) == 6
+    assert len(plot_rao(scene, body="vessel", omega=omega).axes) == 6
 
 
 def test_the_scene_is_drawn_from_what_its_run_notes(tmp_path: Any) -> None:
@@ -184,13 +172,13 @@ def test_the_scene_is_drawn_from_what_its_run_notes(tmp_path: Any) -> None:
 
 
 REFUSED = {
-    "no channel": (lambda r: plot_history(r), "channels: none is named; this result holds position"),
-    "an unknown channel": (lambda r: plot_history(r, "lift"), "channel 'lift' is not in this result"),
-    "an unknown name": (lambda r: plot_history(r, "position", body="pay"), "no body 'pay' in this result"),
-    "a dimension of none": (lambda r: plot_history(r, "stroke", body="king"), "has this dimension"),
+    "no channel": (lambda r: r.plot(), "channels: none is named; this result holds position"),
+    "an unknown channel": (lambda r: r.plot("lift"), "channel 'lift' is not in this result"),
+    "an unknown name": (lambda r: r.plot("position", body="pay"), "no body 'pay' in this result"),
+    "a dimension of none": (lambda r: r.plot("stroke", body="king"), "has this dimension"),
     "an unknown body": (lambda r: plot_track(r, "pay"), "body 'pay' is not in this result; it holds vessel"),
     "an unknown joint": (lambda r: plot_reactions(r, "Z"), "joint 'Z' is not in this result; it holds deck"),
-    "a late start": (lambda r: plot_spectrum(r, "stroke", start=19.0), "start is 19 s: a spectrum takes 64"),
+    "a late start": (lambda r: plot_spectrum(r, "stroke", after=19.0), "after is 19 s: a spectrum takes 64"),
 }
 
 
@@ -213,6 +201,6 @@ def test_a_legend_of_hundreds_is_left_out() -> None:
     for i in range(40):
         scene.add_body(name=f"body {i}", mass=1.0, inertia=np.eye(3), position=(i, 0.0, 0.0))
     result = simulate(scene, t_end=0.1)
-    history = plot_history(result, "position")
+    history = result.plot("position")
     assert not any(cell.get_legend() for cell in history.axes)
     assert not any(figure.legends for figure in (history, plot_track(result), plot_scene(result)))

@@ -152,7 +152,7 @@ def test_file_keeps_points_and_older_files_load(tmp_path: Path) -> None:
 def test_lift_file_adds_points(tmp_path: Path) -> None:
     path = tmp_path / "lift.toml"
     path.write_text(
-        'format = "seacrane lift"\nversion = 1\n[scene]\nname = "one"\n'
+        'format = "seacrane lift"\nversion = 2\n[scene]\nname = "one"\n'
         '[[body]]\nname = "box"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\n'
         '[[point]]\nname = "corner"\nbody = "box"\npoint_m = [1.0, 0.0, 0.0]\n[run]\nt_end_s = 1.0\n'
     )

@@ -20,12 +20,12 @@ from seacrane import (
     SceneError,
     SimulationError,
     State,
-    StiffWarning,
     cases,
     equilibrium,
     natural_modes,
     simulate,
 )
+from seacrane.warnings import StiffWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)  # rad/s of the elastic line
@@ -36,7 +36,7 @@ def settled(scene: Scene, *, settling: float = 0.2, **change: Any) -> Scene:
     """The scene with all its lines quasi-static."""
     for name, load in list(scene.loads.items()):
         if type(load).__name__ == "Line":
-            scene.replace(name, stretch="quasi-static", settling=settling, **change)
+            scene.replace(name, rung="quasi-static", settling=settling, **change)
     return scene
 
 
@@ -56,7 +56,7 @@ def driven(omega: float, *, settling: float, amplitude: float = 1e-4) -> tuple[c
     """
     scene = hung()
     length = Curve.harmonic(start_time=0.0, offset=10.0, amplitude=amplitude, omega=omega)
-    scene.replace("hoist", length=length, stretch="quasi-static", settling=settling)
+    scene.replace("hoist", length=length, rung="quasi-static", settling=settling)
     begin, period = 150.0 * settling, 2.0 * np.pi / omega
     out = record(scene, begin + 4.0 * period, dt_out=period / 16, rtol=1e-9)
     late = out["time"] > begin
@@ -105,19 +105,19 @@ def test_errors_are_of_second_order_in_the_settling_time() -> None:
     assert abs(measured) == pytest.approx(2.0 * (0.2 * omega) ** 2, rel=0.06)
 
 
-def pendulum(stretch: str, stiffness: float, *, settling: float = 0.1) -> Scene:
+def pendulum(rung: str, stiffness: float, *, settling: float = 0.1) -> Scene:
     """2 t on 8 m, let go at 1 rad, its line as long as without weight."""
     scene = Scene(name="pendulum")
     place = 8.0 * np.array([np.sin(1.0), 0.0, -np.cos(1.0)])
     scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
-    if stretch == "rigid":
+    if rung == "rigid":
         scene.add_joint(
             kind="distance", name="hoist", first="ground", second="load", point=(0, 0, 0), second_point=place,
         )  # fmt: skip
     else:
         scene.add_line(
-            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=stiffness,
-            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), stretch=stretch, settling=settling,
+            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,
+            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), rung=rung, settling=settling,
         )  # fmt: skip
     return scene
 
@@ -189,7 +189,7 @@ def test_a_winch_works_on_the_tension_it_records() -> None:
 
 def test_no_mode_is_faster_than_one_over_the_settling_time() -> None:
     for stiffness in (1e8, 1e12):
-        modes = natural_modes(settled(hung(length=10.0), settling=0.2, stiffness=stiffness))
+        modes = natural_modes(settled(hung(length=10.0), settling=0.2, EA=stiffness))
         assert np.min(modes.natural_period[np.isfinite(modes.natural_period)]) > 2.0 * np.pi * 0.2
 
 
@@ -259,9 +259,9 @@ def test_hauling_in_to_the_end_is_refused_by_name() -> None:
 
 
 def test_what_it_cannot_do_is_told() -> None:
-    with pytest.raises(SceneError, match="stretch 'stiff' is unknown; choose 'elastic' or 'quasi-static'"):
+    with pytest.raises(SceneError, match="rung 'stiff' is unknown; choose 'elastic' or 'quasi-static'"):
         scene = hung()
-        scene.replace("hoist", stretch="stiff")
+        scene.replace("hoist", rung="stiff")
         scene.compile()
     for method in ("ida", "generalized-alpha"):
         with pytest.raises(Exception, match=f'"{method}" has no accelerations for lines'):
@@ -277,8 +277,8 @@ def test_what_it_cannot_do_is_told() -> None:
     with pytest.raises(SceneError, match="has kinematics 'paper'"):
         paper = cases.case2(kinematics="paper")
         paper.add_line(
-            name="tugger", bodies=["ground", "payload"], points=[(60, 0, 20), (0, 0, 0)], stiffness=1e8,
-            length=60.0, stretch="quasi-static",
+            name="tugger", bodies=["ground", "payload"], points=[(60, 0, 20), (0, 0, 0)], EA=1e8,
+            length=60.0, rung="quasi-static",
         )  # fmt: skip
         paper.compile()
 

@@ -20,7 +20,8 @@ from multibody_runs import (
 from reference.classic import Link
 from reference.mechanisms import SliderCrank
 
-from seacrane import Curve, Scene, driven
+from seacrane import Curve, Scene
+from seacrane.analysis import driven
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.inputs.frames import rotation_matrix
 

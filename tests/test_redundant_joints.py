@@ -11,7 +11,8 @@ import pytest
 from multibody_runs import record
 from reference_problems import bricard
 
-from seacrane import Evaluator, Run, Scene, SceneError, simulate
+from seacrane import Run, Scene, SceneError, simulate
+from seacrane.analysis import Evaluator
 
 G = 9.80665
 

@@ -12,7 +12,9 @@ from seacrane import Result, Scene, simulate
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:.*are redundant:UserWarning"),
-    pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning"),  # it makes rough velocities consistent
+    pytest.mark.filterwarnings(
+        "ignore::seacrane.warnings.AssemblyWarning"
+    ),  # it makes rough velocities consistent
 ]
 Array = NDArray[np.float64]
 MASS, GRAVITY = 2e4, 9.81
@@ -36,7 +38,7 @@ def payload(top: float, yaw_rate: float) -> Scene:
         scene.add_joint(
             kind="distance", name=f"wire {i}", first="ground", second="load", point=hook, second_point=corner
         )
-        scene.add_wire(joint=f"wire {i}")
+        scene.add_line(joint=f"wire {i}", rung="rigid")
     return scene
 
 

@@ -25,20 +25,11 @@ from reeving_scenes import (
 )
 from scipy.interpolate import PchipInterpolator
 
-from seacrane import (
-    Evaluator,
-    FleetAngleWarning,
-    LineTableWarning,
-    Run,
-    Scene,
-    SceneError,
-    SimulationError,
-    State,
-    equilibrium,
-    simulate,
-)
+from seacrane import Run, Scene, SceneError, SimulationError, State, equilibrium, simulate
+from seacrane.analysis import Evaluator
 from seacrane.description.line_path import described_poses, laid, path_length
 from seacrane.viewer.wires import wires_of
+from seacrane.warnings import FleetAngleWarning, LineTableWarning
 
 Array = NDArray[np.float64]
 
@@ -194,9 +185,9 @@ def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     assert np.array_equal(rest.core.state.values, whole.core.state.values)
 
 
-def stiff(stiffness: float, stretch: str, **change: Any) -> Scene:
+def stiff(stiffness: float, rung: str, **change: Any) -> Scene:
     """`slewing` with a taut line of that EA, which starts with 8 kN."""
-    scene = slewing(stiffness=stiffness, stretch=stretch, **change)
+    scene = slewing(EA=stiffness, rung=rung, **change)
     line: Any = scene.loads["hoist"]
     scene.replace("hoist", length=path_length(scene, line) / (1.0 + 8e3 / stiffness))
     return scene
@@ -272,9 +263,7 @@ def test_slings_share_a_load_by_their_stiffness() -> None:
 def test_two_slings_share_a_load_by_statics() -> None:
     scene = Scene(name="two")
     scene.add_body(name="load", mass=2e3, inertia=(100.0, 100.0, 100.0), position=(0.0, 0.0, -3.0))
-    scene.add_bridle(
-        name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], stiffnesses=5e7
-    )
+    scene.add_bridle(name="sling", hook="ground", load="load", points=[(1.5, 0, 0.2), (-1.5, 0, 0.2)], EA=5e7)
     tensions = simulate(scene, 0.01, start=equilibrium(scene), dt_out=0.01)["line_tension"][0]
     assert_allclose(tensions, 2e3 * G / 2.0 / (2.8 / np.hypot(1.5, 2.8)), rtol=1e-3)
 
@@ -337,7 +326,7 @@ def test_files_hold_sheaves(tmp_path: Path) -> None:
         ({"slip_speed": 0.0}, "slip_speed is 0 m/s; give a positive one"),
         ({"points": [(0.1, 0, 0), (0, 0, 0), (0, 0, 0)]}, "points 0 and 1 of body 'ground' within a rim"),
         (
-            {"stretch": "quasi-static", "strains": [0, 1], "tensions": [0, 1]},
+            {"rung": "quasi-static", "strains": [0, 1], "tensions": [0, 1]},
             "a quasi-static stretch takes EA, no table",
         ),
         ({"strains": [0.0], "tensions": [0.0]}, "has 1 strains and 1 tensions; give as many of both"),
@@ -352,22 +341,22 @@ def test_sheaves_that_cannot_be_are_told(change: dict[str, Any], message: str) -
         scene.compile()
 
 
-def test_a_line_has_a_stiffness_or_a_table() -> None:
+def test_a_line_has_ea_or_a_table() -> None:
     given: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "length": 1.0}
     scene = corded(0.1)
-    with pytest.raises(SceneError, match="line 'a': has no stiffness; give EA in N, or strains and tensions"):
+    with pytest.raises(SceneError, match="line 'a': has no EA; give it in N, or strains and tensions"):
         scene.add_line(name="a", **given)
-    with pytest.raises(SceneError, match="line 'a': has a stiffness and a table; give one of them"):
-        scene.add_line(name="a", stiffness=1e3, strains=[0, 1], tensions=[0, 1], **given)
+    with pytest.raises(SceneError, match="line 'a': has EA and a table; give one of them"):
+        scene.add_line(name="a", EA=1e3, strains=[0, 1], tensions=[0, 1], **given)
 
 
 def test_bridles_that_cannot_be_are_told() -> None:
     scene = four_legs(stiffnesses=(1e6,))
-    given: dict[str, Any] = {"name": "more", "hook": "ground", "load": "load", "stiffnesses": 1e6}
+    given: dict[str, Any] = {"name": "more", "hook": "ground", "load": "load", "EA": 1e6}
     points = [(1, 0, 0), (0, 1, 0)]
     with pytest.raises(SceneError, match="bridle 'more': has 1 points; give two or more"):
         scene.add_bridle(points=[(1, 0, 0)], **given)
     with pytest.raises(SceneError, match="bridle 'more': hook 'block' is no body of the scene"):
         scene.add_bridle(points=points, **given | {"hook": "block"})
-    with pytest.raises(SceneError, match="bridle 'more': stiffnesses are 3 numbers; give one for each of 2"):
-        scene.add_bridle(points=points, **given | {"stiffnesses": (1e6, 1e6, 1e6)})
+    with pytest.raises(SceneError, match="bridle 'more': EA are 3 numbers; give one for each of 2"):
+        scene.add_bridle(points=points, **given | {"EA": (1e6, 1e6, 1e6)})

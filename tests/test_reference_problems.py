@@ -1,7 +1,7 @@
 """Classic mechanisms against published or independent solutions: both formulations, several integrators.
 
-Limits are a few times what was measured. docs/reference-problems.md tells what each problem is and where its
-solution comes from.
+Limits are a few times what was measured. tests/reference_problems/README.md tells what each problem is and
+where its solution comes from.
 """
 
 from __future__ import annotations

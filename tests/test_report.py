@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane.figures import Finding, Picture, overview_sheet, save_sheet
+from seacrane.figures import Finding, Picture, save_sheet
+from seacrane.figures.overview import overview_sheet
 from seacrane.plotting.html import format_value
 from seacrane.reporting import Report
 from seacrane.reporting.measures import energy_closure, speed, worst

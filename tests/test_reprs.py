@@ -11,17 +11,8 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import (
-    Curve,
-    Run,
-    Scene,
-    _core,
-    cases,
-    linear_model,
-    model_error,
-    natural_modes,
-    response_statistics,
-)
+from seacrane import Curve, Run, Scene, _core, cases, linear_model, natural_modes, response_statistics
+from seacrane.accuracy import model_error
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.hydro import DriftCoefficients, retardation_functions, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
@@ -87,9 +78,7 @@ def with_arrays() -> dict[str, Any]:
     scene, database, hull = cases.case2(), shipped_database(), shipped_hull()
     memory = database.memory
     assert memory is not None
-    statistics = response_statistics(
-        scene, database=database, spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
-    )
+    statistics = response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel")
     things: list[Any] = [
         database, memory, memory.blocks[0], hull, linear_model(scene), natural_modes(scene), statistics,
         KnuckleBoomCrane.load(), retardation_functions(database=database),

@@ -8,17 +8,9 @@ import numpy as np
 import pytest
 from random_rests import Builder
 
-from seacrane import (
-    CreepingRestWarning,
-    LargeHeelWarning,
-    Scene,
-    SceneError,
-    UnstableRestWarning,
-    UnsteadyOilWarning,
-    equilibrium,
-    simulate,
-)
+from seacrane import Scene, SceneError, equilibrium, simulate
 from seacrane.hydro import shipped_database
+from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning, UnsteadyOilWarning
 
 STILL = 1e-3  # m, and m at 1 m from the centre of mass, in a minute
 REPORTED = (UnstableRestWarning, CreepingRestWarning, UnsteadyOilWarning)
@@ -37,7 +29,7 @@ def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:
     scene.add_driver(joint="up", curve=driven)
     scene.add_body(name="load", mass=1e5, inertia=(1e5,) * 3, position=(0, 0, -100))
     scene.add_line(
-        name="hoist", bodies=["tip", "load"], points=[(0, 0, top), (0, 0, 0)], stiffness=4e8,
+        name="hoist", bodies=["tip", "load"], points=[(0, 0, top), (0, 0, 0)], EA=4e8,
         length=99.9 + slack,
     )  # fmt: skip
     return scene
@@ -71,8 +63,8 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
 def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene = Scene(name="heavy")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    lines = scene.add_heavy_line(
-        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], stiffness=4e8,
+    lines = scene.add_line(
+        name="hoist", rung="with mass", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=4e8,
         length=100.0, mass_per_length=20.0, segments=8,
     )  # fmt: skip
     first = lines[0]
@@ -86,9 +78,7 @@ def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
 def test_the_line_that_could_hold_a_load_is_named() -> None:
     scene = Scene(name="far")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=5000.0
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0)
     with pytest.raises(SceneError, match=r"'load' .* line 'hoist', which could hold it, is slack by 4.99"):
         equilibrium(scene)
 
@@ -102,7 +92,7 @@ def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
     x, y, z = scene.place_of(body=body, point=head)
     scene.add_body(name="load", mass=50e3, inertia=(1e5,) * 3, position=(x, y, z - 15))
     scene.add_line(
-        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e9,
+        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e9,
         tension_at_start=50e3 * G,
     )  # fmt: skip
     scene.add_ballast(heel_deg=-6.0)
@@ -116,11 +106,11 @@ def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
     scene = Scene(name="tugged")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7,
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
         tension_at_start=1e4 * G,
     )  # fmt: skip
     scene.add_line(
-        name="tug", bodies=["ground", "load"], points=[(8, 0, -10), (0, 0, 0)], stiffness=2e5,
+        name="tug", bodies=["ground", "load"], points=[(8, 0, -10), (0, 0, 0)], EA=2e5,
         length=8.0 + slack,
     )  # fmt: skip
     scene.add_winch(line="tug", tension=10e3, tension_gain=1e-5, maximum_rate=1.0, lag=lag)
@@ -135,14 +125,14 @@ def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
     scene = Scene(name="taglines")
     scene.add_body(name="load", mass=1e4, inertia=(inertia,) * 3, position=(0, 0, -10))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7,
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
         tension_at_start=1e4 * G,
     )  # fmt: skip
     for i, side in enumerate((-1.0, 1.0)):
         name = f"tag {i}"
         scene.add_line(
             name=name, bodies=["ground", "load"], points=[(-side * length, 0, -10), (side * arm, 0, 0)],
-            stiffness=1e5, tension_at_start=tension,
+            EA=1e5, tension_at_start=tension,
         )  # fmt: skip
         scene.add_winch(line=name, tension=tension, tension_gain=1.0)
     with pytest.warns(UnstableRestWarning, match=r"load yaw grows, doubling in (\S+) s") as caught:

@@ -16,7 +16,7 @@ from seacrane import Curve, Run, Scene, State, cases
 from seacrane._core import StepHistory
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 NONE = StepHistory(formulation="", integrator="", values=[], rate=[])

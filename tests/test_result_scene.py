@@ -48,7 +48,7 @@ def with_scene(path: Path, text: bytes, kind: str = "u1") -> Path:
     """A result's file whose scene is this text."""
     result = simulate(pendulum(), 0.5)
     bare = Result.from_arrays(
-        time=result.time, arrays=result.channels, coords=result.coords, stats=result.stats
+        time=result.time, arrays=result.channels, coords=result.coords, stats=result.stats, about=result.about
     )
     bare.save(path)
     with netCDF4.Dataset(path, "a") as file:
@@ -91,7 +91,7 @@ def test_notes_are_in_the_settings_alone(tmp_path: Path) -> None:
     loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
     assert loaded.scene is not None
     assert loaded.scene.notes == {}
-    assert json.loads(str(loaded.stats["settings"]))["notes"] == {"project": "secret"}
+    assert loaded.settings["notes"] == {"project": "secret"}
 
 
 def test_what_is_changed_in_the_scene_of_a_result_is_saved(tmp_path: Path) -> None:

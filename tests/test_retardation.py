@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane.hydro import MemoryFitWarning, retardation_functions, shipped_database, vessel_parameters
+from seacrane.hydro import retardation_functions, shipped_database, vessel_parameters
 from seacrane.hydro.memory.retardation import cosine_transform, transform
+from seacrane.warnings import MemoryFitWarning
 
 Array = NDArray[np.float64]
 DECAY, RINGING = 0.35, 0.9  # 1/s, of the closed-form kernel

@@ -96,7 +96,7 @@ def test_free_trim_takes_work_off_a_wedge_whose_deck_is_wet() -> None:
     ("given", "message"),
     [
         ({"draught": 20.0}, "not across the waterline"),
-        ({"draught": -1.0}, "draught is -1.0 m; give a positive number"),
+        ({"draught": -1.0}, "draught is -1.0 m; give a finite number above zero"),
         ({"heel_deg": 91.0}, "give angles within 90 deg"),
         ({"trim": "loose"}, "trim is 'loose'; give 'free' or 'fixed'"),
         ({"center_of_gravity": (0.0, 1.0)}, "center_of_gravity is"),

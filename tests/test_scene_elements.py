@@ -22,7 +22,7 @@ def hung() -> Scene:
         kind="distance", name="wire", first="trolley", second="load", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -4.0),
     )  # fmt: skip
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     scene.add_actuator(joint="rail", name="drive", stiffness=10.0)
     scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
     scene.record_coordinate(joint="rail")

@@ -15,21 +15,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seacrane import (
-    Curve,
-    FileFormatError,
-    Frame,
-    HullLoads,
-    Scene,
-    SceneError,
-    SeaProvenance,
-    StateSpaceBlock,
-    VesselProvenance,
-    Waves,
-    cases,
-    simulate,
-)
+from seacrane import Curve, FileFormatError, Frame, Scene, SceneError, cases, simulate
 from seacrane.description.file import save_scene
+from seacrane.hydro import StateSpaceBlock
+from seacrane.scene import HullLoads, SeaProvenance, VesselProvenance, Waves
 
 THIRD = 1.0 / 3.0
 WITH_FOLDER = settings(

@@ -13,7 +13,6 @@ from scipy.special import gamma as gamma_function
 from seacrane.errors import SceneError
 from seacrane.sea import (
     Spectrum,
-    SteepSeaWarning,
     WaveSystem,
     bretschneider,
     dnv_gamma,
@@ -24,6 +23,7 @@ from seacrane.sea import (
     tabulated_spectrum,
     torsethaugen,
 )
+from seacrane.warnings import SteepSeaWarning
 
 G = 9.80665
 OMEGA = np.linspace(0.15, 4.0, 400)
@@ -55,11 +55,11 @@ def test_energy_is_the_integral_of_the_density_and_gives_hs(name: str) -> None:
     assert spectrum.moment(0) == pytest.approx(spectrum.hs**2 / 16.0, rel=1e-13)
     assert spectrum.energy() == pytest.approx(spectrum.moment(0), rel=1e-12)
     for low, high in [(0.3, 0.9), (0.7, 0.72), (1.2, 9.0)]:
-        energy = spectrum.energy(omega_min=low, omega_max=high)
+        energy = spectrum.energy(minimum_omega=low, maximum_omega=high)
         assert energy == pytest.approx(integral(spectrum, 0, low, high), rel=1e-7)
     # The energies of all bands add up, also where the tail is summed as a series.
     edges = np.append(np.linspace(0.0, 12.0, 301), np.inf)
-    bands = [spectrum.energy(omega_min=a, omega_max=b) for a, b in itertools.pairwise(edges)]
+    bands = [spectrum.energy(minimum_omega=a, maximum_omega=b) for a, b in itertools.pairwise(edges)]
     assert sum(bands) == pytest.approx(spectrum.moment(0), rel=1e-12)
 
 
@@ -209,12 +209,12 @@ def test_a_table_is_linear_and_its_energy_exact() -> None:
         assert table.moment(order) == pytest.approx(exact, rel=1e-11)
     knots = np.unique(np.concatenate([np.linspace(0.5, 1.2, 41), [0.6, 1.0]]))
     part = np.trapezoid(np.interp(knots, omega, density), knots)
-    assert table.energy(omega_min=0.5, omega_max=1.2) == pytest.approx(part, rel=1e-13)
+    assert table.energy(minimum_omega=0.5, maximum_omega=1.2) == pytest.approx(part, rel=1e-13)
     hertz = tabulated_spectrum(frequency=omega / (2.0 * np.pi), density=2.0 * np.pi * density)
     np.testing.assert_allclose(hertz.density(at), table.density(at), rtol=1e-9, atol=1e-12)
-    assert tabulated_spectrum(omega=[0.0, 1.0], density=[1.0, 2.0]).energy(omega_max=0.5) == pytest.approx(
-        0.625
-    )
+    assert tabulated_spectrum(omega=[0.0, 1.0], density=[1.0, 2.0]).energy(
+        maximum_omega=0.5
+    ) == pytest.approx(0.625)
 
 
 def test_breaking_seas_warn() -> None:

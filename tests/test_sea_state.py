@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, WavesWithoutLoadWarning, _core, cases, simulate
+from seacrane import Scene, _core, cases, simulate
 from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
@@ -26,6 +25,7 @@ from seacrane.sea import (
     torsethaugen,
 )
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import WavesWithoutLoadWarning
 
 WIND = WaveSystem(
     spectrum=jonswap(hs=1.5, tp=6.5, gamma="dnv"), direction_deg=150.0, spreading=cos_2s(8.0), name="wind sea"
@@ -79,7 +79,10 @@ def test_uniform_placement_is_a_grid_that_repeats() -> None:
     waves = realise_waves(spectrum, seed=1, direction=0.0, count=200, placement="uniform")
     step = 2.2 / 200
     np.testing.assert_allclose(np.array(waves.omega) / step, np.arange(28, 228), rtol=1e-13)
-    bands = [spectrum.energy(omega_min=(i - 0.5) * step, omega_max=(i + 0.5) * step) for i in range(28, 228)]
+    bands = [
+        spectrum.energy(minimum_omega=(i - 0.5) * step, maximum_omega=(i + 0.5) * step)
+        for i in range(28, 228)
+    ]
     np.testing.assert_allclose(0.5 * np.array(waves.amplitude) ** 2, bands, rtol=1e-9)
     t, period = np.linspace(0.0, 100.0, 77), 2.0 * np.pi / step
     np.testing.assert_allclose(waves.elevation(t + period), waves.elevation(t), atol=1e-9)
@@ -113,7 +116,7 @@ def test_a_record_is_reproduced_where_it_was_measured(n: int, spreading: object)
 def test_cuts_and_taper_of_a_record() -> None:
     t, eta = record()
     measured = MeasuredWaves(
-        time=t, elevation=eta, direction_deg=0.0, omega_min=0.4, omega_max=1.3, taper=0.2
+        time=t, elevation=eta, direction_deg=0.0, minimum_omega=0.4, maximum_omega=1.3, taper=0.2
     )
     waves = SeaState(systems=[measured]).realise().waves
     assert np.min(waves.omega) >= 0.4 and np.max(waves.omega) <= 1.3
@@ -136,7 +139,11 @@ def test_the_components_of_a_periodic_record_come_back() -> None:
     n = 2048
     t = np.arange(n) * 2.0 * np.pi / step / n
     measured = MeasuredWaves(
-        time=t, elevation=truth.elevation(t), direction_deg=np.degrees(0.5), omega_min=0.295, omega_max=2.5
+        time=t,
+        elevation=truth.elevation(t),
+        direction_deg=np.degrees(0.5),
+        minimum_omega=0.295,
+        maximum_omega=2.5,
     )
     waves = SeaState(systems=[measured]).realise().waves
     np.testing.assert_allclose(waves.omega, truth.omega, rtol=1e-12)
@@ -166,7 +173,8 @@ T, ETA = record(200)
         (lambda: MeasuredWaves(time=T[::-1], elevation=ETA, direction_deg=0.0), "let them rise"),
         (lambda: MeasuredWaves(time=T, elevation=ETA[:-1], direction_deg=0.0), "199 elevations"),
         (lambda: MeasuredWaves(time=T, elevation=0.0 * ETA, direction_deg=0.0), "leave the sea out"),
-        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, omega_min=2.0, omega_max=1.0),
+        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0,
+                               minimum_omega=2.0, maximum_omega=1.0),
          "no harmonic"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, taper=1.5), "taper is 1.5"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=np.inf), "direction_deg is inf"),
@@ -198,7 +206,7 @@ def sea_of(scene: Scene) -> dict[str, Any]:
 def afloat(**sea: object) -> Scene:
     scene = Scene(name="afloat")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(shipped_database(), **sea)
+    scene.add_sea(**sea)
     return scene
 
 
@@ -266,7 +274,7 @@ def test_a_sea_is_as_deep_as_its_database() -> None:
     shallow = dataclasses.replace(shipped_database(), depth=20.0)
     scene = Scene(name="shallow")
     scene.add_vessel(shallow, memory="none")
-    scene.add_sea(shallow, tp=14.0)
+    scene.add_sea(tp=14.0)
     waves = scene.waves
     assert waves is not None and waves.depth == 20.0
     k = wavenumber(waves.omega, g=9.80665, depth=20.0)
@@ -285,13 +293,11 @@ def test_vessels_in_one_sea_share_its_depth() -> None:
     scene = Scene(name="two")
     scene.add_vessel(shipped_database(), memory="none")
     scene.add_vessel(shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
-    scene.add_sea(shipped_database(), tp=12.0)
+    scene.add_sea(tp=12.0)
     for arguments in ({}, {"tp": 12.0}):
         with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
-            scene.add_sea(shallow, vessel="barge", **arguments)
+            scene.add_sea(vessel="barge", **arguments)
     assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
-    with pytest.raises(SceneError, match="sea of vessel 'vessel': it is inf m deep"):
-        scene.use_actual_position(shallow)
 
 
 def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None:
@@ -313,11 +319,10 @@ def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None
 
 
 def test_waves_that_put_no_load_on_a_vessel_are_warned_of_by_name() -> None:
-    short = shipped_database().select(omega=(0.1, 1.5))
     scene = Scene(name="short table")
-    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_vessel(shipped_database().select(omega=(0.1, 1.5)), memory="none")
     with pytest.warns(WavesWithoutLoadWarning, match=r"waves on 'vessel': those above 1\.5 rad/s") as caught:
-        scene.add_sea(short, tp=6.0, direction_deg=90.0)
+        scene.add_sea(tp=6.0, direction_deg=90.0)
     assert caught[0].filename == __file__
     assert scene.waves is not None and (scene.waves.provenance.load_variance_without_load or 0.0) > 0.1
 
@@ -334,8 +339,8 @@ def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
         force=shipped_database().select(omega=(0.4, 2.0)).full_circle()[1],
     )  # fmt: skip
     scene = Scene(name="turning")
-    scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(database, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
+    scene.add_vessel(database, memory="none")
+    scene.add_sea(tp=7.0, direction_deg=60.0, phase="actual", drift=True)
     waves = scene.waves
     assert waves is not None and waves.omega.min() < 0.4 and waves.omega.max() > 2.0
     table = waves.hull().force_by_heading
@@ -355,12 +360,12 @@ def test_calm_water_takes_the_provenance_of_the_sea_before_with_it() -> None:
         "wave_phase",
         "waves_relative_bound",
     }
-    scene.add_sea(shipped_database(), hs=0.0)
+    scene.add_sea(hs=0.0)
     assert scene.waves is None and set(origin_settings(scene)) == before
-    scene.add_sea(shipped_database(), hs=1.0)
+    scene.add_sea(hs=1.0)
     assert "sea" not in sea_of(scene) and sea_of(scene)["hs"] == 1.0
     scene.waves = None
-    scene.add_sea(shipped_database(), sea=SeaState(systems=[WIND], seed=3))
+    scene.add_sea(sea=SeaState(systems=[WIND], seed=3))
     assert "hs" not in sea_of(scene) and "wave_phase" not in origin_settings(scene)
 
 
@@ -379,7 +384,7 @@ def test_the_command_line_chooses_the_sea(tmp_path: Path, capsys: pytest.Capture
 
     options = "--t-end 1 --integrator rk4 --dt 0.1 --memory none --spectrum torsethaugen --spreading 4"
     assert main(["run", "vessel", "--out", str(tmp_path), *options.split()]) == 0
-    settings = json.loads(str(Result.load(tmp_path / "vessel.nc").stats["settings"]))
+    settings = Result.load(tmp_path / "vessel.nc").settings
     assert settings["spectrum"] == "torsethaugen"
     assert settings["spreading"] == {"kind": "cos-2s", "exponent": 4.0}
     assert main(["run", "vessel", "--out", str(tmp_path), "--spectrum", "torsethaugen", "--gamma", "2"]) == 1

@@ -36,7 +36,7 @@ def fails_for_some(*, seed: int, stiffness: float) -> Scene:
     return pushed(seed=seed, stiffness=stiffness)
 
 
-REACH = Kept(channel="position", what="maximum", at={"body": "mass", "axis": "x"})
+REACH = Kept(channel="position", what="maximum", names={"body": "mass", "axis": "x"})
 GIVEN: dict[str, Any] = {
     "keep": REACH, "seeds": range(1, 31), "t_end": 1.2 * PERIOD, "dt_out": PERIOD / 100.0, "rtol": 1e-7,
 }  # fmt: skip

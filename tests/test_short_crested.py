@@ -14,27 +14,12 @@ import pytest
 from numpy.typing import NDArray
 from veres_writer import VeresRun
 
-from seacrane import (
-    LinearModel,
-    ResponseStatistics,
-    Scene,
-    SceneError,
-    cases,
-    linear_model,
-    motion_rao,
-    response_statistics,
-    response_summed,
-    simulate,
-)
-from seacrane.hydro import (
-    EncounterFrequencyWarning,
-    HydroDatabase,
-    motion_response,
-    read_veres,
-    shipped_database,
-)
+from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics, simulate
+from seacrane.analysis import LinearModel, ResponseStatistics, response_summed
+from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
 from seacrane.hydro.data.encounter import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
+from seacrane.warnings import EncounterFrequencyWarning
 
 Array = NDArray[np.float64]
 SEA = jonswap(hs=2.0, tp=9.0)
@@ -51,7 +36,7 @@ def statistics(
     spreading: Spreading | None, *, heading: float = 2.2, point: object = TIP
 ) -> ResponseStatistics:
     return response_statistics(
-        alone(), database=shipped_database(), spectrum=SEA, heading=heading, body="vessel", point=TIP,
+        alone(), spectrum=SEA, heading=heading, body="vessel", point=TIP,
         spreading=spreading,
     )  # fmt: skip
 
@@ -69,16 +54,14 @@ def test_narrow_spreading_is_a_long_crested_sea(kind: Any) -> None:
 def test_it_is_the_sum_over_a_realised_sea(spreading: Spreading) -> None:
     """One direction for each of many components: another quadrature of the same double integral."""
     scene = cases.vessel(hs=0.0)
-    scene.add_sea(
-        shipped_database(), hs=2.0, tp=9.0, direction_deg=np.degrees(2.2), spreading=spreading, count=6000
-    )
+    scene.add_sea(hs=2.0, tp=9.0, direction_deg=np.degrees(2.2), spreading=spreading, count=6000)
     summed = response_summed(alone(), body="vessel", point=TIP, waves=scene.waves)
     np.testing.assert_allclose(statistics(spreading).std[2:], summed.std[2:], rtol=0.004)
 
 
 def test_the_quadrature_over_directions_has_converged(monkeypatch: pytest.MonkeyPatch) -> None:
     some = statistics(cos_2s(2.0))
-    monkeypatch.setattr("seacrane.analysis.response_statistics.HEADINGS", 150)
+    monkeypatch.setitem(response_statistics.__wrapped__.__globals__, "HEADINGS", 150)  # type: ignore[attr-defined]
     np.testing.assert_allclose(some.std, statistics(cos_2s(2.0)).std, rtol=1e-3)
     assert some.heading_share.sum() == pytest.approx(1.0)
 
@@ -131,11 +114,9 @@ def test_a_body_of_revolution_in_closed_form(s: float) -> None:
 def test_a_run_in_a_low_short_crested_sea_has_these_statistics() -> None:
     """Twenty minutes, within three standard deviations of what a record of that length scatters."""
     scene = cases.vessel(hs=0.0, memory="passive")
-    scene.add_sea(
-        shipped_database(), hs=0.1, tp=9.0, direction_deg=126.0, spreading=cos_2s(4.0), count=400, seed=5
-    )
+    scene.add_sea(hs=0.1, tp=9.0, direction_deg=126.0, spreading=cos_2s(4.0), count=400, seed=5)
     expected = response_statistics(
-        cases.vessel(hs=0.0, memory="passive"), database=shipped_database(), spectrum=jonswap(hs=0.1, tp=9.0),
+        cases.vessel(hs=0.0, memory="passive"), spectrum=jonswap(hs=0.1, tp=9.0),
         heading=np.radians(126.0), body="vessel", spreading=cos_2s(4.0),
     )  # fmt: skip
     length, ramp = 1200.0, 200.0
@@ -246,7 +227,7 @@ def test_speeds_that_do_not_belong_together_are_refused(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="is of 0 m/s, the memory of the linear model of 5 m/s"):
         motion_rao(under_way, database=still, omega=0.6, heading=0.0, body="vessel")
     scene = free(still, 60.0)
-    scene.add_sea(still, hs=1.0)
+    scene.add_sea(hs=1.0)
     with pytest.raises(SceneError, match="meets the waves of the scene at zero speed"):
         response_summed(under_way, body="vessel", waves=scene.waves)
 

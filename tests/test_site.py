@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import re
 import shutil
 import subprocess
@@ -45,17 +46,29 @@ def test_the_first_page_lists_every_document() -> None:
     docs = ROOT / "docs"
     listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
     there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
+    there |= {
+        path for folder in ("examples", "studies", "tests") for path in (ROOT / folder).glob("*/README.md")
+    }
     assert listed == there - {docs / "index.md"}
 
 
-def test_every_public_name_is_on_one_page(face: Any) -> None:
-    names = [name for page in face.pages().values() for name in page]
+def test_every_public_name_is_on_one_page_once(face: Any) -> None:
+    pages = face.pages()
+    names = [name.rpartition(".")[2] for page in pages.values() for name in page]
     assert len(names) == len(set(names))
-    own = {f"seacrane.{name}" for name in seacrane.__all__ if callable(getattr(seacrane, name))}
-    assert own <= set(names)
-    values = {id(getattr(seacrane.hydro, name)) for name in seacrane.hydro.__all__}
-    on_page = {id(getattr(seacrane.hydro, name.rpartition(".")[2])) for name in face.pages()["hydro"]}
-    assert on_page == values
+    for module in (seacrane, *(getattr(seacrane, page) for page in pages)):
+        shown = [one for one in dir(module) if not one.startswith("_")]
+        public = {
+            one
+            for one in shown
+            if inspect.isroutine(getattr(module, one)) or inspect.isclass(getattr(module, one))
+        }
+        assert public <= set(names), module.__name__
+
+
+def test_the_pages_of_names_follow_the_order_of_the_work(face: Any) -> None:
+    tree = (ROOT / "docs" / "api.md").read_text("utf-8")
+    assert re.findall(r"^api/(\w+)$", tree, re.MULTILINE) == list(face.pages())
 
 
 def test_a_name_of_two_homes_stands_under_the_shorter_one(face: Any) -> None:
@@ -123,7 +136,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
     (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
     entries = {
         "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
-        "seacrane.Balance": "class", "seacrane.Balance.vessel_wrench": "property",
+        "seacrane.analysis.Balance": "class", "seacrane.analysis.Balance.vessel_wrench": "property",
     }  # fmt: skip
     lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
     (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")

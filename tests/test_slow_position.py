@@ -18,7 +18,7 @@ from seacrane.scene.position import force_by_heading
 from seacrane.validity.hull_range import peak_frequency
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
@@ -38,11 +38,11 @@ def driven(*, phase: Any, cutoff: float = CUTOFF, **curves: Curve) -> Scene:
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
     for name in SIX:
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
-    scene.add_sea(shipped_database(), hs=2.0, tp=8.0, count=12)
+    scene.add_sea(hs=2.0, tp=8.0, count=12)
     if phase == "slow":
-        scene.use_slow_position(shipped_database(), cutoff=cutoff)
+        scene.use_slow_position(cutoff=cutoff)
     if phase == "actual":
-        scene.use_actual_position(shipped_database())
+        scene.use_actual_position()
     return scene
 
 
@@ -125,7 +125,7 @@ def test_a_steady_drift_is_followed_from_the_start_on() -> None:
 def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
     scene = Scene(name="afloat")
     scene.add_vessel(shipped_database(), mooring_period=120.0, memory=memory)
-    scene.add_sea(shipped_database(), phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
+    scene.add_sea(phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
     return scene
 
 
@@ -232,17 +232,17 @@ def test_a_scene_file_keeps_the_cut_off_and_older_ones_have_none(tmp_path: Path)
 def test_the_actual_position_after_the_slow_one_has_no_filter_left() -> None:
     scene = afloat("slow")
     states = scene.compile().memory_states
-    scene.use_actual_position(shipped_database())
+    scene.use_actual_position()
     assert scene.compile().memory_states == states - 9
 
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="loads at the slow position needs a sea"):
-        Scene(name="calm").use_slow_position(shipped_database())
+        Scene(name="calm").use_slow_position()
     scene = afloat("mean")
     for value in (0.0, -1.0, float("nan")):
         with pytest.raises(SceneError, match="give a frequency between slow drift and waves"):
-            scene.use_slow_position(shipped_database(), cutoff=value)
+            scene.use_slow_position(cutoff=value)
     assert scene.waves is not None
     with pytest.raises(SceneError, match="no force_by_heading"):
         scene.waves.changed(cutoff=0.1)

@@ -10,25 +10,15 @@ import pytest
 from lift_examples import HEAD
 from test_statics import C44, LOAD, MASS, G, barge, hanging, on_deck
 
-from seacrane import (
+from seacrane import Lift, Scene, SceneError, equilibrium, natural_modes, simulate, statics
+from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.scene import Tank
+from seacrane.warnings import (
     BallastOutsideHullWarning,
-    LargeHeelWarning,
-    Lift,
-    Scene,
-    SceneError,
-    Tank,
-    UnstableRestWarning,
-    equilibrium,
-    natural_modes,
-    simulate,
-    statics,
-)
-from seacrane.hydro import (
-    HydroDatabase,
     InfiniteFrequencyWarning,
+    LargeHeelWarning,
     MemoryFitWarning,
-    load_database,
-    shipped_database,
+    UnstableRestWarning,
 )
 
 KINDS = ("per-pair", "by-motion", "convolution")

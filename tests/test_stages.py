@@ -26,15 +26,14 @@ from seacrane import (
     SceneError,
     SimulationError,
     Stage,
-    StagedRun,
     State,
     Until,
     cases,
     simulate,
     simulate_stages,
-    simulate_stages_to_file,
     summary,
 )
+from seacrane.stages import StagedRun, simulate_stages_to_file
 
 Array = NDArray[np.float64]
 TWO = [Stage(name="one", duration=2.0), Stage(name="two", duration=3.0)]
@@ -154,10 +153,10 @@ def test_two_masses_that_connect_go_on_at_their_mean_velocity() -> None:
         scene.add_body(name=name, mass=mass, inertia=(1.0, 1.0, 1.0), position=(float(name == "b"), 0, 0),
                        velocity=(speed, 0, 0))  # fmt: skip
     scene.add_joint(kind="spherical", name="hitch", first="a", second="b", point=(1.0, 0.0, 0.0))
-    meet = Until.channel("position", body="a", axis="x", above=0.0)
+    meet = Until.channel("position", body="a", axis="x", minimum=0.0)
     scene.replace("a", position=(-0.4, 0.0, 0.0))
     stages = [
-        Stage(name="roll", until=meet, longest=1.0),
+        Stage(name="roll", until=meet, maximum_duration=1.0),
         Stage(name="go on", duration=0.5, connect=["hitch"]),
     ]
     result = simulate_stages(scene, stages)
@@ -179,11 +178,11 @@ def falling(height: float = 10.0) -> Scene:
 
 @pytest.mark.parametrize("settings", [{"rtol": 1e-9}, {"integrator": "rk4", "dt": 0.013}])
 def test_conditions_are_met_to_their_stated_error(settings: dict[str, Any]) -> None:
-    below = Until.channel("position", body="load", axis="z", below=6.3)
-    slow = Until.channel("velocity", body="load", axis="z", below=-20.0)
+    below = Until.channel("position", body="load", axis="z", maximum=6.3)
+    slow = Until.channel("velocity", body="load", axis="z", maximum=-20.0)
     stages = [
-        Stage(name="fall", until=[slow, below], longest=5.0),
-        Stage(name="land", until=Until.contact("landing"), longest=5.0),
+        Stage(name="fall", until=[slow, below], maximum_duration=5.0),
+        Stage(name="land", until=Until.contact("landing"), maximum_duration=5.0),
         Stage(name="lie", duration=0.5),
     ]
     result = simulate_stages(falling(), stages, **settings)
@@ -197,8 +196,8 @@ def test_conditions_are_met_to_their_stated_error(settings: dict[str, Any]) -> N
 
 
 def test_a_condition_that_is_met_already_ends_its_stage_at_once() -> None:
-    high = Until.channel("position", body="load", axis="z", above=9.0)
-    stages = [Stage(name="look", until=high, longest=1.0), Stage(name="fall", duration=0.5)]
+    high = Until.channel("position", body="load", axis="z", minimum=9.0)
+    stages = [Stage(name="look", until=high, maximum_duration=1.0), Stage(name="fall", duration=0.5)]
     result = simulate_stages(falling(), stages)
     assert [(span.start, span.end) for span in result.stages] == [(0.0, 0.0), (0.0, 0.5)]
 
@@ -355,7 +354,7 @@ def test_results_keep_their_stages(tmp_path: Path) -> None:
 
 def test_channels_are_recorded_in_the_stages_that_have_them() -> None:
     wanted = ["position", "line_tension"]
-    result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(tolerance=1e-5))
+    result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(rtol=1e-5))
     assert set(result) == {*wanted, "line_unstretched_length"}
 
 
@@ -370,13 +369,13 @@ def test_stages_are_values() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({}, "nothing ends it; give its duration, or until and longest"),
-        ({"duration": 0.0}, "duration is 0 s; give a finite, positive time"),
+        ({}, "nothing ends it; give its duration, or until and maximum_duration"),
+        ({"duration": 0.0}, "duration is 0.0 s; give a finite number above zero"),
         ({"duration": np.inf}, "duration is inf s"),
-        ({"until": Until.release("on deck")}, "would never end where that is not met; give longest"),
+        ({"until": Until.release("on deck")}, "would never end where that is not met; give maximum_duration"),
         ({"until": Until.release("on deck"), "duration": 1.0}, "has a duration and until; leave one out"),
-        ({"duration": 1.0, "longest": 2.0}, "longest goes with until"),
-        ({"until": "later", "longest": 2.0}, "until is 'l'; give conditions that Until makes"),
+        ({"duration": 1.0, "maximum_duration": 2.0}, "maximum_duration goes with until"),
+        ({"until": "later", "maximum_duration": 2.0}, "until is 'l'; give conditions that Until makes"),
         ({"duration": 1.0, "connect": "hoist"}, "connect is 'hoist'; give a list of texts"),
         ({"duration": 1.0, "commands": ["hoist"]}, "commands is .*; give {name: command}"),
     ],
@@ -386,28 +385,28 @@ def test_stages_that_cannot_be_are_told(given: dict[str, Any], message: str) -> 
         Stage(name="wait", **given)
 
 
-NEVER = {"longest": 10.0}
+NEVER = {"maximum_duration": 10.0}
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
         (
-            {"until": Until.length("hoist", above=25.0), **NEVER},
+            {"until": Until.length("hoist", minimum=25.0), **NEVER},
             "would never end: .* goes from 20.1 m to 20.1 m",
         ),
         (
-            {"until": Until.length("hoist", below=15.0), "commands": {"hoist.rate": -0.1}, **NEVER},
-            r"would never end: .* 19.15 m at the least .* Command 'hoist.rate' towards it, or give it longer",
+            {"until": Until.length("hoist", maximum=15.0), "commands": {"hoist.rate": -0.1}, **NEVER},
+            r"would never end: .* 19.15 m at the least .* Command 'hoist.rate' towards it, or give more",
         ),
         (
             {"until": Until.contact("on deck"), **NEVER},
             "would never end: seat 'on deck' lets go and never takes",
         ),
         ({"until": Until.contact("landing"), **NEVER}, "there is no such limit; there are on deck"),
-        ({"until": Until.tension("tugger", above=1.0), **NEVER}, "line 'tugger', which is not there then"),
+        ({"until": Until.tension("tugger", minimum=1.0), **NEVER}, "line 'tugger', which is not there then"),
         (
-            {"until": Until.channel("position", body="lid", axis="z", above=1.0), **NEVER},
+            {"until": Until.channel("position", body="lid", axis="z", minimum=1.0), **NEVER},
             "waits for body 'lid', which is not there then; there are load",
         ),
         ({"duration": 1.0, "release": ["sling"]}, "releases: the scene has no 'sling'"),
@@ -426,20 +425,20 @@ def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], messag
 @pytest.mark.parametrize(
     ("channel", "given", "message"),
     [
-        ("depth", {"above": 1.0}, "channel 'depth' does not exist"),
+        ("depth", {"minimum": 1.0}, "channel 'depth' does not exist"),
         (
             "position",
-            {"above": 1.0, "below": 2.0, "body": "load", "axis": "z"},
-            "above is 1.0 and below is 2.0",
+            {"minimum": 1.0, "maximum": 2.0, "body": "load", "axis": "z"},
+            "minimum is 1.0 and maximum is 2.0",
         ),
-        ("position", {"below": 2.0, "axis": "z"}, "says not which body; give body="),
-        ("position", {"below": 2.0, "body": "load", "axis": "up"}, "axis is 'up'; choose from x, y, z"),
+        ("position", {"maximum": 2.0, "axis": "z"}, "says not which body; give body="),
+        ("position", {"maximum": 2.0, "body": "load", "axis": "up"}, "axis is 'up'; choose from x, y, z"),
         (
             "absolute_work",
-            {"above": 2.0, "line": "hoist"},
+            {"minimum": 2.0, "line": "hoist"},
             "absolute_work has no dimension 'line'; its dimensions are none but time",
         ),
-        ("line_tension", {"above": np.nan, "line": "hoist"}, "is to pass nan, which it never does"),
+        ("line_tension", {"minimum": np.nan, "line": "hoist"}, "is to pass nan, which it never does"),
     ],
 )
 def test_conditions_that_cannot_be_are_told(channel: str, given: dict[str, Any], message: str) -> None:
@@ -508,10 +507,10 @@ def test_a_joint_that_does_not_meet_is_told() -> None:
 
 
 def test_a_stage_that_is_not_over_in_time_is_told_with_what_was_recorded() -> None:
-    deep = Until.channel("position", body="load", axis="z", below=-1.0)
-    stages = [Stage(name="drop", until=deep, longest=3.0), Stage(name="rest", duration=1.0)]
+    deep = Until.channel("position", body="load", axis="z", maximum=-1.0)
+    stages = [Stage(name="drop", until=deep, maximum_duration=3.0), Stage(name="rest", duration=1.0)]
     with pytest.raises(
-        SimulationError, match=r"stage 'drop': is not over after its longest of 3 s.* .it is"
+        SimulationError, match=r"stage 'drop': is not over after its maximum_duration of 3 s.* .it is"
     ) as error:
         simulate_stages(falling(), stages)
     result: Any = error.value.result
@@ -524,7 +523,8 @@ def test_ctrl_c_keeps_what_was_recorded(tmp_path: Path) -> None:
 import json, os, signal, sys, threading
 sys.path.insert(0, sys.argv[1])
 from stage_scenes import swinging
-from seacrane import Stage, StagedRun
+from seacrane import Stage
+from seacrane.stages import StagedRun
 run = StagedRun(swinging(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
 run.advance()
 threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
@@ -568,8 +568,8 @@ def test_a_file_holds_the_stages_that_are_over_whenever_the_process_ends(
 def test_a_file_keeps_what_an_error_left(tmp_path: Path) -> None:
     path = tmp_path / "lift.nc"
     hold, off = lift_off()[:2]
-    short = Stage(name="lift off", until=off.until, longest=0.5, commands=off.commands)
-    with pytest.raises(SimulationError, match="is not over after its longest"):
+    short = Stage(name="lift off", until=off.until, maximum_duration=0.5, commands=off.commands)
+    with pytest.raises(SimulationError, match="is not over after its maximum_duration"):
         simulate_stages_to_file(on_deck(), [hold, short], path, dt_out=0.25)
     kept = Result.load(path)
     assert kept.interrupted and [span.name for span in kept.stages] == ["hold", "lift off"]
@@ -617,9 +617,9 @@ def test_a_controller_goes_on_through_stages_as_in_one_run() -> None:
 def test_a_condition_is_located_without_calling_controllers_twice(period: float) -> None:
     """The bob turns by a staircase of torques; the angle at the end is the condition's."""
     calls: list[float] = []
-    until = Until.channel("coordinate", joint_coordinate="angle", above=0.2)
+    until = Until.channel("coordinate", joint_coordinate="angle", minimum=0.2)
     stages = [
-        Stage(name="turn", until=until, longest=5.0),
+        Stage(name="turn", until=until, maximum_duration=5.0),
         Stage(name="go on", duration=0.5),
     ]
     result = simulate_stages(motored(), stages, controllers=[noted(calls, period)], rtol=1e-10, dt_out=0.17)
@@ -661,11 +661,11 @@ def test_inputs_of_what_is_absent_are_left_out() -> None:
     ("given", "message"),
     [
         (
-            {"until": Until.tension("hoist", below=-1.0)},
+            {"until": Until.tension("hoist", maximum=-1.0)},
             "would never end: it waits for line_tension of 'hoist' below -1 N, and a line does not push",
         ),
         (
-            {"until": Until.length("hoist", below=1.5)},
+            {"until": Until.length("hoist", maximum=1.5)},
             "would never end: .* the winch stops at its minimum_length of 2 m; wait for more, or give it",
         ),
         (
@@ -685,7 +685,7 @@ def test_inputs_of_what_is_absent_are_left_out() -> None:
 def test_what_a_winch_never_does_is_told_before_any_stage_is_run(given: dict[str, Any], message: str) -> None:
     scene = on_deck()
     scene.replace("hoist", kind="load", maximum_rate=0.5, minimum_length=2.0)
-    ends = {"longest": 9.0} if "until" in given else {"duration": 9.0}
+    ends = {"maximum_duration": 9.0} if "until" in given else {"duration": 9.0}
     stages = [Stage(name="hold", duration=1e6), Stage(name="haul", **given, **ends)]
     with pytest.raises(SceneError, match=f"stage 'haul': .*{message}"):
         simulate_stages(scene, stages)
@@ -694,8 +694,8 @@ def test_what_a_winch_never_does_is_told_before_any_stage_is_run(given: dict[str
 def test_a_winch_at_its_limits_is_carried_out() -> None:
     scene = on_deck()
     scene.replace("hoist", kind="load", maximum_rate=0.5, minimum_length=18.9)
-    shorter = Until.length("hoist", below=19.0)
-    stages = [Stage(name="haul", until=shorter, longest=9.0, commands={"hoist.rate": -0.5})]
+    shorter = Until.length("hoist", maximum=19.0)
+    stages = [Stage(name="haul", until=shorter, maximum_duration=9.0, commands={"hoist.rate": -0.5})]
     result = simulate_stages(scene, stages, dt_out=0.1, rtol=1e-4)
     assert result["line_unstretched_length"][-1, 0] == pytest.approx(19.0, abs=1e-6)
 

@@ -20,7 +20,7 @@ from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _co
 from seacrane.files.state import DIGEST, MAGIC
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9
@@ -134,7 +134,7 @@ def on_a_wire() -> Scene:
     )
     scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
                     second_point=(0.0, 0.0, -2.0))  # fmt: skip
-    scene.add_wire(joint="wire", restitution=0.5)
+    scene.add_line(joint="wire", rung="rigid", restitution=0.5)
     return scene
 
 

@@ -13,14 +13,14 @@ from seacrane import (
     Frame,
     Scene,
     SceneError,
-    Statics,
     balance,
     cases,
-    driven,
     equilibrium,
     simulate,
     statics,
 )
+from seacrane.analysis import driven
+from seacrane.answers import Statics
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.crane.data_file import DEFAULT_PATH
 
@@ -149,7 +149,7 @@ def test_the_end_of_case_2_is_its_equilibrium_and_its_feed_forward() -> None:
 def test_neither_fluid_memory_nor_a_wire_matters_at_rest() -> None:
     plain = statics(cases.case2(hs=0.0, memory="none"), slew=-1.0)
     wired = cases.case2(hs=0.0, memory="convolution")
-    wired.add_wire(joint="link")
+    wired.add_line(joint="link", rung="rigid")
     told = statics(wired, slew=-1.0)
     for name, values in plain.columns.items():
         assert told[name].item() == pytest.approx(values.item(), rel=1e-6), name
@@ -269,7 +269,7 @@ def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:
 
 def _limited(scene: Scene, piston: str) -> Scene:
     out = scene.copy()
-    out.add_limit_state(channel="cylinder_pressure", max=1e6, where={"piston": piston})
+    out.add_limit_state(channel="cylinder_pressure", maximum=1e6, names={"piston": piston})
     return out
 
 
@@ -282,7 +282,7 @@ def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) 
     assert scene.roles[""].areas == {"main": (0.5, 0.25)}
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
-    scene.add_limit_state(channel="cylinder_pressure", max=20e6, where={"piston": "main"})
+    scene.add_limit_state(channel="cylinder_pressure", maximum=20e6, names={"piston": "main"})
     result = simulate(scene, 0.1, dt_out=0.1)
     force, found = result["cylinder_force"], result["cylinder_pressure"]
     np.testing.assert_allclose(found, force[:, :1] / 0.5)
@@ -307,7 +307,7 @@ def test_lines_tell_their_lengths() -> None:
     scene = Scene(name="line", gravity=G)
     scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)], stiffness=1e7,
+        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)], EA=1e7,
         length=19.9,
     )  # fmt: skip
     found = statics(scene)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 import seacrane as sc
 from seacrane import Result, SceneError
-from seacrane.description.waves import RepeatingSeaWarning
 from seacrane.result.checked_parts import ALWAYS_STATED
 from seacrane.statistics.figure import extremes_sheet
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.judged import start_differs
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
+from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
 THREE_HOURS, STEP = 10800.0, 0.5
@@ -50,7 +50,7 @@ def gumbel(count: int, size: int, seed: int = 3) -> Array:
 
 @pytest.mark.parametrize("cycles", [20.0, 1375.0])
 def test_the_gaussian_maximum_is_that_of_independent_crests(cycles: float) -> None:
-    found = sc.gaussian_maximum(std=2.0, rate=cycles / 3600.0, exposure=3600.0, mean=5.0)
+    found = sc.statistics.gaussian_maximum(std=2.0, rate=cycles / 3600.0, exposure=3600.0, mean=5.0)
     draws = np.random.default_rng(1).exponential(size=200_000)  # crossings of the maximum: exponential
     largest = 5.0 + 2.0 * np.sqrt(2.0 * np.log(np.maximum(1.0, cycles / draws)))
     assert found.mpm.value == pytest.approx(5.0 + 2.0 * np.sqrt(2.0 * np.log(cycles)), rel=1e-12)
@@ -61,31 +61,31 @@ def test_the_gaussian_maximum_is_that_of_independent_crests(cycles: float) -> No
 def test_crests_of_a_narrow_band_come_in_clumps() -> None:
     """sqrt(2 ln N) is 4 % above the mode of 400 maxima; clumps account for it."""
     maxima = records(400).max(axis=1)
-    with pytest.warns(sc.PoorFitWarning):  # the square of a Gaussian maximum is nearer to Gumbel's
-        mode = sc.seed_extremes(maxima, duration=THREE_HOURS).gumbel.mpm.value
+    with pytest.warns(sc.warnings.PoorFitWarning):  # the square of a Gaussian maximum is nearer to Gumbel's
+        mode = sc.statistics.seed_extremes(maxima, duration=THREE_HOURS).gumbel.mpm.value
     process = {"std": 1.0, "rate": 0.8 / (2.0 * np.pi)}
-    single = sc.gaussian_maximum(**process).mpm.value
-    clumped = sc.gaussian_maximum(**process, bandwidth=0.06 / np.hypot(0.8, 0.06)).mpm.value
+    single = sc.statistics.gaussian_maximum(**process).mpm.value
+    clumped = sc.statistics.gaussian_maximum(**process, bandwidth=0.06 / np.hypot(0.8, 0.06)).mpm.value
     assert single == pytest.approx(3.80, abs=5e-3)
     assert mode == pytest.approx(3.65, abs=0.05)
     assert clumped == pytest.approx(mode, rel=0.015)
-    assert sc.seed_extremes(maxima**2, duration=THREE_HOURS).fit_probability > 0.05
+    assert sc.statistics.seed_extremes(maxima**2, duration=THREE_HOURS).fit_probability > 0.05
 
 
 def test_a_broad_band_agrees_with_its_closed_forms() -> None:
     runs = records(60, BROAD)
-    found = sc.record_extremes(runs[0], dt=STEP)
+    found = sc.statistics.record_extremes(runs[0], dt=STEP)
     rate, width = np.hypot(*BROAD) / (2.0 * np.pi), BROAD[1] / np.hypot(*BROAD)
     assert found.spectrum.crossing_rate == pytest.approx(rate, rel=0.02)
     assert found.crossing_rate == pytest.approx(rate, rel=0.03)
     assert found.spectrum.bandwidth == pytest.approx(width, rel=0.05)
     assert found.significant == pytest.approx(2.0, rel=0.05)
-    mean = sc.gaussian_maximum(std=1.0, rate=rate, bandwidth=width).mean.value
+    mean = sc.statistics.gaussian_maximum(std=1.0, rate=rate, bandwidth=width).mean.value
     assert runs.max(axis=1).mean() == pytest.approx(mean, abs=3.0 * 0.33 / np.sqrt(60))
 
 
 def test_crests_of_a_narrow_band_are_rayleighs() -> None:
-    found = sc.record_extremes(records(8, (0.8, 0.02)).ravel()[: 4 * 21600], dt=STEP)
+    found = sc.statistics.record_extremes(records(8, (0.8, 0.02)).ravel()[: 4 * 21600], dt=STEP)
     levels = np.array([0.5, 1.0, 2.0])
     np.testing.assert_allclose(found.exceedance(levels), np.exp(-0.5 * levels**2), atol=0.03)
     assert abs(found.skewness) < 0.1
@@ -99,7 +99,7 @@ def test_intervals_of_one_gaussian_record_cover_its_level() -> None:
     for values in runs:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            mpm = sc.record_extremes(values, dt=STEP, tail="exponential").gaussian.mpm
+            mpm = sc.statistics.record_extremes(values, dt=STEP, tail="exponential").gaussian.mpm
         inside += mpm.low < true < mpm.high
     assert inside >= 53  # of 60; 57 expected
 
@@ -109,7 +109,7 @@ def test_intervals_of_one_gaussian_record_cover_its_level() -> None:
 
 def test_the_spectrum_of_white_noise_is_flat_within_its_interval() -> None:
     values = np.random.default_rng(2).normal(size=8192)
-    found = sc.spectrum_estimate(values, dt=0.1)
+    found = sc.statistics.spectrum_estimate(values, dt=0.1)
     low, high = found.interval()
     inside = (low < 0.1 / np.pi) & (0.1 / np.pi < high)
     assert inside[2:-1].mean() > 0.9
@@ -121,7 +121,9 @@ def test_the_spectrum_of_white_noise_is_flat_within_its_interval() -> None:
 def test_degrees_of_freedom_of_the_variance() -> None:
     """By the closed form of a Gaussian spectrum: T 2 sqrt(pi) s / pi; and by the scatter over records."""
     runs = records(400)
-    found = np.mean([sc.spectrum_estimate(values, dt=STEP).variance_degrees for values in runs[:10]])
+    found = np.mean(
+        [sc.statistics.spectrum_estimate(values, dt=STEP).variance_degrees for values in runs[:10]]
+    )
     assert found == pytest.approx(THREE_HOURS * 2.0 * 0.06 / np.sqrt(np.pi), rel=0.1)
     assert found == pytest.approx(2.0 / runs.var(axis=1).var(), rel=0.2)
 
@@ -151,7 +153,7 @@ def test_intervals_cover_what_they_say(count: int, number: str, reduced: float) 
     for sample in gumbel(count, 300):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = getattr(sc.seed_extremes(sample, duration=1.0, exposure=6.0).gumbel, number)
+            found = getattr(sc.statistics.seed_extremes(sample, duration=1.0, exposure=6.0).gumbel, number)
         inside.append(found.low < 10.0 + 0.7 * (reduced + np.log(6.0)) < found.high)
     assert np.mean(inside) == pytest.approx(0.95, abs=0.04)
 
@@ -164,14 +166,14 @@ def test_the_scatter_of_the_mode_over_the_number_of_seeds() -> None:
         assert modes.std() == pytest.approx(scatter, rel=0.15)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.PoorFitWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.PoorFitWarning")
 def test_as_many_seeds_as_needed_reach_the_half_width() -> None:
-    few = sc.seed_extremes(gumbel(400, 1)[0], duration=1.0)
+    few = sc.statistics.seed_extremes(gumbel(400, 1)[0], duration=1.0)
     for number in ("mpm", "mean", "p90"):
         needed = few.seeds_needed(0.03, number=number)
         reached = np.median(
             [
-                sc.seed_extremes(one, duration=1.0).relative_half_width(number)
+                sc.statistics.seed_extremes(one, duration=1.0).relative_half_width(number)
                 for one in gumbel(needed, 9, seed=9)
             ]
         )
@@ -180,8 +182,8 @@ def test_as_many_seeds_as_needed_reach_the_half_width() -> None:
 
 def test_another_exposure_is_the_maximum_of_so_many_records() -> None:
     parts = gumbel(6 * 1000, 1)[0]
-    short = sc.seed_extremes(parts, duration=1800.0, exposure=THREE_HOURS)
-    long = sc.seed_extremes(parts.reshape(1000, 6).max(axis=1), duration=THREE_HOURS)
+    short = sc.statistics.seed_extremes(parts, duration=1800.0, exposure=THREE_HOURS)
+    long = sc.statistics.seed_extremes(parts.reshape(1000, 6).max(axis=1), duration=THREE_HOURS)
     for number in ("mpm", "mean", "p90"):
         exact = getattr(long.gumbel, number)
         assert exact.low < getattr(short.gumbel, number).value < exact.high
@@ -189,8 +191,8 @@ def test_another_exposure_is_the_maximum_of_so_many_records() -> None:
 
 
 def test_ranks_bound_nothing_beyond_the_maxima() -> None:
-    with pytest.warns(sc.FewSeedsWarning, match="5 seeds"):
-        found = sc.seed_extremes(gumbel(5, 1)[0], duration=THREE_HOURS)
+    with pytest.warns(sc.warnings.FewSeedsWarning, match="5 seeds"):
+        found = sc.statistics.seed_extremes(gumbel(5, 1)[0], duration=THREE_HOURS)
     assert found.empirical.p90.high == np.inf
     assert found.empirical.mean.low < found.empirical.mean.value < found.empirical.mean.high
     assert "Gumbel" in str(found)
@@ -243,17 +245,17 @@ def test_good_fits_are_accepted_nine_times_of_ten() -> None:
 def test_extremes_of_a_result_and_of_several() -> None:
     runs = [result_of(50.0 + values) for values in records(400)[:12]]
     one = sc.extremes(runs[0], channel="link_tension", exposure=1800.0)
-    assert isinstance(one, sc.RecordExtremes)
+    assert isinstance(one, sc.statistics.RecordExtremes)
     assert one.unit == "N"
     assert one.gaussian.exposure == 1800.0
     assert one.dynamic_factor == pytest.approx(1.0 + 3.2 / 50.0, abs=0.02)
     several = sc.extremes(runs, channel="link_tension", half_width=0.2)
-    assert isinstance(several, sc.SeedExtremes)
+    assert isinstance(several, sc.statistics.SeedExtremes)
     assert several.maxima.max() == max(float(run["link_tension"].max()) for run in runs)
     assert several.dynamic_factor == pytest.approx(several.gumbel.mpm.value / several.static)
     low = sc.extremes(runs, channel="link_tension", smallest=True)
     assert -low.maximum.mpm.value == pytest.approx(5e4 - 3.6e3, rel=0.02)
-    with pytest.warns(sc.FewSeedsWarning, match="about"):
+    with pytest.warns(sc.warnings.FewSeedsWarning, match="about"):
         sc.extremes(runs, channel="link_tension", half_width=0.02)
 
 
@@ -262,11 +264,11 @@ def test_a_start_that_differs_is_named_and_can_be_left_out() -> None:
     assert start_differs(values, 1375.0) is False
     assert start_differs(values[:300], 20.0) is None
     values[:2000] += 3.0 * np.exp(-np.arange(2000) / 700.0)
-    with pytest.warns(sc.StartTransientWarning, match="start="):
+    with pytest.warns(sc.warnings.StartTransientWarning, match="start="):
         sc.extremes(result_of(values), channel="link_tension")
     with warnings.catch_warnings():
-        warnings.simplefilter("error", sc.StartTransientWarning)
-        sc.extremes(result_of(values), channel="link_tension", start=2500.0)
+        warnings.simplefilter("error", sc.warnings.StartTransientWarning)
+        sc.extremes(result_of(values), channel="link_tension", after=2500.0)
 
 
 def test_steady_records_are_seldom_taken_for_a_start() -> None:
@@ -284,41 +286,41 @@ def test_a_sea_that_repeats_is_named() -> None:
 
 
 def test_papers_hold_the_numbers_they_show() -> None:
-    one = sc.record_extremes(records(400)[2], dt=STEP)
+    one = sc.statistics.record_extremes(records(400)[2], dt=STEP)
     sheet = extremes_sheet(one)
     assert sheet.marks["most probable maximum"][0] == one.maximum.mpm.value
     counted, gaussian, *_ = sheet.panels[0].lines
     assert counted.values[0] == pytest.approx(one.crests.size, rel=0.02)
     at_one = np.interp(0.0, -np.log(gaussian.values[:-1]), sheet.abscissa[:-1])
     assert at_one == pytest.approx(one.gaussian.mpm.value, abs=0.02)
-    several = sc.seed_extremes(gumbel(20, 1)[0], duration=1.0)
+    several = sc.statistics.seed_extremes(gumbel(20, 1)[0], duration=1.0)
     fitted = extremes_sheet(several).panels[0].lines[1].values
     assert np.interp(0.0, fitted, several.maxima) == pytest.approx(several.location, abs=1e-9)
-    assert sc.plot_extremes(several).axes
+    assert sc.figures.plot_extremes(several).axes
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: sc.record_extremes(np.ones(100), dt=0.1), "does not vary"),
-        (lambda: sc.record_extremes(np.arange(10.0), dt=0.1), "at least 64"),
-        (lambda: sc.record_extremes(np.arange(100.0), dt=0.1), "crosses its mean"),
-        (lambda: sc.record_extremes([*range(99), np.nan], dt=0.1), "finite"),
-        (lambda: sc.record_extremes(records(400)[0], dt=0.0), "dt=0"),
-        (lambda: sc.record_extremes(records(400)[0], dt=0.5, exposure=-1.0), "exposure=-1"),
-        (lambda: sc.record_extremes(records(400)[0], dt=0.5, tail="weibull"), "weibull"),
-        (lambda: sc.record_extremes(records(400)[0], dt=0.5, threshold=9.0), "threshold=9"),
-        (lambda: sc.spectrum_estimate(records(400)[0], dt=0.5, segments=0), "segments=0"),
-        (lambda: sc.gaussian_maximum(std=1.0, rate=0.1, bandwidth=2.0), "bandwidth=2"),
-        (lambda: sc.seed_extremes([1.0, 2.0], duration=1.0), "at least 3"),
-        (lambda: sc.seed_extremes([1.0, 1.0, 1.0], duration=1.0), "were the seeds different"),
-        (lambda: sc.seed_extremes([1.0, np.inf, 2.0], duration=1.0), "failed seeds"),
-        (lambda: sc.seed_extremes([1.0, 2.0, 3.0], duration=1.0, number="median"), "median"),
-        (lambda: sc.plot_extremes(3), "extremes"),  # type: ignore[arg-type]
+        (lambda: sc.statistics.record_extremes(np.ones(100), dt=0.1), "does not vary"),
+        (lambda: sc.statistics.record_extremes(np.arange(10.0), dt=0.1), "at least 64"),
+        (lambda: sc.statistics.record_extremes(np.arange(100.0), dt=0.1), "crosses its mean"),
+        (lambda: sc.statistics.record_extremes([*range(99), np.nan], dt=0.1), "finite"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.0), "dt=0"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, exposure=-1.0), "exposure=-1"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, tail="weibull"), "weibull"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, threshold=9.0), "threshold=9"),
+        (lambda: sc.statistics.spectrum_estimate(records(400)[0], dt=0.5, segments=0), "segments=0"),
+        (lambda: sc.statistics.gaussian_maximum(std=1.0, rate=0.1, bandwidth=2.0), "bandwidth=2"),
+        (lambda: sc.statistics.seed_extremes([1.0, 2.0], duration=1.0), "at least 3"),
+        (lambda: sc.statistics.seed_extremes([1.0, 1.0, 1.0], duration=1.0), "were the seeds different"),
+        (lambda: sc.statistics.seed_extremes([1.0, np.inf, 2.0], duration=1.0), "failed seeds"),
+        (lambda: sc.statistics.seed_extremes([1.0, 2.0, 3.0], duration=1.0, number="median"), "median"),
+        (lambda: sc.figures.plot_extremes(3), "extremes"),  # type: ignore[arg-type]
         (lambda: sc.extremes(3, channel="time"), "Result"),  # type: ignore[arg-type]
         (lambda: sc.extremes([], channel="time"), "none is given"),
         (lambda: sc.extremes(result_of(records(400)[0]), channel="hook"), "link_tension"),
-        (lambda: sc.extremes(result_of(records(400)[0]), channel="link_tension", start=1e5), "64"),
+        (lambda: sc.extremes(result_of(records(400)[0]), channel="link_tension", after=1e5), "64"),
     ],
 )
 def test_bad_input_is_named(call: Any, words: str) -> None:

@@ -32,7 +32,9 @@ def test_its_order_is_four_in_stiff_directions(formulation: str) -> None:
     scene = moved(spool_lag=0.02)
     truth = end_of(scene, rtol=1e-11, formulation=formulation)
     errors = [
-        np.linalg.norm(end_of(scene, rtol=0.1, max_step=h, integrator=STIFF, formulation=formulation) - truth)
+        np.linalg.norm(
+            end_of(scene, rtol=0.1, maximum_step=h, integrator=STIFF, formulation=formulation) - truth
+        )
         for h in (2e-3, 1e-3, 5e-4)
     ]
     slopes = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))

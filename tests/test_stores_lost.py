@@ -18,10 +18,12 @@ from ensemble_studies import KEEP, SWING, lowest, pendulum
 from killed_stores import KINDS, STORMS
 from test_study_files import LIFT, STUDY
 
-from seacrane import Ensemble, FileFormatError, LostMembersWarning, SceneError, ensemble
+from seacrane import FileFormatError, SceneError, ensemble
+from seacrane.ensembles import Ensemble
 from seacrane.files.atomic import atomic_write
 from seacrane.files.drafts import draft_of
 from seacrane.study_files.study_run import run_study
+from seacrane.warnings import LostMembersWarning
 
 zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
 
@@ -294,7 +296,7 @@ def test_kills_at_hundreds_of_file_operations_are_made_good(kind: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["s", "s.zarr"])
-@pytest.mark.filterwarnings("ignore::seacrane.FewSeedsWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.FewSeedsWarning")
 def test_lost_members_of_a_store_that_grows_are_run_again(name: str, tmp_path: Path) -> None:
     store = tmp_path / name
     plain = ensemble(**STORMS)

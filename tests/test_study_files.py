@@ -20,9 +20,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Ensemble, FileFormatError, Kept, Lift, SceneError, WorkerVersionError, ensemble
+from seacrane import FileFormatError, Kept, Lift, SceneError, ensemble
 from seacrane.cli.command_line import main
-from seacrane.hydro import shipped_database
+from seacrane.ensembles import Ensemble
+from seacrane.errors import WorkerVersionError
 from seacrane.lift.schema import schema_path
 from seacrane.study_files.schema import study_schema, study_schema_text
 from seacrane.study_files.shown_study import shown_study
@@ -30,7 +31,7 @@ from seacrane.study_files.study_file import StudyFile
 from seacrane.study_files.study_run import MEMBERS, run_study
 
 LIFT = """format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"
@@ -43,7 +44,7 @@ tp_s = 8
 count = 20
 """
 STUDY = """format = "seacrane study"
-version = 1
+version = 2
 lift = "ship.toml"
 
 [over]
@@ -54,14 +55,14 @@ hs = [1, 2.0]
 name = "heave"
 channel = "position"
 what = "maximum"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [[keep]]
 name = "deepest"
 channel = "position"
 what = "minimum"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [until]
@@ -71,7 +72,7 @@ heave.mpm = 0.25
 t_end_s = 8
 
 [method]
-tolerance = 1e-2
+rtol = 1e-2
 """
 
 
@@ -101,7 +102,6 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
         over={"seed": range(1, 41), "hs": [1, 2.0]},
         keep={"heave": Kept(what="maximum", **place), "deepest": Kept(what="minimum", **place)},
         until={"heave.mpm": 0.25},
-        database=shipped_database(),
         t_end=8.0,
         rtol=1e-2,
     )
@@ -238,7 +238,7 @@ def test_the_folder_of_another_study_is_refused(
 
 def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
     tables = (
-        LIFT.split("version = 1\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
+        LIFT.split("version = 2\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
     )
     study.write_text(STUDY.replace('lift = "ship.toml"\n', "") + tables)
     again = run_study(study, ran)
@@ -249,7 +249,7 @@ def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
     ("old", "new", "message"),
     [
         ("seacrane study", "seacrane studio", "names another format, no study file"),
-        ("version = 1", "version = 2", "heave.toml line 2: version is 2"),
+        ("version = 2", "version = 3", "heave.toml line 2: version is 3"),
         ('lift = "ship.toml"', "", "a study has a lift"),
         ("ship.toml", "shop.toml", r"heave.toml line 3: lift is 'shop.toml': there is no file .*shop.toml"),
         ("[over]", "[ovr]", r"line 5: ovr is unknown in a study; nearest: over"),

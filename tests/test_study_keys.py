@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Ensemble, FileFormatError, Lift, SceneError, simulate
+from seacrane import FileFormatError, Lift, SceneError, simulate
 from seacrane.cli.command_line import main
+from seacrane.ensembles import Ensemble
 from seacrane.lift.lift import LIFTS
 from seacrane.study_files.lift_keys import KeyPlace, keys_in, with_keys
 from seacrane.study_files.study_file import StudyFile
 from seacrane.study_files.study_run import MEMBERS, run_study
 
 BALANCED = """format = "seacrane lift"
-version = 1
+version = 2
 
 [vessel]
 database = "hull_115"
@@ -38,10 +39,10 @@ body = "vessel"
 
 [method]
 integrator = "dopri5"
-tolerance = 1e-3
+rtol = 1e-3
 """
 STUDY = """format = "seacrane study"
-version = 1
+version = 2
 lift = "held.toml"
 
 [over]
@@ -51,14 +52,14 @@ seed = [7, 8]
 [[keep]]
 name = "heave"
 channel = "position"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 what = "mean"
 
 [run]
 t_end_s = 2
 """
 SWING = """format = "seacrane study"
-version = 1
+version = 2
 
 [lift.body]
 name = "bob"
@@ -76,7 +77,7 @@ axis = [0, 1, 0]
 
 [lift.method]
 integrator = "rk4"
-step_s = 0.1
+dt_s = 0.1
 
 [over]
 body.position_m.1 = [1, 1.5]
@@ -87,7 +88,7 @@ position = 1e-3
 [[keep]]
 name = "lowest"
 channel = "position"
-at = { body = "bob", axis = "z" }
+names = { body = "bob", axis = "z" }
 what = "minimum"
 
 [run]
@@ -163,11 +164,11 @@ def test_paths_go_by_names_numbers_and_units() -> None:
         ("payload.mass_kg", "payload.mas_kg", "line 6: .*nearest: 'crane.payload.mass_kg'"),
         ("payload.mass_kg", "payload.mass_t", "line 6: .*nearest: 'crane.payload.mass_kg'"),
         ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
-        ("crane.payload.mass_kg = [20e3, 100e3]", "method.step_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
+        ("crane.payload.mass_kg = [20e3, 100e3]", "method.dt_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
         ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: quantity 'heve' is unknown"),
         ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
         ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
-        ("[run]", "[method]\ntolerance = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
+        ("[run]", "[method]\nrtol = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
     ],
 )  # fmt: skip
 def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:

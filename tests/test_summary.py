@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,18 +11,9 @@ import pytest
 from line_scenes import hung
 from test_result import crane_run, vessel_result
 
-from seacrane import (
-    FileFormatError,
-    Frame,
-    Result,
-    Scene,
-    SceneError,
-    cases,
-    plot_summary,
-    simulate,
-    statics,
-    summary,
-)
+from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, simulate, statics, summary
+from seacrane.figures import plot_summary
+from seacrane.result import About
 
 G = 9.80665
 MASS, LENGTH = 2000.0, 5.0
@@ -64,7 +56,10 @@ def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
 
 def test_numbers_are_those_of_the_part_asked_for(swinging: Result) -> None:
     part = (swinging.time >= 3.0) & (swinging.time <= 11.0)
-    values, row = swinging["link_tension"][part] / 1e3, summary(swinging, start=3.0, end=11.0)["link tension"]
+    values, row = (
+        swinging["link_tension"][part] / 1e3,
+        summary(swinging, after=3.0, before=11.0)["link tension"],
+    )
     assert (row.mean, row.std) == pytest.approx((values.mean(), values.std()), rel=1e-12)
     assert (row.minimum, row.maximum) == (values.min(), values.max())
     assert row.maximum_at == swinging.time[part][values.argmax()]
@@ -92,7 +87,7 @@ def test_no_static_load_is_made_up() -> None:
 
 def test_a_starred_value_is_that_at_the_start_asked_for(swinging: Result) -> None:
     """Not of the run: what happened before does not matter to the part."""
-    row = summary(swinging, start=3.05)["load offset x"]
+    row = summary(swinging, after=3.05)["load offset x"]
     first = int(np.argmax(swinging.time >= 3.05))
     assert not row.static_known
     assert row.static == pytest.approx(swinging["position"][first, 0, 0], rel=1e-9)
@@ -114,13 +109,13 @@ def test_a_record_too_short_and_a_transient_are_told() -> None:
     run: dict[str, Any] = crane_run(t_end=60.0)
     steady = 1e5 + 5e3 * np.sin(2.0 * np.pi * run["time"] / 8.0)
     run["arrays"] = {"link_tension": steady.copy()}
-    run["stats"] = {**run["stats"], "settings": {"tp": 8.0, "hs": 2.0}}
+    run["about"] = About(settings={"tp": 8.0, "hs": 2.0})
     (short,) = summary(Result.from_arrays(**run)).remarks
     assert short.startswith("Too short") and "60 s are 8 peak periods" in short and "800 s" in short
     run["arrays"] = {"link_tension": steady + 4e4 * np.exp(-run["time"] / 5.0)}
     result = Result.from_arrays(**run)
     assert any("transient or a move is inside: link tension" in text for text in summary(result).remarks)
-    assert not any("transient" in text for text in summary(result, start=25.0).remarks)
+    assert not any("transient" in text for text in summary(result, after=25.0).remarks)
 
 
 def test_static_values_come_from_statics() -> None:
@@ -129,7 +124,7 @@ def test_static_values_come_from_statics() -> None:
     result = simulate(scene, t_end=55.0)
     pose = {"slew": -np.pi / 2, "coordinates": {"main": 2.0, "knuckle": 2.0}}
     known = statics(scene, **pose)
-    told = summary(result, start=50.0, static=known)
+    told = summary(result, after=50.0, static=known)
     main = told["cylinder force main"]
     assert main.static_known and main.static == pytest.approx(known["cylinder force main"].item())
     assert main.factor == pytest.approx(main.maximum / main.static) and 1.0 < main.factor < 1.3
@@ -141,19 +136,23 @@ def test_static_values_come_from_statics() -> None:
         summary(result, static={})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("note", ["hanging_weight", "cranes", "outline", "settings"])
-def test_notes_that_no_run_writes_are_refused_by_name(note: str, swinging: Result) -> None:
-    broken = Result(
-        time=swinging.time, channels=swinging.channels, coords=swinging.coords,
-        stats={**swinging.stats, note: "[5"},
-    )  # fmt: skip
+BROKEN: list[dict[str, Any]] = [
+    {"hanging_weight": 5},
+    {"cranes": [5]},
+    {"outline": {"links": [5]}},
+]
+
+
+@pytest.mark.parametrize("notes", BROKEN)
+def test_notes_that_no_run_writes_are_refused_by_name(notes: dict[str, Any], swinging: Result) -> None:
+    broken = replace(swinging, about=replace(swinging.about, **notes))
     with pytest.raises(FileFormatError, match="notes are none that a run writes"):
         summary(broken)
 
 
 def test_what_makes_no_summary_is_refused() -> None:
     result = vessel_result(t_end=5.0)
-    for wrong in ({"start": 6.0}, {"start": 3.0, "end": 2.0}):
+    for wrong in ({"after": 6.0}, {"after": 3.0, "before": 2.0}):
         with pytest.raises(SceneError, match=r"no output is between .* the result has 0 to 5 s"):
             summary(result, **wrong)
     with pytest.raises(SceneError, match="result is a Scene"):
@@ -169,7 +168,7 @@ def test_the_picture_holds_what_the_table_holds(swinging: Result) -> None:
         plot_summary(Result.from_arrays(**run))
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")
 def test_lines_and_leads_are_told() -> None:
     told = summary(simulate(hung(stretch=0.05), t_end=5.0))
     lifted = told["line tension hoist"]

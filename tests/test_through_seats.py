@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Curve, Result, Scene, ThroughSeatWarning, simulate
+from seacrane import Curve, Result, Scene, simulate
+from seacrane.warnings import ThroughSeatWarning
 
 HEAVE, OMEGA, DECK = 0.8, 0.8, 2.0
 INERTIA = 5e4  # of 30 t: half a diagonal of 2.7 m
@@ -24,7 +25,7 @@ def lifted(rate: float = -0.05, heave: float = HEAVE, aside: float = 0.0) -> Sce
     scene.add_body(name="load", mass=30e3, inertia=(INERTIA,) * 3, position=(0, 0, DECK))
     scene.add_joint(kind="weld", name="on deck", first="barge", second="load")
     scene.add_seat(joint="on deck")
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], stiffness=1e8,
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], EA=1e8,
                    length=38.1)  # fmt: skip
     scene.add_winch(line="hoist", lag=0.2, rate=rate)
     if aside:

@@ -10,16 +10,16 @@ from line_scenes import MASS, G, hung, swinging
 from stage_scenes import on_deck
 from test_stages import falling
 
-from seacrane import Result, Scene, Stage, StagedRun, State, Until, simulate, simulate_stages
+from seacrane import Result, Scene, Stage, State, Until, simulate, simulate_stages
 from seacrane.cli import main
 from seacrane.cli.run_command import told
 from seacrane.run.outputs import Outputs
 from seacrane.run.to_file import simulate_to_file
-from seacrane.stages import locate
+from seacrane.stages import StagedRun, locate
 from seacrane.stages.to_file import simulate_stages_to_file
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-AT_ONCE = Stage(name="look", until=Until.length("hoist", above=1.0), longest=5.0)
+AT_ONCE = Stage(name="look", until=Until.length("hoist", minimum=1.0), maximum_duration=5.0)
 
 
 def weak() -> Scene:
@@ -68,7 +68,7 @@ def test_a_summary_that_fails_does_not_lose_the_run(
 @pytest.mark.parametrize("channels", [None, [], ["energy_balance"]])
 @pytest.mark.parametrize("make", [weak, falling, on_deck, swinging])
 def test_every_run_is_told(make: Any, channels: list[str] | None, end: float) -> None:
-    result = simulate(make(), end, outputs=Outputs(dt=0.1, channels=channels))
+    result = simulate(make(), end, outputs=Outputs(dt_out=0.1, channels=channels))
     assert told(result).startswith(f"{result.stats['scene']}: {end:g} s in")
 
 
@@ -94,8 +94,8 @@ def test_ctrl_c_before_anything_was_stepped_leaves_the_start(monkeypatch: pytest
         raise KeyboardInterrupt
 
     monkeypatch.setattr(locate.Course, "tried", pressed)
-    raising = Until.length("hoist", below=20.05)
-    stage = Stage(name="raise", until=raising, longest=5.0, commands={"hoist.rate": -0.4})
+    raising = Until.length("hoist", maximum=20.05)
+    stage = Stage(name="raise", until=raising, maximum_duration=5.0, commands={"hoist.rate": -0.4})
     run = StagedRun(on_deck(), [stage])
     assert not run.advance()
     assert run.result().interrupted

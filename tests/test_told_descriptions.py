@@ -13,27 +13,17 @@ import pytest
 from mistaken_units import raos, record
 
 import seacrane
-from seacrane import (
-    NoisyMotionWarning,
-    RaoPhaseWarning,
-    Scene,
-    SceneError,
-    SeaState,
-    Stage,
-    UnitWarning,
-    WaveSystem,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Scene, SceneError, SeaState, Stage, WaveSystem, simulate, simulate_stages
 from seacrane.hydro import load_database, shipped_database
 from seacrane.sea import jonswap
+from seacrane.warnings import NoisyMotionWarning, RaoPhaseWarning, UnitWarning
 
 
 def told_twice() -> Scene:
     """A ship whose heading and sea both look like radians; both warnings come before anything runs."""
     scene = Scene(name="told twice")
     scene.add_vessel(shipped_database(), heading_deg=np.pi / 4)
-    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, count=20, direction_deg=np.pi * 3 / 4)
+    scene.add_sea(hs=1.0, tp=8.0, count=20, direction_deg=np.pi * 3 / 4)
     return scene
 
 
@@ -57,7 +47,7 @@ def test_a_report_lists_the_warnings_of_the_description(tmp_path) -> None:
 def test_what_a_run_warns_of_at_its_start_is_listed_too() -> None:
     scene = Scene(name="slow winch")
     scene.add_body(name="load", mass=2e4, inertia=[3e4] * 3, position=(0, 0, -15))
-    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7,
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7,
                    tension_at_start=2e4 * scene.gravity)  # fmt: skip
     scene.add_winch(line="wire", lag=200.0)
     result = quietly(lambda: simulate(scene, t_end=0.1))
@@ -116,7 +106,7 @@ def test_a_sea_that_cannot_be_is_a_scene_error(sea: dict[str, Any], words: str) 
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="none")
     with pytest.raises(SceneError, match=words):
-        scene.add_sea(shipped_database(), **sea)
+        scene.add_sea(**sea)
     assert scene.waves is None
 
 
@@ -126,7 +116,7 @@ def test_a_peak_period_in_another_unit_is_told(tp: float) -> None:
     scene.add_vessel(shipped_database(), memory="none")
     with pytest.warns(UnitWarning, match="sea: tp is"):
         quiet = {"hs": 1e-6, "count": 5}
-        scene.add_sea(shipped_database(), tp=tp, **quiet)
+        scene.add_sea(tp=tp, **quiet)
 
 
 @pytest.mark.parametrize("noise", [5e-3, 2e-3])
@@ -175,7 +165,7 @@ def test_a_database_with_loads_of_the_other_sign_is_told() -> None:
     lagging = replace(database, force=np.conj(database.force))
     scene.add_vessel(lagging, memory="none")
     with pytest.warns(RaoPhaseWarning, match=r"by its wave loads, .*complex conjugate"):
-        scene.add_sea(lagging, hs=1.0, tp=8.0, count=5)
+        scene.add_sea(hs=1.0, tp=8.0, count=5)
 
 
 @pytest.mark.parametrize("name", ["wamit/tanker.out", "wamit_fpso/fpso.out", "veres/supply/input.hyd"])

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Method, Run, Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane import Method, Run, Scene, SceneError, cases, integrator_names, simulate, trade
 from seacrane._core import Integrator, integrators
+from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import compare, quantities_of
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import measured as measured_row
 from seacrane.experiment.reference import Reference
 from seacrane.experiment.row import Row
 from seacrane.experiment.row_file import RowFile
-from seacrane.hydro import shipped_database
 from seacrane.inputs.checked import curve_of
 from seacrane.trading import measure, methods, rungs, study
 
@@ -56,7 +56,7 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
 
 def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
     row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.step)
+    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)
     tight = simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
     distance = np.linalg.norm(
         run.select("position", body="payload") - tight.select("position", body="payload"), axis=-1
@@ -187,7 +187,7 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
 
 def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) -> None:
     case = Case(scene=case2, t_end=1.0, dt_out=0.1)
-    method = Method(formulation="recursive", integrator="ida", tolerance=1e-3)
+    method = Method(formulation="recursive", integrator="ida", rtol=1e-3)
     done = measured_row(
         case, method, quantities_of(case2, case.model, ["roll"]), Reference(), Row(case={}, method=method)
     )
@@ -211,7 +211,7 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
-    chosen = [Method(integrator="rk4", step=0.01), Method(integrator="not-yet", tolerance=1e-3)]
+    chosen = [Method(integrator="rk4", dt=0.01), Method(integrator="not-yet", rtol=1e-3)]
     rows = trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
     assert [row.method for row in rows] == chosen
     assert rows[0].stable and not rows[1].stable
@@ -219,17 +219,16 @@ def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_i
 
 
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
-    database = shipped_database()
-    names = [v.memory for v in rungs.variants(case2, database, quick=False) if v.memory.startswith("passive")]
+    names = [v.memory for v in rungs.variants(case2, quick=False) if v.memory.startswith("passive")]
     assert names == [f"passive r2={r2:g}" for r2 in rungs.R2_LEVELS.all]
-    scenes = [rungs.with_memory(case2, "passive", database, level=r2) for r2 in (0.9, 0.99)]
+    scenes = [rungs.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
     assert [rungs.full_memory_name(s, "passive r2=0.9") for s in scenes] == ["passive:12", "passive:20"]
     assert [s.compile().memory_states for s in scenes] == [12, 20]
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
     built = cases.case2(memory="passive")
-    changed = rungs.with_memory(case2, "passive", shipped_database())
+    changed = rungs.with_memory(case2, "passive")
     mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
                "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
     changed.replace("vessel", kind="vessel", **mooring)
@@ -260,7 +259,7 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
     bench = measure.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
-    method = Method(integrator="dop853", tolerance=1e-9)
+    method = Method(integrator="dop853", rtol=1e-9)
     done = measure.measure(bench, Row(case={"rung": rungs.WEIGHT}, method=method))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0

@@ -54,7 +54,7 @@ def word(rng: np.random.Generator, *, t_end: float) -> Word:
     while True:
         scene = random_kinked(rng)
         truth, other = (
-            np.asarray(simulate(scene, integrator=name, rtol=1e-11, max_step=0.05, **span)["position"])
+            np.asarray(simulate(scene, integrator=name, rtol=1e-11, maximum_step=0.05, **span)["position"])
             for name in ("dop853", "verner76")
         )
         size = max(float(np.abs(truth - truth[0]).max()), 0.01)
@@ -107,7 +107,7 @@ def four_bar_error(limit: float) -> tuple[float, float]:
     return float(error), float(result.stats["error_estimate_position"])
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.NearSingularWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.NearSingularWarning")
 def test_errors_that_are_alike_by_chance_do_not_hide_each_other() -> None:
     """The errors of tsit5 at 3e-4 and 3e-5 are alike here: their difference tells a third of them."""
     for limit in (1e-2, 1e-3, 1e-4):
@@ -115,7 +115,7 @@ def test_errors_that_are_alike_by_chance_do_not_hide_each_other() -> None:
         assert error <= estimate <= limit, (error, estimate, limit)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.NearSingularWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.NearSingularWarning")
 def test_what_a_singular_position_costs_is_told_and_not_promised_away() -> None:
     """Rows left out there shift the motion by 1e-7 m at every tolerance alike, so that runs agree."""
     with pytest.raises(

@@ -11,7 +11,7 @@ from seacrane import Scene, SceneError, simulate, trade
 from seacrane.trading.line_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 
 
-def hung(stretch: str) -> Scene:
+def hung(rung: str) -> Scene:
     """2 t that swing on 8 m of stiff line below an arm that is not at the origin."""
     scene = Scene(name="pendulum")
     scene.add_body(name="arm", mass=5e3, inertia=(50, 50, 50), position=(1, 2, 3), quaternion=(0, 0, 0, 1))
@@ -20,23 +20,23 @@ def hung(stretch: str) -> Scene:
     place = np.array([1.0, 2.0, 3.0]) + 8.0 * np.array([np.sin(0.3), 0.0, -np.cos(0.3)]) + (0.5, 0, 0)
     scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
     scene.add_line(
-        name="hoist", bodies=["arm", "load"], points=[(-0.5, 0, 0), (0, 0, 0)], stiffness=1e10,
-        length=8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), stretch=stretch,
+        name="hoist", bodies=["arm", "load"], points=[(-0.5, 0, 0), (0, 0, 0)], EA=1e10,
+        length=8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), rung=rung,
     )  # fmt: skip
     return scene
 
 
 @pytest.mark.parametrize(
-    ("stretch", "others"), [("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]),
+    ("rung", "others"), [("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]),
                             ("quasi-static", (RIGID_LINES, LINE_RUNGS[2]))],
 )  # fmt: skip
-def test_the_rungs_that_a_scene_does_not_have_are_tried(stretch: str, others: tuple[str, ...]) -> None:
-    made = {name: build() for name, build in line_variants(hung(stretch))}
+def test_the_rungs_that_a_scene_does_not_have_are_tried(rung: str, others: tuple[str, ...]) -> None:
+    made = {name: build() for name, build in line_variants(hung(rung))}
     assert tuple(made) == others
     assert not made[RIGID_LINES].loads.keys() & {"hoist"}
     assert made[RIGID_LINES].joints["hoist"].length == pytest.approx(8.0, rel=1e-12)
     own = made[others[1]].loads["hoist"]
-    assert f"lines {own.stretch}" == others[1]
+    assert f"lines {own.rung}" == others[1]
     scene = Scene(name="without")
     assert not list(line_variants(scene))
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from random_scenes import moving
 from test_formulations import Comparison
 
-from seacrane import Curve, Evaluator, Run, Scene, cases, simulate
+from seacrane import Curve, Run, Scene, cases, simulate
+from seacrane.analysis import Evaluator
 
 Array = NDArray[np.float64]
 ROD = np.diag([0.3, 0.3, 0.02])  # about z

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 
 import pytest
 from message_sites import CPP, LITERAL, PYTHON, ROOT, classes_of, stops_of_cpp, stops_of_python
+
+import seacrane.warnings
 
 PAGE = (ROOT / "docs" / "troubleshooting.md").read_text()
 STOPS = PAGE.split("## A run that stops")[1].split("\n## ")[0]
@@ -17,6 +20,11 @@ def fragments() -> list[str]:
     return [word for paragraph in paragraphs for word in re.findall(r"`([^`]+)`", paragraph)]
 
 
+WARNINGS = {
+    one.__name__: one
+    for one in vars(seacrane.warnings).values()
+    if isinstance(one, type) and not one.__subclasses__()
+}
 SITES = {**stops_of_cpp(), **stops_of_python()}
 
 
@@ -27,7 +35,7 @@ def test_the_sources_are_read() -> None:
                   "XYZ angles are singular", "Newton's iteration", "stands still"):  # fmt: skip
         assert known in words
     assert len(SITES) >= 30
-    assert len(classes_of("UserWarning", "Warning")) >= 28
+    assert classes_of("UserWarning", "Warning") >= set(WARNINGS)
 
 
 @pytest.mark.parametrize("site", SITES)
@@ -37,19 +45,26 @@ def test_every_stop_of_a_run_has_an_entry(site: str) -> None:
 
 @pytest.mark.parametrize("fragment", fragments())
 def test_every_message_on_the_page_is_one_of_the_package(fragment: str) -> None:
-    reports = [CPP / "run" / "guards.cpp", PYTHON / "run" / "step_advice.py"]
+    reports = [CPP / "run" / "guards.cpp", PYTHON / "run" / "advance.py"]
     words = [*SITES.values(), *("".join(LITERAL.findall(path.read_text())) for path in reports)]
     assert any(fragment in text for text in words)
 
 
-@pytest.mark.parametrize("name", sorted(classes_of("UserWarning", "Warning")))
+@pytest.mark.parametrize("name", sorted(WARNINGS))
 def test_every_warning_has_an_entry(name: str) -> None:
-    assert f"\n### {name}\n" in PAGE
+    assert f"\n| `{name}` | " in PAGE
 
 
-@pytest.mark.parametrize("name", re.findall(r"\n### (\w+Warning)\n", PAGE))
+@pytest.mark.parametrize("name", re.findall(r"\n\| `(\w+Warning)` \| ", PAGE))
 def test_every_entry_of_a_warning_is_one_of_the_package(name: str) -> None:
-    assert name in classes_of("UserWarning", "Warning")
+    assert name in WARNINGS
+
+
+@pytest.mark.parametrize("name", sorted(WARNINGS))
+def test_an_entry_of_a_warning_says_when_it_comes_and_what_to_do(name: str) -> None:
+    when, *then = inspect.cleandoc(WARNINGS[name].__doc__ or "").split("\n\n")
+    assert when.endswith(".") and len(then) == 1 and then[0].endswith(".")
+    assert issubclass(WARNINGS[name], seacrane.warnings.SeacraneWarning)
 
 
 @pytest.mark.parametrize("name", sorted(classes_of("SeacraneError")))

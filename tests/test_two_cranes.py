@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -178,12 +179,14 @@ def test_a_file_without_roles_takes_those_of_the_papers_names(tmp_path: Path) ->
     }  # fmt: skip
     (tmp_path / "old.json").write_text(json.dumps(data))
     old = Scene.load(tmp_path / "old.json")
+    assert not old.roles[""].held
+    old.roles[""] = replace(old.roles[""], held=True)
     assert old == scene
     assert old.notes == {"mine": "kept"}
     assert old.provenance["vessel"].memory == "passive"
     result = simulate(old, t_end=0.2)
     assert {"slew_angle", "stroke", "cylinder_force", "link_tension"} <= set(result)
-    settings = json.loads(str(result.stats["settings"]))
+    settings = result.settings
     assert settings["hs"] == 2.0 and settings["memory"] == "passive" and settings["notes"] == old.notes
 
 

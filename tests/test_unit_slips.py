@@ -89,7 +89,7 @@ def test_values_that_are_meant_as_none_are_no_slips() -> None:
     """A bound of 1e7 is none, whether it was written or left out."""
     scene = Scene(name="bounds")
     scene.add_body(name="load", mass=2e4, inertia=[3e4] * 3, position=(0, 0, -15))
-    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=5e7,
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7,
                    tension_at_start=2e4 * scene.gravity)  # fmt: skip
     scene.add_winch(line="wire", maximum_rate=1e7, maximum_acceleration=1e7, lag=0.2, maximum_tension=1e12)
     with warnings.catch_warnings():

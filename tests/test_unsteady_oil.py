@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, raised
 
-from seacrane import Curve, Scene, Stage, UnsteadyOilWarning, simulate, simulate_stages
+from seacrane import Curve, Scene, Stage, simulate, simulate_stages
 from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
+from seacrane.warnings import UnsteadyOilWarning
 
 SETTINGS: dict[str, Any] = {"viscous_friction": 2e3, "spool_lag": 1e-3, "reference": START + 0.005}
 
@@ -79,7 +80,7 @@ def test_a_crane_that_loses_its_load_and_comes_to_rest_is_no_fault_of_its_gain()
         position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
     )  # fmt: skip
     scene.add_line(
-        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e9,
+        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e9,
         tension_at_start=mass * scene.gravity,
     )  # fmt: skip
     scene.hold_pressures()

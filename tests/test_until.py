@@ -11,21 +11,15 @@ import numpy as np
 import pytest
 from ensemble_studies import bad_storm, lowest, storm, storm_that_kills, storm_that_parts
 
-from seacrane import (
-    Ensemble,
-    FailedSeedsWarning,
-    FewSeedsWarning,
-    Kept,
-    SceneError,
-    SimulationError,
-    ensemble,
-    seed_extremes,
-)
+from seacrane import Kept, SceneError, SimulationError, ensemble
+from seacrane.ensembles import Ensemble
 from seacrane.ensembles.growing import BATCH
 from seacrane.ensembles.targets import WIDENED, Target
+from seacrane.statistics import seed_extremes
+from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
 
 RUN: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
-REACH = Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})
+REACH = Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})
 KEEP = {"reach": REACH}
 OVER = {"height": [0.4, 1.0], "seed": range(1, 401)}
 UNTIL = {"reach.mpm": 0.06}
@@ -230,8 +224,8 @@ def test_intervals_cover_after_stopping(number: str) -> None:
 def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
     keep = {
         "reach": REACH,
-        "drift": Kept(channel="position", what="mean", at={"body": "bob", "axis": "x"}),
-        "track": Kept(channel="position", at={"body": "bob", "axis": "x"}),
+        "drift": Kept(channel="position", what="mean", names={"body": "bob", "axis": "x"}),
+        "track": Kept(channel="position", names={"body": "bob", "axis": "x"}),
         "all": Kept(channel="position", what="maximum"),
     }
     usual: dict[str, Any] = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Scene, SceneError, simulate
-from seacrane.crane import JointedCrane, Payload, UrdfWarning, load_crane
+from seacrane.crane import JointedCrane, Payload, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.errors import FileFormatError
 from seacrane.viewer.bodies import looks
+from seacrane.warnings import UrdfWarning
 
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
 BESIDE = (SHIPPED / "service_arm_5t.toml").read_text(encoding="utf-8")

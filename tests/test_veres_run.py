@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from test_vessel import complex_amplitude, impedance, regular_wave
 
 from seacrane import Scene, cases, load_database, simulate
-from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, fit_memory, vessel_parameters
+from seacrane.hydro import HydroDatabase, fit_memory, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
+from seacrane.warnings import InfiniteFrequencyWarning
 
 Complex = NDArray[np.complex128]
 AMPLITUDE = 1e-4  # m: adrift the heading wanders in proportion

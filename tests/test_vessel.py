@@ -9,14 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, HullLoads, Result, Scene, State, Waves, _core, simulate
-from seacrane.hydro import (
-    HydroDatabase,
-    RollDampingWarning,
-    rigid_mass_matrix,
-    shipped_database,
-    vessel_parameters,
-)
+from seacrane import Curve, Result, Scene, State, _core, simulate
+from seacrane.hydro import HydroDatabase, rigid_mass_matrix, shipped_database, vessel_parameters
+from seacrane.scene import HullLoads, Waves
+from seacrane.warnings import RollDampingWarning
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -17,12 +17,13 @@ import pytest
 from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
-from seacrane import Result, Scene, SceneError, View, cases, simulate, view
+from seacrane import Result, Scene, SceneError, cases, simulate, view
 from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
+from seacrane.viewer import View
 from seacrane.viewer.bodies import looks
 from seacrane.viewer.drawing import drawing_of
 from seacrane.viewer.hull_shapes import schematic_size
@@ -101,7 +102,7 @@ def test_a_snatch_asks_for_more_frames() -> None:
     )
     scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0, 0, 0),
                     second_point=(0, 0, -0.5), length=1.0)  # fmt: skip
-    scene.add_wire(joint="wire", restitution=0.5)
+    scene.add_line(joint="wire", rung="rigid", restitution=0.5)
     coarse = motion_of(simulate(scene, 3.0, dt_out=0.05))
     assert coarse.interval == pytest.approx(0.1)
     assert coarse.error[0] > 0.0
@@ -246,7 +247,7 @@ def test_a_hull_of_too_many_panels_is_refused(monkeypatch: pytest.MonkeyPatch) -
 def test_only_wires_go_slack() -> None:
     scene = cases.case2()
     assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0
-    scene.add_wire(joint="link")
+    scene.add_line(joint="link", rung="rigid")
     scene.add_spring(
         name="tugger", first="vessel", second="payload", lengths=[0.0, 5.0, 9.0], forces=[0.0, 0.0, 1e5]
     )

@@ -13,7 +13,8 @@ import pytest
 import view_scenes
 from view_scenes import HTML_NAME, angle_between, case2, pair, thrown
 
-from seacrane import View, cases, view
+from seacrane import cases, view
+from seacrane.viewer import View
 
 SHOWN = (
     "case2",  # the one page that `make test` looks at

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from seacrane import Scene, simulate, view
-from seacrane.figures import overview_sheet
+from seacrane.figures.overview import overview_sheet
 from seacrane.viewer.bodies import looks
 from seacrane.viewer.shapes import BoxShape
 
@@ -25,7 +25,7 @@ def lifted(falls: int) -> Scene:
     scene.add_joint(kind="weld", name="on deck", first="vessel", second="load")
     ends = [jib, "load"] * falls, [head, (0.0, 0.0, 1.5)] * falls
     scene.add_line(
-        name="hoist", bodies=ends[0][: falls + 1], points=ends[1][: falls + 1], stiffness=1e8,
+        name="hoist", bodies=ends[0][: falls + 1], points=ends[1][: falls + 1], EA=1e8,
         length=13.5 * falls,
     )  # fmt: skip
     return scene

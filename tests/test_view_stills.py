@@ -13,14 +13,13 @@ import pytest
 from PIL import Image
 from view_scenes import alone, case2, pair, thrown
 
-from seacrane import Scene, SceneError, cases, simulate, still, video
+from seacrane import Scene, SceneError, cases, simulate
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.viewer import still, video
 from seacrane.viewer.camera import MARGIN, OPENING, WHOLE, camera_of
 from seacrane.viewer.drawing import Drawing, drawing_of
-from seacrane.viewer.hanging import wire_line
 from seacrane.viewer.sea import sea_components
-from seacrane.viewer.sea_surface import sea_surface
-from seacrane.viewer.stage import Stage
+from seacrane.viewer.stage import Stage, sea_surface, wire_line
 
 SIZE = (480, 300)
 

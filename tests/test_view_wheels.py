@@ -39,8 +39,8 @@ def hoist(*, drum_on_path: bool = False, winch: bool = True, drum: bool = True) 
         bodies, points = ["ground", *bodies], [(-RADIUS, 0, 0), *points]
         radii, axes = [0, RADIUS, OVER, 0], [(0, 0, 0), ACROSS, ACROSS, (0, 0, 0)]
     path: dict[str, Any] = {"bodies": bodies, "points": points, "radii": radii, "axes": axes}
-    length = laid(Line(name="hoist", stiffness=1e7, length=1.0, **path), described_poses(scene)).length
-    scene.add_line(name="hoist", stiffness=1e7, length=length - 0.01, damping_ratio=0.1, **path)
+    length = laid(Line(name="hoist", EA=1e7, length=1.0, **path), described_poses(scene)).length
+    scene.add_line(name="hoist", EA=1e7, length=length - 0.01, damping_ratio=0.1, **path)
     if winch:
         own = {"drum_inertia": 100.0, "drum_radius": RADIUS} if drum else {}
         scene.add_winch(line="hoist", rate=RATE, lag=0.1, maximum_acceleration=2.0, **own)
@@ -98,7 +98,7 @@ def test_a_block_that_lines_pass_often_is_drawn_once() -> None:
     for name, sign in (("again", 1.0), ("backwards", -1.0)):
         scene.add_line(
             name=name, bodies=line.bodies, points=[(10 if sign < 0 else 0, 0.0, 0.0), *line.points[1:]],
-            radii=line.radii, axes=sign * line.axes, stiffness=1e7, length=12.0,
+            radii=line.radii, axes=sign * line.axes, EA=1e7, length=12.0,
         )  # fmt: skip
     assert set(wheels(scene)) == {"hoist drum", "hoist sheave 1"}
 
@@ -107,9 +107,7 @@ def test_a_block_that_lines_pass_often_is_drawn_once() -> None:
 def test_a_line_straight_down_has_a_level_drum(below: float) -> None:
     scene = Scene(name="down")
     scene.add_body(name="load", mass=2e3, inertia=(500.0, 500.0, 500.0), position=(0, 0, -below))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=9.0
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=9.0)
     scene.add_winch(line="hoist", rate=0.0, lag=0.1, drum_inertia=100.0, drum_radius=RADIUS)
     drawing = drawing_of(scene)
     (drum,) = drawing.wheels
@@ -171,7 +169,7 @@ def tumbling() -> Result:
     scene.add_body(name="barge", mass=1e4, inertia=(1e4, 2e4, 3e4), position=(1, 2, 3),
                    center_of_mass=(0.5, 0, -0.5), angular_velocity=(0.3, 0.8, -0.5))  # fmt: skip
     scene.add_line(
-        name="hoist", bodies=["barge", "ground"], points=[(0, 1, 2), (20, 0, 0)], stiffness=1e4, length=19.9
+        name="hoist", bodies=["barge", "ground"], points=[(0, 1, 2), (20, 0, 0)], EA=1e4, length=19.9
     )
     scene.add_winch(line="hoist", rate=1.0, lag=0.1, drum_inertia=100.0, drum_radius=RADIUS)
     return simulate(scene, t_end=2.0, dt_out=0.1)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import ByHeading, Curve, HullLoads, Scene, SceneError, Waves, _core, simulate
+from seacrane import Curve, Scene, SceneError, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene import ByHeading, HullLoads, Waves
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -126,8 +126,8 @@ def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw:
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
     scene.add_vessel(database(), mooring_period=100.0)
-    scene.add_sea(database(), hs=3.0, tp=8.0, direction_deg=60.0, count=40)
-    scene.use_actual_position(database())
+    scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40)
+    scene.use_actual_position()
     assert scene.waves is not None
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
@@ -162,8 +162,8 @@ def test_turning_ship_and_sea_together_changes_nothing() -> None:
             center_of_mass=hull.center_of_mass,
             quaternion=(np.cos(turn / 2.0), 0.0, 0.0, np.sin(turn / 2.0)),
         )
-        scene.add_sea(database(), hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
-        scene.use_actual_position(database())
+        scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
+        scene.use_actual_position()
         motions.append(simulate(scene, t_end=60.0, dt_out=1.0, rtol=1e-9).channels["vessel_motion"])
     assert np.all(np.abs(motions[0] - motions[1]) < 1e-6 * np.abs(motions[0]).max(axis=0))
 
@@ -194,7 +194,7 @@ def test_a_scene_file_keeps_the_loads_of_all_headings(tmp_path: Path) -> None:
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="needs a sea; call add_sea first"):
-        Scene(name="calm").use_actual_position(database())
+        Scene(name="calm").use_actual_position()
     with pytest.raises(SceneError, match="choose evaluation='exact'"):
         actual_scene(evaluation="fft").compile()
     force = positioned_values()
@@ -219,11 +219,11 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
 
 
 def test_headings_must_cover_the_circle() -> None:
-    few: Any = SimpleNamespace(
-        name="beam only", full_circle=lambda: (np.array([0.0, 1.0, 2.0]), np.zeros((3, 1, 6)))
-    )
+    scene = Scene()
+    scene.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)))
+    scene.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
     with pytest.raises(SceneError, match=r"database 'beam only': headings .* leave gaps above 45 deg"):
-        actual_scene(force_by_heading=None).use_actual_position(few)
+        scene.use_actual_position()
 
 
 def positioned_values() -> ByHeading:

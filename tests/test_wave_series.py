@@ -11,19 +11,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    HullLoads,
-    MeanPositionWarning,
-    RepeatingSeaWarning,
-    Scene,
-    SceneError,
-    Waves,
-    _core,
-    simulate,
-)
+from seacrane import Scene, SceneError, _core, simulate
 from seacrane.description.wave_grid import grid_of
 from seacrane.description.wave_loads import compiled_waves
 from seacrane.hydro import shipped_database
+from seacrane.scene import HullLoads, Waves
+from seacrane.warnings import MeanPositionWarning, RepeatingSeaWarning
 
 Array = NDArray[np.float64]
 

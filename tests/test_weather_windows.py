@@ -11,20 +11,9 @@ import pytest
 import xarray
 from operability_scenes import HEAVE, PITCH, vessel
 
-from seacrane import (
-    AllowableHs,
-    AlphaFactor,
-    FileFormatError,
-    HydroDatabase,
-    ScatterDiagram,
-    SceneError,
-    WaveHindcast,
-    allowable_hs,
-    availability,
-    plot_weather_windows,
-    weather_windows,
-)
-from seacrane.hydro import shipped_database
+from seacrane import FileFormatError, SceneError, allowable_hs, availability, weather_windows
+from seacrane.figures import plot_weather_windows
+from seacrane.operability import AllowableHs, AlphaFactor, ScatterDiagram, WaveHindcast
 
 HOUR = np.timedelta64(1, "h")
 START = np.datetime64("2019-01-01T00:00")
@@ -32,10 +21,9 @@ START = np.datetime64("2019-01-01T00:00")
 
 @pytest.fixture(scope="module")
 def table() -> AllowableHs:
-    database: HydroDatabase = shipped_database()
     return allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=[6.0, 9.0, 14.0], direction_deg=np.arange(0.0, 360.0, 45.0),
-        hs=[4.0], database=database, domain="frequency",
+        hs=[4.0], domain="frequency",
         alpha=AlphaFactor(values=0.8, source="made up"), hours=6.0,
     )  # fmt: skip
 

@@ -17,9 +17,7 @@ def submerged(buoyancy: float = 0.0, **hydrodynamics: object) -> Scene:
     scene = Scene(name="submerged load")
     scene.add_body(name="load", mass=MASS, inertia=(4e5, 4e5, 4e5), position=(0, 0, -DEPTH))
     scene.add_vessel(body="load", **{"added_mass": ADDED, "linear_damping": DRAG} | hydrodynamics)
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=EA, length=DEPTH
-    )
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=EA, length=DEPTH)
     if buoyancy:
         scene.add_point_force(name="buoyancy", body="load", force=(0, 0, buoyancy))
     return scene

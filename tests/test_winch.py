@@ -16,19 +16,19 @@ from numpy.typing import NDArray
 
 from seacrane import (
     Curve,
-    Evaluator,
     Move,
     Run,
     Scene,
     SceneError,
     Stage,
     State,
-    WinchLimitWarning,
     equilibrium,
     linear_model,
     simulate,
     simulate_stages,
 )
+from seacrane.analysis import Evaluator
+from seacrane.warnings import WinchLimitWarning
 
 Array = NDArray[np.float64]
 RADIUS, DRUM = 0.5, 5e3  # m; kg, inertia over radius^2
@@ -181,7 +181,7 @@ def pulled(velocity: float, **winch: Any) -> Scene:
     )
     scene.add_driver(name="lead", joint="rail", curve=ramp(velocity))
     scene.add_line(
-        name="tugger", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=2e8, length=2000.0,
+        name="tugger", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=2e8, length=2000.0,
         damping_ratio=0.0,
     )  # fmt: skip
     scene.add_winch(line="tugger", **{"tension": 20e3, "tension_gain": 2e-5} | winch)
@@ -452,6 +452,6 @@ def test_a_line_without_a_winch_holds_no_tension(given: dict[str, float]) -> Non
 
 def test_a_quasi_static_line_takes_no_drum() -> None:
     scene = on_drum()
-    scene.replace("hoist", stretch="quasi-static")
-    with pytest.raises(SceneError, match="a drum with inertia rings with its line; choose stretch 'elastic'"):
+    scene.replace("hoist", rung="quasi-static")
+    with pytest.raises(SceneError, match="a drum with inertia rings with its line; choose rung 'elastic'"):
         scene.compile()

@@ -10,20 +10,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    Curve,
-    DoubleCountedDampingWarning,
-    Evaluator,
-    FlowCoefficients,
-    Scene,
-    SceneError,
-    _core,
-    gust_curve,
-    simulate,
-)
+from seacrane import Curve, FlowCoefficients, Scene, SceneError, _core, simulate
+from seacrane.analysis import Evaluator
 from seacrane.description.loads import kind_of
+from seacrane.scene import gust_curve
 from seacrane.scene.gusts import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
+from seacrane.warnings import DoubleCountedDampingWarning
 
 Array = NDArray[np.float64]
 MASS = 2e6
@@ -338,7 +331,7 @@ def test_names_and_kinds_are_kept_apart() -> None:
                 scene.add_wind(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
     with pytest.raises(SceneError, match="line 'wind': the name is used twice: flow force 'wind' has it"):
         scene.add_line(
-            name="wind", bodies=["ground", "block"], points=[[0, 0, 9], [0, 0, 0]], stiffness=1e6, length=9.0
+            name="wind", bodies=["ground", "block"], points=[[0, 0, 9], [0, 0, 0]], EA=1e6, length=9.0
         )
     with pytest.raises(SceneError, match=r"is of no known kind; give one of .*Actuator, PointForce"):
         scene.add_load(3.0)

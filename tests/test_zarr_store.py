@@ -28,7 +28,8 @@ from ensemble_studies import (
     two_numbers_or_three,
 )
 
-from seacrane import Ensemble, FileFormatError, Kept, SceneError, ensemble
+from seacrane import FileFormatError, Kept, SceneError, ensemble
+from seacrane.ensembles import Ensemble
 
 zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
 
@@ -36,7 +37,7 @@ GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
 PUSHED: dict[str, Any] = {
     "source": storm,
     "over": {"seed": range(1, 61), "height": [1.0, 2.0]},
-    "keep": {"far": Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})},
+    "keep": {"far": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})},
     "t_end": 1.0,
     "dt_out": 0.5,
 }
@@ -74,7 +75,7 @@ def test_rows_and_texts_vary_too(tmp_path: Path) -> None:
     given: dict[str, Any] = {
         "source": pendulum,
         "over": [{"start": 1.0}, {"start": 2.5}],
-        "keep": {"lowest": lowest, "short": Kept(channel="position", step=1.0), "track": KEEP["track"]},
+        "keep": {"lowest": lowest, "short": Kept(channel="position", interval=1.0), "track": KEEP["track"]},
         **SWING,
     }
     plain = ensemble(**given)
@@ -129,7 +130,7 @@ def test_a_killed_ensemble_goes_on_to_the_same_bits(tmp_path: Path) -> None:
     counted.__wrapped__ = pendulum  # type: ignore[attr-defined]
     given: dict[str, Any] = {
         "over": {"start": [1.0 + 0.01 * k for k in range(100)]},
-        "keep": {"lowest": lowest, "track": Kept(channel="position", step=0.5)},
+        "keep": {"lowest": lowest, "track": Kept(channel="position", interval=0.5)},
         "t_end": 30.0,
         "rtol": 1e-9,
     }
@@ -151,7 +152,7 @@ def test_it_grows_until_it_is_enough(tmp_path: Path) -> None:
     assert ensemble(**PUSHED, until={"far.mpm": 0.3}, store=store).dataset.identical(wide.dataset)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.FewSeedsWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.FewSeedsWarning")
 @pytest.mark.parametrize("call", range(1, 7))
 def test_a_kill_at_any_moment_is_mended(call: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ended before one write of attributes or of the metadata of all after another."""

@@ -7,10 +7,11 @@ from functools import cache
 
 import numpy as np
 
-from seacrane import BallastWarning, Curve, OutsideRangeWarning, Result, Scene, cases, simulate
+from seacrane import Curve, Result, Scene, cases, simulate
 from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import BallastWarning, OutsideRangeWarning
 
 HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
 
@@ -31,7 +32,7 @@ def alone() -> Result:
 def thrown() -> Result:
     """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
     scene = cases.case2()
-    scene.add_wire(joint="link")
+    scene.add_line(joint="link", rung="rigid")
     load = scene.bodies["payload"]
     scene.bodies["payload"] = Body(
         name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
@@ -47,8 +48,8 @@ def pair() -> Result:
     scene = Scene(name="<i>two vessels</i>")
     scene.add_vessel(database)
     scene.add_vessel(database, name=HTML_NAME, position=(-15.0, 45.0, 0.0), heading_deg=12.0, memory="none")
-    scene.add_sea(database, hs=2.5, tp=8.0, seed=3, count=120)
-    scene.add_sea(database, vessel=HTML_NAME)
+    scene.add_sea(hs=2.5, tp=8.0, seed=3, count=120)
+    scene.add_sea(vessel=HTML_NAME)
     scene.add_crane(base="vessel", payload=Payload(mass=20e3))
     scene.provenance.pop(HTML_NAME)
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):

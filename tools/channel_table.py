@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from seacrane.result.channels import CHANNELS, FIXED, Channel
+from seacrane.description.channels import CHANNELS, FIXED, Channel
 
 DOCUMENT = Path(__file__).parents[1] / "docs" / "channels.md"
 BEGIN, END = "<!-- begin: tools/channel_table.py -->\n", "<!-- end -->\n"

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import csv
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -73,6 +75,7 @@ def save(name: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     path = Path(__file__).resolve().parents[1] / "benchmarks" / "results" / f"{name}.csv"
     with path.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
+    subprocess.run([sys.executable, path.parents[1] / "documents.py", "--measured", path], check=True)
 
 
 def save_ratios(panel: HydroDatabase, strip: HydroDatabase) -> None:
@@ -133,7 +136,6 @@ def save_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
         found = [
             response_statistics(
                 scene,
-                database=database,
                 spectrum=jonswap(hs=2.0, tp=8.0),
                 heading=np.radians(degrees),
                 body="vessel",
@@ -162,9 +164,7 @@ def save_periods(panel: HydroDatabase, strip: HydroDatabase) -> None:
         found = np.array(
             [
                 [
-                    response_statistics(
-                        linear, database=database, spectrum=sea, heading=np.radians(h), body="vessel"
-                    ).std
+                    response_statistics(linear, spectrum=sea, heading=np.radians(h), body="vessel").std
                     for h in (0, 45, 90, 135, 180)
                 ]
                 for linear, database in models

@@ -37,7 +37,7 @@ def rigid_limit() -> Iterator[Row]:
     settings = {"dt_out": 0.1, "rtol": 1e-9}
     rigid = record(pendulum(None), 6.0, **settings)
     for stretch in ("elastic", "quasi-static"):
-        line = record(pendulum(1e9, stretch=stretch), 6.0, **settings)
+        line = record(pendulum(1e9, rung=stretch), 6.0, **settings)
         apart = np.abs(line["line_tension"][10:, 0] - rigid["tension"][10:, 0]).max()
         compared = f"pendulum on a line of 1e9 N, {stretch}: tension"
         yield _row(compared, "rigid link", apart / np.abs(rigid["tension"]).max(), 1e-4)

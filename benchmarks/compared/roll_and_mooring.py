@@ -11,8 +11,9 @@ import numpy as np
 import test_ikeda_roll_damping as ikeda
 import test_mooring as mooring
 
-from seacrane import MooringSpring, load_database, mooring_matrix
-from seacrane.hydro.hull.ikeda_components import friction, lift
+from seacrane import load_database
+from seacrane.hydro.hull.ikeda import friction, lift
+from seacrane.scene import MooringSpring, mooring_matrix
 
 from .row import Row
 

@@ -19,11 +19,13 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from measure.table import write  # noqa: E402
-from seacrane import HookLoadControl, Kept, LinearControl, Scene, controlled_mean, ensemble  # noqa: E402
+from seacrane import Kept, Scene, ensemble  # noqa: E402
 from seacrane.crane import Payload  # noqa: E402
+from seacrane.ensembles import HookLoadControl, LinearControl  # noqa: E402
 from seacrane.ensembles.growing import BATCH  # noqa: E402
 from seacrane.ensembles.targets import WIDENED, Target  # noqa: E402
 from seacrane.hydro import shipped_database  # noqa: E402
+from seacrane.statistics import controlled_mean  # noqa: E402
 from seacrane.statistics.estimate import P90_REDUCED  # noqa: E402
 
 ENSEMBLES, MOST = 2000, 2000
@@ -67,7 +69,7 @@ def lift() -> Scene:
     """A load of 20 t that a crane holds over the side."""
     scene = Scene(name="over the side")
     scene.add_vessel(shipped_database(), memory="passive")
-    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, direction_deg=150.0)
+    scene.add_sea(hs=1.0, tp=8.0, direction_deg=150.0)
     payload = Payload(mass=2e4, link_length=8.0)
     scene.add_crane(foot=(33.0, 10.0, 10.0), theta=-1.0, s1=1.0, s2=1.5, payload=payload, held=True)
     scene.add_ballast(heel_deg=0.0)
@@ -76,20 +78,20 @@ def lift() -> Scene:
 
 def control_variates() -> Iterator[tuple[str, ...]]:
     """Means of largest values of runs, plain and with the linear response to the same waves."""
-    scene, database = lift(), shipped_database()
+    scene = lift()
     keep = {
-        name: Kept(channel=channel, what="maximum", at=at, after=START)
+        name: Kept(channel=channel, what="maximum", names=at, after=START)
         for name, channel, at, *_ in CONTROLLED
     }
     seeds = range(1, SEEDS + 1)
     runs = {
         hs: ensemble(
-            scene, over={"seed": seeds, "hs": [hs]}, keep=keep, database=database, t_end=T_END, rtol=1e-3,
+            scene, over={"seed": seeds, "hs": [hs]}, keep=keep, t_end=T_END, rtol=1e-3,
             dt_out=0.5, integrator="tsit5",
         ).dataset.sel(hs=hs)
         for hs in HEIGHTS
     }  # fmt: skip
-    given: dict[str, Any] = {"database": database, "t_end": T_END, "after": START, "dt": 0.5}
+    given: dict[str, Any] = {"t_end": T_END, "after": START, "dt": 0.5}
     for name, _, _, words, motion in CONTROLLED:
         for hs in HEIGHTS:
             control: LinearControl | HookLoadControl

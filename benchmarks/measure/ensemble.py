@@ -11,18 +11,17 @@ from typing import Any
 
 from seacrane import Kept, Run, Scene, cases, ensemble
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.hydro import shipped_database
 
 from .section import Section
 from .timing import best_seconds
 
-TRACK = {"track": Kept(channel="position", at={"body": "payload"}, step=1.0)}
+TRACK = {"track": Kept(channel="position", names={"body": "payload"}, interval=1.0)}
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0}
 
 
 def one_member(*, repeats: int) -> Section:
     """CPU time of the parts of one member."""
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
 
     def stepped() -> Run:
         run = _run(scene)
@@ -30,10 +29,10 @@ def one_member(*, repeats: int) -> Section:
         return run
 
     done = stepped()
-    waves = with_sea(scene, database, {"seed": 2}).waves
+    waves = with_sea(scene, {"seed": 2}).waves
     assert waves is not None
     describing = best_seconds(cases.case2, repeats=repeats)
-    sea = best_seconds(lambda: with_sea(scene, database, {"seed": 2}), repeats=repeats)
+    sea = best_seconds(lambda: with_sea(scene, {"seed": 2}), repeats=repeats)
     preparing = best_seconds(lambda: _run(scene), repeats=repeats)
     again = best_seconds(lambda: done.in_sea(waves), repeats=repeats)
     loop = best_seconds(stepped, repeats=repeats) - preparing
@@ -60,12 +59,12 @@ def one_member(*, repeats: int) -> Section:
 
 def workers(*, repeats: int, members: int = 16, t_end: float = 1000.0) -> Section:
     """Wall time of an ensemble by executor."""
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
 
     def wall(executor: Executor | None) -> float:
         start = time.perf_counter()
         ensemble(
-            scene, over={"seed": range(members)}, keep=TRACK, t_end=t_end, database=database,
+            scene, over={"seed": range(members)}, keep=TRACK, t_end=t_end,
             executor=executor, **HOW,
         )  # fmt: skip
         return time.perf_counter() - start

@@ -14,12 +14,11 @@ from typing import Any
 import numpy as np
 
 from seacrane import Kept, Result, Run, _core, cases, ensemble
-from seacrane.hydro import shipped_database
 
 from .section import Section
 
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0, "channels": ["position"]}
-TRACK = Kept(channel="position", at={"body": "payload"}, step=1.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=1.0)
 WORKERS = 2
 PACK = 4  # as of a thousand members
 _here = threading.local()  # loop: CPU time of loops since `before`, s
@@ -105,7 +104,7 @@ def overhead(*, members: int = 16, t_end: float = 10_800.0) -> Section:
 
 
 def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
     taken: list[float] = []
     counts = (2 * WORKERS * PACK, 2 * WORKERS * PACK + members)
     with kind.opened() as executor:
@@ -113,7 +112,7 @@ def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
             start = kind.caller() if kind.caller else 0.0
             there = ensemble(
                 scene, over={"seed": range(count)}, keep={"track": TRACK, "lap": kind.clock}, t_end=t_end,
-                database=database, executor=executor, pack=PACK, **HOW,
+                executor=executor, pack=PACK, **HOW,
             )  # fmt: skip
             taken.append(kind.caller() - start if kind.caller else 0.0)
     packs = there.dataset.lap.to_numpy().reshape(-1, PACK, 2).mean(axis=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import Evaluator
+from seacrane.analysis import Evaluator
 
 from .scenes import SCENES
 from .section import Section

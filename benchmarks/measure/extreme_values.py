@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from test_statistics import NARROW, STEP, THREE_HOURS, records  # noqa: E402
 
 from measure.table import write  # noqa: E402
-from seacrane import record_extremes, seed_extremes  # noqa: E402
+from seacrane.statistics import record_extremes, seed_extremes  # noqa: E402
 from seacrane.statistics.estimate import Maximum  # noqa: E402
 from seacrane.statistics.gumbel import gumbel_fit  # noqa: E402
 

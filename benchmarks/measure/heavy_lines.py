@@ -28,7 +28,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 from heavy_line_scenes import EA, LENGTH, MASS, RATIO, hanging, heave, heaving, weights_of_shape  # noqa: E402
 
 from measure.table import write  # noqa: E402
-from seacrane import fastest_mode, simulate  # noqa: E402
+from seacrane import simulate  # noqa: E402
+from seacrane.analysis import fastest_mode  # noqa: E402
 
 Array = NDArray[np.float64]
 SEGMENTS = 20
@@ -133,8 +134,8 @@ def cost() -> Iterator[tuple[str, ...]]:
         for stretch in ("elastic", "quasi-static"):
             for integrator in ("dopri5", "cvode-bdf") if stretch == "elastic" else ("dopri5",):
                 scene = hanging(
-                    count, load=20e3, velocity=1.0, stiffness=2e8, length=1000.0, mass_per_length=12.0,
-                    stretch=stretch,
+                    count, load=20e3, velocity=1.0, EA=2e8, length=1000.0, mass_per_length=12.0,
+                    segment_rung=stretch,
                 )  # fmt: skip
                 mode = fastest_mode(scene.compile()) or 0.0
                 result = simulate(scene, t_end=10.0, integrator=integrator, rtol=1e-4)

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import GrowingModeWarning, Scene, simulate
+from seacrane import Scene, simulate
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import GrowingModeWarning
 
 from .section import Section
 
@@ -56,7 +57,7 @@ def _scene(*, damping: bool) -> Scene:
         damping=damping,
     )  # fmt: skip
     scene.add_ballast()
-    scene.add_sea(ship, hs=1.5, tp=7.0, direction_deg=180.0, count=300)
+    scene.add_sea(hs=1.5, tp=7.0, direction_deg=180.0, count=300)
     return scene
 
 

@@ -24,16 +24,16 @@ OIL: dict[str, Any] = {
 }  # fmt: skip
 GAS = {"accumulator_volume": 0.05, "accumulator_pressure": 2e6, "accumulator_flow": 0.004}
 LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a small servo valve, none
-TIGHT = Method(integrator="dopri5", tolerance=1e-7)
-IDEAL = Method(integrator="dopri5", tolerance=1e-2)
+TIGHT = Method(integrator="dopri5", rtol=1e-7)
+IDEAL = Method(integrator="dopri5", rtol=1e-2)
 METHODS = (
-    Method(integrator="dopri5", tolerance=1e-2),
-    Method(integrator="dopri5", tolerance=1e-3),
-    Method(integrator="dopri5-stiff", tolerance=3e-3),
-    Method(integrator="dopri5-stiff", tolerance=1e-3),
-    Method(integrator="bs32", tolerance=1e-2),
-    Method(integrator="tsit5", tolerance=1e-3),
-    Method(integrator="cvode-bdf", tolerance=1e-4),
+    Method(integrator="dopri5", rtol=1e-2),
+    Method(integrator="dopri5", rtol=1e-3),
+    Method(integrator="dopri5-stiff", rtol=3e-3),
+    Method(integrator="dopri5-stiff", rtol=1e-3),
+    Method(integrator="bs32", rtol=1e-2),
+    Method(integrator="tsit5", rtol=1e-3),
+    Method(integrator="cvode-bdf", rtol=1e-4),
 )
 
 
@@ -77,7 +77,7 @@ def hydraulic_cost(*, repeats: int) -> Section:
             f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool "
             "each, and an accumulator each for six pressures. Errors are those of the payload's place "
             "against the same scene with a spool of that lag "
-            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}); CPU times are those of the loop, "
+            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}); CPU times are those of the loop, "
             "the least of some runs. The ideal actuators are run again beside every other row, and their "
             "least time is what all are compared with."
         ),
@@ -103,7 +103,7 @@ def _row(
     return [
         cylinders,
         lag,
-        f"{method.integrator} {method.tolerance:g}",
+        f"{method.integrator} {method.rtol:g}",
         cost[0],
         cost[0] / ideal[0],
         1e3 * cost[1],

@@ -31,8 +31,8 @@ STEPS_OF_ORDER_1 = (0.02, 0.01, 0.005, 0.002)  # s
 STEPS = (0.25, 0.2, 0.1, 0.05, 0.025, 0.0125)  # s
 STEPS_IMPLICIT = (0.05, 0.025, 0.01)  # s
 TIGHT = (
-    Method(integrator="dopri5", tolerance=1e-11),
-    Method(integrator="verner76", tolerance=1e-11),
+    Method(integrator="dopri5", rtol=1e-11),
+    Method(integrator="verner76", rtol=1e-11),
 )
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Evaluator, Method, Outputs, Run, Scene, _core, cases
+from seacrane import Method, Outputs, Run, Scene, _core, cases
+from seacrane.analysis import Evaluator
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.hydro import shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, module_of
 
 from .section import Section
@@ -23,8 +23,8 @@ FINE = 1e-9
 
 def lanes(*, repeats: int) -> Section:
     """Case 2: one evaluation, and the loop of 100 s of 16 seeds, by lanes."""
-    scene, database = cases.case2(), shipped_database()
-    scenes = [with_sea(scene, database, {"seed": seed}) for seed in range(1, SEEDS + 1)]
+    scene = cases.case2()
+    scenes = [with_sea(scene, {"seed": seed}) for seed in range(1, SEEDS + 1)]
     right = _tracks(_stepped(_begun(scenes, FINE), 1))
     rows = []
     for count in (1, *(lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None)):
@@ -53,8 +53,8 @@ def lanes(*, repeats: int) -> Section:
 
 
 def _begun(scenes: Sequence[Scene], rtol: float) -> list[Run]:
-    method = Method(integrator="tsit5" if rtol > FINE else "dop853", tolerance=rtol, formulation="recursive")
-    outputs = Outputs(dt=1.0, channels=("position",))
+    method = Method(integrator="tsit5" if rtol > FINE else "dop853", rtol=rtol, formulation="recursive")
+    outputs = Outputs(dt_out=1.0, channels=("position",))
     return [Run(scene, END, method=method, outputs=outputs) for scene in scenes]
 
 

@@ -52,7 +52,7 @@ def line_methods(*, most: int = MOST_EVALUATIONS) -> Section:
         text=(
             f"As above, every method at one setting: `rtol` {TOLERANCE:g}, {TOLERANCE_IMPLICIT:g} of "
             "implicit "
-            f"methods; of fixed steps the shorter of {STEP:g} s ({STEP_OF_ORDER_1:g} s of order 1, "
+            f"methods. Of fixed steps it is the shorter of {STEP:g} s ({STEP_OF_ORDER_1:g} s of order 1, "
             f"{STEP_IMPLICIT:g} s of implicit ones) and half of what is stable. Evaluations do not count "
             f"Jacobians. Runs of more than {most} evaluations were left out."
         ),
@@ -74,13 +74,13 @@ def line_methods(*, most: int = MOST_EVALUATIONS) -> Section:
 def _method(integrator: Integrator, stiffness: float) -> Method:
     if integrator.setting == "rtol":
         tolerance = TOLERANCE_IMPLICIT if integrator.uses_jacobian else TOLERANCE
-        return Method(integrator=integrator.name, tolerance=tolerance)
+        return Method(integrator=integrator.name, rtol=tolerance)
     usual = STEP_OF_ORDER_1 if integrator.order == 1 else STEP
     step = STEP_IMPLICIT if integrator.uses_jacobian else usual
     if integrator.stable_up_to and stiffness > 0.0:
         omega = np.sqrt(stiffness / LINK / (WEIGHT / 9.80665))
         step = min(step, OF_STABLE * integrator.stable_up_to / omega)
-    return Method(integrator=integrator.name, step=float(f"{step:.2g}"))
+    return Method(integrator=integrator.name, dt=float(f"{step:.2g}"))
 
 
 def _cells(
@@ -103,9 +103,9 @@ def _cells(
 def _ran(stiffness: float, stretch: str, method: Method, most: int) -> tuple[Ran, int]:
     """The run and its Jacobians; TooMany as soon as it has taken more evaluations."""
     scene = lifted(stiffness, stretch)
-    if method.step is not None and T_END / method.step > most:
+    if method.dt is not None and T_END / method.dt > most:
         raise TooMany(f"more than {most} evaluations")
-    outputs = Outputs(dt=DT_OUT, channels=["position", "line_tension"])
+    outputs = Outputs(dt_out=DT_OUT, channels=["position", "line_tension"])
     run = Run(scene, T_END, method=method, outputs=outputs)
 
     def look(_: float) -> None:

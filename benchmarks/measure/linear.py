@@ -7,18 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import (
-    NaturalModes,
-    cases,
-    equilibrium,
-    linear_model,
-    motion_rao,
-    natural_modes,
-    response_summed,
-    simulate,
-)
+from seacrane import cases, equilibrium, linear_model, motion_rao, natural_modes, simulate
+from seacrane.analysis import NaturalModes, response_summed
 from seacrane.analysis.rest_state import held
-from seacrane.hydro import shipped_database
 
 from .section import Section
 from .timing import best_seconds, timed_run
@@ -134,16 +125,14 @@ def _relative(found: Array, expected: Array) -> Array:
 
 def cost(*, repeats: int) -> Section:
     """CPU time of a linear model and of what is read from it, beside that of a run."""
-    database, omega = shipped_database(), np.linspace(0.3, 2.5, 1000)
+    omega = np.linspace(0.3, 2.5, 1000)
     rows = []
     for name, scene, body in (("vessel", cases.vessel(), "vessel"), ("case2", cases.case2(), "payload")):
         linear = linear_model(scene)
         calls: list[Callable[[], object]] = [
             lambda scene=scene: linear_model(scene),
             lambda linear=linear: natural_modes(linear),
-            lambda linear=linear, body=body: motion_rao(
-                linear, database=database, omega=omega, heading=np.pi, body=body
-            ),
+            lambda linear=linear, body=body: motion_rao(linear, omega=omega, heading=np.pi, body=body),
         ]
         times = [1e3 * best_seconds(call, repeats=repeats) for call in calls]
         run = timed_run(scene, repeats=repeats, t_end=100.0)

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Evaluator, Scene, cases
+from seacrane import Scene, cases
+from seacrane.analysis import Evaluator
 
 from .section import Section
 

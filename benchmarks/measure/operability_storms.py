@@ -31,9 +31,9 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from measure.section import significant  # noqa: E402
 from measure.table import write  # noqa: E402
-from seacrane import Criterion, Ensemble, Scene, allowable_hs, cases  # noqa: E402
+from seacrane import Criterion, Scene, allowable_hs, cases  # noqa: E402
 from seacrane.crane import Payload  # noqa: E402
-from seacrane.hydro import shipped_database  # noqa: E402
+from seacrane.ensembles import Ensemble  # noqa: E402
 
 LINK, MASS, G = 25.0, 10e3, 9.80665  # m, kg, m/s2
 GUIDED = 0.03  # of critical damping, of the swing on guide lines
@@ -47,13 +47,13 @@ TOLERANCE = 1e-4
 START_UP = 300.0  # s
 CRITERIA = (
     Criterion(channel="hook_load", maximum=1.15 * MASS * G, name="hook load"),
-    Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=0.8, name="tip velocity"),
+    Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=0.8, name="tip velocity"),
     Criterion(
-        channel="position", where={"body": "payload", "axis": "x"}, maximum=3.0, motion=True,
+        channel="position", names={"body": "payload", "axis": "x"}, maximum=3.0, motion=True,
         statistic="significant", name="swing fore and aft",
     ),
     Criterion(
-        channel="position", where={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
+        channel="position", names={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
         statistic="significant", name="swing athwart",
     ),
 )  # fmt: skip
@@ -70,7 +70,7 @@ def study_scene(wire: str = "rigid") -> Scene:
         scene.remove("link")
         scene.add_line(
             name="wire", bodies=[link.first, link.second],
-            points=[link.first_frame.point, link.second_frame.point], stiffness=STIFFNESS,
+            points=[link.first_frame.point, link.second_frame.point], EA=STIFFNESS,
             length=LINK / (1.0 + MASS * G / STIFFNESS),
         )  # fmt: skip
     scene.add_pendulum_damping(
@@ -104,7 +104,7 @@ def study(arguments: argparse.Namespace, **given: Any) -> Any:
     return allowable_hs(
         study_scene(arguments.wire), criteria=CRITERIA, tp=PERIODS[some], direction_deg=DIRECTIONS[some],
         hs=HEIGHTS[some], seeds=range(1, arguments.seeds + 1), duration=arguments.duration,
-        start_up=arguments.start_up, database=shipped_database(), time=SWUNG_OUT,
+        start_up=arguments.start_up, time=SWUNG_OUT,
         rtol=TOLERANCE, **given,
     )  # fmt: skip
 

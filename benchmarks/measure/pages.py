@@ -30,9 +30,9 @@ def pages() -> Section:
         title="Three-dimensional pages",
         text=(
             "`seacrane.view` of case 2 with its default channels: poses a second in the page, size of the "
-            "file, largest distance of a body from the run at any output, and time to make it; the same of "
-            "`View.save_gltf`; and the result's own file, with what the scene in it takes there. The aim is "
-            "1.5 MB for 60 s."
+            "file, largest distance of a body from the run at any output, and time to make it. Then the "
+            "same of `View.save_gltf`, and the result's own file, with what the scene in it takes. The aim "
+            "is 1.5 MB for 60 s."
         ),
         head=[
             "run", "outputs every, s", "poses/s", "page, MB", "within, mm", "page, s", "glTF, MB", "glTF, s",
@@ -49,7 +49,12 @@ def _row(result: Result, folder: Path) -> list[float]:
     _, writing = _timed(lambda: shown.save_gltf(model, overwrite=True))
     file = result.save(folder / "lift.nc")
     bare = Result.from_arrays(
-        time=result.time, arrays=result.channels, coords=result.coords, stats=result.stats, state=result.state
+        time=result.time,
+        arrays=result.channels,
+        coords=result.coords,
+        stats=result.stats,
+        about=result.about,
+        state=result.state,
     ).save(folder / "bare.nc")
     with netCDF4.Dataset(file) as opened:
         assert SCENE in opened.variables

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from seacrane import Scene, cases, fastest_mode
+from seacrane import Scene, cases
+from seacrane.analysis import fastest_mode
 
 from .section import Section
 

@@ -45,7 +45,7 @@ def _row(database: HydroDatabase, count: int, repeats: int) -> list[Any]:
     def loads() -> None:
         scene = Scene(name="sea")
         scene.add_vessel(database)
-        scene.add_sea(database, sea=sea)
+        scene.add_sea(sea=sea)
 
     calls = (lambda: sea.realise().repeat, lambda: other.realise().repeat, loads)
     preparing = [best_seconds(call, repeats=repeats) for call in calls]

@@ -36,10 +36,14 @@ class Section:
         write(folder / f"{self.name}.csv", self.head, self.cells)
 
     def markdown(self) -> str:
-        """Heading, text and table, marked by its file for `benchmarks/documents.py`."""
-        table = markdown(self.head, self.cells)
-        mark = f"<!-- table {self.folder}/{self.name}.csv -->"
-        return f"## {self.title}\n\n{self.text}\n\n{mark}\n{table}\n<!-- end of table -->"
+        """Heading, text and table."""
+        return f"## {self.title}\n\n{self.text}\n\n{markdown(self.head, self.cells)}"
+
+    def marked(self, *, shown: bool = True) -> str:
+        """Heading, text, and a mark that `benchmarks/documents.py` fills with the table or its place."""
+        word = "table" if shown else "place"
+        mark = f"<!-- {word} {self.folder}/{self.name}.csv -->\n<!-- end of {word} -->"
+        return f"## {self.title}\n\n{self.text}\n\n{mark}"
 
 
 def _cell(value: Any) -> str:

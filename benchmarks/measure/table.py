@@ -7,6 +7,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from .engine import record
+
 
 def read(path: Path) -> tuple[list[str], list[list[str]]]:
     """Head and rows of a CSV file."""
@@ -15,11 +17,12 @@ def read(path: Path) -> tuple[list[str], list[list[str]]]:
     return head, rows
 
 
-def write(path: Path, head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """A CSV file; its folder is made."""
+def write(path: Path, head: Sequence[str], rows: Sequence[Sequence[str]], *, of: Sequence[Path] = ()) -> None:
+    """A CSV file, with what measured it noted beside it; `of` are the tables that it is made of."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
+    record(path, of)
 
 
 def markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

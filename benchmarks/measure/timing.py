@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Evaluator, Model, Scene
+from seacrane import Model, Scene
+from seacrane.analysis import Evaluator
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import timed
 from seacrane.run.shorthand import settled
@@ -46,7 +47,7 @@ def timed_run(
 ) -> Timed:
     """Run a scene several times; compiling and preparing are not part of the wall time."""
     method, outputs = settled(None, None, settings)
-    case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt, compiled=model)
+    case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt_out, compiled=model)
     done = timed(case, method, outputs.channels, repeats=repeats)
     if done.stopped is not None:
         raise done.stopped

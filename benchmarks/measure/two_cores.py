@@ -15,11 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from seacrane import Kept, cases, ensemble
-from seacrane.hydro import shipped_database
 
 from .section import Section
 
-TRACK = Kept(channel="position", at={"body": "payload"}, step=1.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=1.0)
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0, "channels": ["position"], "keep": {"track": TRACK}}
 PACK = 4
 KINDS: dict[str, Callable[[], Any]] = {
@@ -31,13 +30,13 @@ KINDS: dict[str, Callable[[], Any]] = {
 
 def two_cores(*, members: int = 64, t_end: float = 10_800.0, repeats: int = 3) -> Section:
     """Wall time of storms of case 2, best of several that take turns."""
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
     best: dict[str, float] = {}
     busy = os.getloadavg()[0]
     for _ in range(repeats):
         for name, opened in KINDS.items():
             with opened() as executor:
-                given = {"t_end": t_end, "database": database, "executor": executor, "pack": PACK, **HOW}
+                given = {"t_end": t_end, "executor": executor, "pack": PACK, **HOW}
                 ensemble(scene, over={"seed": range(2 * PACK)}, **given | {"t_end": 1.0})  # workers begin
                 start = time.perf_counter()
                 ensemble(scene, over={"seed": range(members)}, **given)

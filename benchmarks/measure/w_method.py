@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from seacrane import Evaluator
+from seacrane.analysis import Evaluator
 
 from .section import Section
 from .stiff_lines import DT_OUT, TIGHT, lifted, path_of, power_of_ten
@@ -232,10 +232,10 @@ def w_method() -> Section:
     return Section(
         title="W-method with stiff lines only",
         text=(
-            f"{T_END:g} s of case 2 with a line of EA for its link, by ROS34PW2 in maximal coordinates: "
-            "largest error of the payload's place until 10 s and until the end, against the elastic line "
-            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}). `line only`: the matrix "
-            "holds the line's part of the Jacobian and the kinematics. Matrices are made "
+            f"{T_END:g} s of case 2 with a line of EA for its link, by ROS34PW2 in maximal coordinates. "
+            "The table has the largest error of the payload's place until 10 s and until the end, against "
+            f"the elastic line solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}). `line only`: the "
+            "matrix holds the line's part of the Jacobian and the kinematics. Matrices are made "
             "anew in every step, and are not counted."
         ),
         head=["EA, N", "matrix", "projected", "setting", "evaluations", "to 10 s, mm", "to the end, mm"],

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import HullLoads, Scene, Waves
+from seacrane import Scene
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene import HullLoads, Waves
 from seacrane.scene.position import force_by_heading
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
 

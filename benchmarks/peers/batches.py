@@ -30,14 +30,13 @@ from system import DT_OUT, T_END, ten_body_scene, tree_data, write_tree
 
 from seacrane import Kept, Scene, ensemble
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).resolve().parent
 LEVEL = 0.01  # m
 SHARE = 0.5  # of the members that have to be within it: errors of others grow too far
 BAUMGARTE = 10.0  # 1/s, of Pinocchio's loops
-TRACK = Kept(channel="position", at={"body": "payload"}, step=DT_OUT)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=DT_OUT)
 SEACRANE = [
     (method, rtol) for method in ("tsit5", "verner65", "dop853") for rtol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 ]
@@ -60,14 +59,13 @@ def seacrane_batches(
     scene: Scene, seeds: range, threads: int, repeats: int, lanes: int, settings: list[tuple[str, float]]
 ) -> Iterator[Batch]:
     """The whole call of `ensemble`, seas and results included."""
-    database = shipped_database()
     for method, rtol in settings:
         wall = cpu = np.inf
         for _ in range(repeats):
             with ThreadPoolExecutor(threads) as pool:
                 begun, spent = time.perf_counter(), time.process_time()
                 made = ensemble(
-                    scene, over={"seed": seeds}, keep={"track": TRACK}, database=database, t_end=T_END,
+                    scene, over={"seed": seeds}, keep={"track": TRACK}, t_end=T_END,
                     executor=pool, lanes=lanes, pack=max(lanes, 4), integrator=method, rtol=rtol,
                     formulation="recursive", dt_out=DT_OUT, channels=("position",),
                 )  # fmt: skip
@@ -89,7 +87,7 @@ def peer_batches(
     with tempfile.TemporaryDirectory() as folder:
         trees = [str(Path(folder) / f"tree_{seed}.txt") for seed in seeds]
         for seed, tree in zip(seeds, trees, strict=True):
-            write_tree(with_sea(scene, shipped_database(), {"seed": seed}), Path(tree))
+            write_tree(with_sea(scene, {"seed": seed}), Path(tree))
         model = Path(folder) / "model.xml"
         model.write_text(mjcf(tree_data(scene), IN_A_BATCH), encoding="utf-8")
         for method, rtol in PINOCCHIO:
@@ -164,7 +162,7 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
         text=(
             f"{members} members of the system above that differ in the phases of their waves, {T_END:g} s, "
             f"payload every second, on {threads} threads. For each engine the quickest of its settings with "
-            f"half the members within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9; in some of the "
+            f"half the members within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9. In some of the "
             "others any error grows to metres within this time, in every engine, as the worst ones tell. CPU "
             "time of all threads, for a member; simulated seconds a second by the wall.\n\n"
             "- seacrane: the whole call of `ensemble` from Python: seas, starts, steps, results. Its waves "

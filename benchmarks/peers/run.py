@@ -13,10 +13,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import documents
 import numpy as np
 from batches import batches
 from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
-from measure.machine import machine
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
 
@@ -35,11 +35,11 @@ Written by `benchmarks/peers/run.py --publish`. To measure again, with seacrane'
     python -m venv out/peers && out/peers/bin/pip install -r benchmarks/peers/requirements.txt
     python benchmarks/peers/run.py --peers out/peers/bin/python
 
-The system is case 2 without memory: hull, tower, king, two jibs, two barrels and rods, and the payload on its
-link; the shipped gains; {COMPONENTS} cosines per motion as wave loads, summed exactly; 100 s, outputs every
-second. A full 6 x 6 added mass does not fit the ten inertia parameters of a body in the peers, so all
-engines get the same entrained water: a mass of A33 without weight at the hull's centre of mass, with the
-moments A44, A55, A55 about it.
+The system is case 2 without memory: hull, tower, king, two jibs, two barrels and rods, and the payload
+on its link. It has the shipped gains, {COMPONENTS} cosines per motion as wave loads, summed exactly. Runs
+are of 100 s, with outputs every second. A full 6 x 6 added mass does not fit the ten inertia parameters
+of a body in the peers, so all engines get the same entrained water. It is a mass of A33 without weight
+at the hull's centre of mass, with the moments A44, A55, A55 about it.
 
 - seacrane: as installed, steps with projection.
 - Pinocchio: tree of 20 coordinates without quaternions, loops closed by two point constraints with Baumgarte
@@ -181,17 +181,19 @@ def main() -> int:
     if drivers is None:
         drivers = HERE.parents[1] / "out" / "bench-peers" / "drivers"
         subprocess.run([HERE / "build_drivers.sh", options.peers, drivers], check=True)
-    head = f"{INTRODUCTION}\nMachine: {machine()}\n"
     points, uncertainty = measure(drivers, options.peers, options.repeats)
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
     together = batches(drivers, options.peers, repeats=min(options.repeats, 3))
-    sections = (ratios(points), together, table(points, uncertainty))
-    for section in sections:
+    shown, last = (ratios(points), together), table(points, uncertainty)
+    for section in (*shown, last):
         section.save(folder / "results")
-    parts = [head, picture, *(section.markdown() + "\n" for section in sections)]
+    sections = (*(section.marked() for section in shown), last.marked(shown=False))
+    parts = [INTRODUCTION, picture, *(f"{section}\n" for section in sections)]
     with atomic_write(folder / "README.md") as draft:
         draft.write_text("\n".join(parts), encoding="utf-8")
+    if options.publish:
+        documents.fill()
     print(f"written to {folder}", file=sys.stderr)
     return 0
 

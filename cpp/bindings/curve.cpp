@@ -1,6 +1,7 @@
 #include "seacrane/math/curve.hpp"
 
 #include "bindings.hpp"
+#include "seacrane/math/curve_table.hpp"
 
 using seacrane::Curve;
 
@@ -36,6 +37,13 @@ py::array_t<double> evaluate(const Curve& curve, const py::array_t<double, py::a
   return out;
 }
 
+/// Samples as users give them: any array of one dimension, also one that a result recorded.
+Curve table(const py::object& times, const py::object& values, const std::string& between) {
+  const auto row = py::module_::import("seacrane.inputs.checked").attr("vector_of");
+  return seacrane::tabulated(row("curve: times", times).cast<std::vector<double>>(),
+                             row("curve: values", values).cast<std::vector<double>>(), between);
+}
+
 }  // namespace
 
 void bind_curve(py::module_& m) {
@@ -60,6 +68,12 @@ in s. Immutable.)")
           "Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) "
           "of amplitude, omega, phase. The last piece continues as it is: end with a constant to hold a "
           "value.")
+      .def_static(
+          "table", &table, py::arg("times"), py::arg("values"), py::kw_only(), py::arg("between") = "linear",
+          "Through samples (n,) of two or more: times in s that increase, values in the unit of what the "
+          "curve drives, such as a channel of a result. `between`: \"linear\", whose rate jumps at the "
+          "samples; or \"cubic\", whose rate and acceleration do not, at rest at both ends. Before the first "
+          "sample it is held at its value, and after the last one at that. Steps end at its jumps.")
       .def("then", &Curve::then, py::kw_only(), py::arg("time"), py::arg("curve"),
            "This curve until `time`, the other one afterwards (at its own clock).")
       .def("evaluate", &evaluate, py::arg("times"),

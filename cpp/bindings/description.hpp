@@ -297,7 +297,7 @@ void compared(const Arguments& arguments) {
   });
 }
 
-/// And pickled: `made` makes them again.
+/// Values that are pickled too: `made` makes them again from their arguments.
 template <class T, class Arguments, class Made>
 void by_arguments(const Arguments& arguments, const Made& made) {
   compared<T>(arguments);

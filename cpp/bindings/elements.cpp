@@ -96,9 +96,12 @@ void bind_loads(py::module_& m) {
     using D = typename Load::Description;
     auto type = description::bind<D>(m, Load::kind);
     type.def_static("example", &Load::example, "One for checks, on bodies 'first', 'second' and 'third'.");
+    type.attr("STIFF") = StiffLoad<Load>;
     kinds[Load::kind] = type;
   });
-  kinds["limit"] = description::bind<LimitDescription>(m, "limit");
+  auto limit = description::bind<LimitDescription>(m, "limit");
+  limit.attr("STIFF") = false;
+  kinds["limit"] = limit;
   m.attr("LOAD_KINDS") = kinds;
 }
 

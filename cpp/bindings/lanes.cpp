@@ -12,7 +12,7 @@ using namespace seacrane;
 
 namespace {
 
-/// Of this processor; what nobody compiled for is not known.
+/// Whether this processor has the instructions; only names that lanes are compiled for are known.
 bool has_instructions(const std::string& name) {
   if (name == "avx2") return Processor::here().avx2;
   if (name == "avx512") return Processor::here().avx512;

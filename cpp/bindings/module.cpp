@@ -4,6 +4,7 @@
 #include "seacrane/elements/check.hpp"
 #include "seacrane/integrate/integration_error.hpp"
 #include "seacrane/run/contacts.hpp"
+#include "seacrane/run/switches.hpp"
 #include "without_gil.hpp"
 
 namespace {
@@ -22,6 +23,8 @@ void translate(std::exception_ptr pointer) {
     raise("SceneError", error.what());
   } catch (const seacrane::ChatteringError& error) {
     raise("ChatteringError", error.what());
+  } catch (const seacrane::LineSlackError& error) {
+    raise("LineSlackError", error.what());
   } catch (const seacrane::IntegrationError& error) {
     raise("SimulationError", error.what());
   } catch (const std::domain_error& error) {

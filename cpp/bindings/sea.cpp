@@ -41,12 +41,12 @@ void bind_realisation(py::module_& m) {
   m.def(
       "realise_waves",
       [](const Spectrum& spectrum, const py::object& seed, double direction, const py::object& count,
-         std::optional<double> omega_min, std::optional<double> omega_max, double depth, double gravity,
-         const std::string& placement, const py::object& system) {
+         std::optional<double> minimum_omega, std::optional<double> maximum_omega, double depth,
+         double gravity, const std::string& placement, const py::object& system) {
         RealisationOptions o;
         o.count = static_cast<long>(whole_number(count, "count", 1, 1'000'000));
-        o.omega_min = omega_min;
-        o.omega_max = omega_max;
+        o.omega_min = minimum_omega;
+        o.omega_max = maximum_omega;
         o.direction = direction;
         o.seed = whole_number(seed, "seed", 0, std::numeric_limits<std::uint64_t>::max());
         o.placement = placement_of(placement);
@@ -57,7 +57,7 @@ void bind_realisation(py::module_& m) {
         return realise(spectrum, o);
       },
       py::arg("spectrum"), py::kw_only(), py::arg("seed"), py::arg("direction"), py::arg("count") = 200,
-      py::arg("omega_min") = py::none(), py::arg("omega_max") = py::none(),
+      py::arg("minimum_omega") = py::none(), py::arg("maximum_omega") = py::none(),
       py::arg_v("depth", infinity, "float('inf')"), py::arg("gravity") = standard_gravity,
       py::arg("placement") = "jittered", py::arg("system") = 0,
       R"(Long-crested sea with deterministic amplitudes and jittered frequencies.
@@ -77,7 +77,7 @@ direction : float
     Where the waves travel to, rad, from +x (forward) towards +y (port).
 count : int
     Number of components.
-omega_min, omega_max : float, optional
+minimum_omega, maximum_omega : float, optional
     Range, rad/s; by default `Spectrum.default_range`. For JONSWAP and Pierson-Moskowitz the realised hs is
     then within 1 %.
 depth : float

@@ -24,8 +24,8 @@ void bind_spectrum(py::module_& m) {
            "Each wave system by itself, the one with the given or the highest peak first.")
       .def("density", py::vectorize(&Spectrum::operator()), py::arg("omega"),
            "S(omega) in m2 s/rad for frequencies in rad/s, any shape; zero for omega <= 0.")
-      .def("energy", &Spectrum::energy, py::kw_only(), py::arg("omega_min") = 0.0,
-           py::arg_v("omega_max", infinity, "float('inf')"), "Integral of S between two frequencies, m2.")
+      .def("energy", &Spectrum::energy, py::kw_only(), py::arg("minimum_omega") = 0.0,
+           py::arg_v("maximum_omega", infinity, "float('inf')"), "Integral of S between two frequencies, m2.")
       .def(
           "moment", &Spectrum::moment, py::arg("order"),
           "Integral of omega^order S over all frequencies, for orders where it is finite (JONSWAP: -4 to 3).")

@@ -30,7 +30,7 @@ struct Threads {
   std::thread::id last;  // the thread that ends the interpreter; set before `ending`
 };
 
-/// Of the process, as its interpreter is; never destroyed, because threads outlive the interpreter.
+/// The threads of the process, which has one interpreter. They are never destroyed, because they outlive it.
 Threads& threads() {
   static auto* const all = new Threads;
   return *all;

@@ -10,7 +10,7 @@ namespace {
 LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
-  out.stretch = kQuasiStatic;
+  out.rung = kQuasiStatic;
   const DrumDescription no_drum;
   static_cast<DrumDescription&>(out) = no_drum;
   out.strains = out.tensions = {};
@@ -20,7 +20,7 @@ LineDescription quasi_static_line(const std::string& name) {
 LineDescription commanded_line() {
   LineDescription out = quasi_static_line("commanded");
   out.points = {{1.0, 0.2, 1.0}, {0.5, 0.1, -0.3}, {0.2, -0.3, 1.0}};
-  out.stiffness = 200.0;
+  out.EA = 200.0;
   out.settling = 0.3;
   const WinchDescription no_winch;
   static_cast<WinchDescription&>(out) = no_winch;
@@ -105,7 +105,7 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
           },
           1e-4);
       const double expected =
-          one.stiffness * (strain + s1 * (strain_rate - w) + s1 * s1 * bend) + viscous * strain_rate;
+          one.EA * (strain + s1 * (strain_rate - w) + s1 * s1 * bend) + viscous * strain_rate;
       CHECK(now.tension == doctest::Approx(expected).epsilon(1e-8));
     }
   }
@@ -164,8 +164,8 @@ TEST_CASE("a quasi-static stretch is refused where it cannot be") {
   };
   LineDescription bad = commanded_line();
   CHECK(message(bad).empty());
-  bad.stretch = "stiff";
-  CHECK(message(bad).find("stretch 'stiff' is unknown; choose 'elastic' or 'quasi-static'") !=
+  bad.rung = "stiff";
+  CHECK(message(bad).find("rung 'stiff' is unknown; choose 'elastic' or 'quasi-static'") !=
         std::string::npos);
   bad = commanded_line();
   bad.settling = 0.0;

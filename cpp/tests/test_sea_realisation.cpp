@@ -188,11 +188,11 @@ TEST_CASE("bad realisation options are named with their value and the fix") {
   o = options_of(1);
   o.omega_min = 2.5;
   o.omega_max = 0.3;
-  CHECK(message(o).find("omega_max is 0.3; give a finite frequency in rad/s above omega_min") !=
+  CHECK(message(o).find("maximum_omega is 0.3; give a finite frequency in rad/s above minimum_omega") !=
         std::string::npos);
   o = options_of(1);
   o.omega_min = std::numeric_limits<double>::quiet_NaN();
-  CHECK(message(o).find("omega_min is nan") != std::string::npos);
+  CHECK(message(o).find("minimum_omega is nan") != std::string::npos);
   o = options_of(1);
   o.direction = std::numeric_limits<double>::infinity();
   CHECK(message(o).find("direction is inf") != std::string::npos);

@@ -13,14 +13,16 @@ scene = Scene(name="feeder lift")
 crane = scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
 x, y, tip = scene.place_of(body=crane.tip[0], point=crane.tip[1])
 scene.add_given_vessel(raos, name="barge", position=(x, y, 0.0))
-scene.add_sea(raos, vessel="barge", hs=1.5, tp=8.0, direction_deg=180.0, seed=2)
+scene.add_sea(vessel="barge", hs=1.5, tp=8.0, direction_deg=180.0, seed=2)
 scene.add_body(name="load", mass=MASS, inertia=(2e5, 2e5, 2e5), position=(x, y, DECK))
 scene.add_joint(kind="weld", name="grillage", first="barge", second="load")
 scene.add_seat(joint="grillage")
 path = {"bodies": [crane.tip[0], "load"], "points": [crane.tip[1], (0.0, 0.0, 0.0)]}
-scene.add_line(name="hoist", **path, stiffness=EA, length=tip - DECK + SLACK)
+scene.add_line(name="hoist", **path, EA=EA, length=tip - DECK + SLACK)
 scene.add_winch(line="hoist", lag=0.2)
-lift = Stage(name="lift", until=Until.release("grillage"), longest=60.0, commands={"hoist.rate": -RATE})
+lift = Stage(
+    name="lift", until=Until.release("grillage"), maximum_duration=60.0, commands={"hoist.rate": -RATE}
+)
 stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]
 result = simulate_stages(scene, stages, dt_out=0.02)
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from seacrane import Curve, MotionHistory, Scene, reflected_inertia, simulate
+from seacrane import Curve, MotionHistory, Scene, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 HEAVE, OMEGA, HIGH_PASS, LOOP = 0.5, 2.0 * np.pi / 9.0, 0.03, 2.0 * np.pi * 2.0  # m, rad/s, Hz, rad/s
@@ -23,7 +24,7 @@ def lift(lag: float) -> Scene:
         scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
     scene.add_actuator(joint="knuckle_cylinder")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=TIP - [0.0, 0.0, ROPE])
-    scene.add_line(name="hoist", bodies=[jib, "load"], points=[head, (0, 0, 0)], stiffness=EA, length=ROPE)
+    scene.add_line(name="hoist", bodies=[jib, "load"], points=[head, (0, 0, 0)], EA=EA, length=ROPE)
     felt, (_, held) = reflected_inertia(scene)["knuckle_cylinder"], HOLDING
     gains = {"stiffness": felt * LOOP**2, "damping": 1.6 * felt * LOOP, "feed_forward": held}
     scene.replace("knuckle_cylinder", kind="actuator", **gains)

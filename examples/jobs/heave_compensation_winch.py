@@ -17,7 +17,7 @@ def lift(**settings: float) -> Scene:
     stretched = ROPE * (1.0 + MASS * scene.gravity / EA)
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, TIP - stretched))
     path = {"bodies": ["ship", "load"], "points": [(0, 0, TIP), (0, 0, 0)]}
-    scene.add_line(name="hoist", **path, stiffness=EA, length=ROPE)
+    scene.add_line(name="hoist", **path, EA=EA, length=ROPE)
     scene.add_winch(line="hoist")
     scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, TIP), winch="hoist", **settings)
     return scene

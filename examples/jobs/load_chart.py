@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from seacrane import Scene, load_chart, statics
+from seacrane import Scene, load_chart, shipped_database, statics
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.hydro import shipped_database
 
 LOAD, FORCE, HEEL, PORT = 30e3, 12e3, 5.0, -np.pi / 2  # kg, kN, deg, rad
 

@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from seacrane import Scene, Stage, Until, simulate_stages
-from seacrane.hydro import shipped_database
+from seacrane import Scene, Stage, Until, shipped_database, simulate_stages
 
 MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (35 mm), m, m, m/s
 
 scene = Scene(name="subsea lowering")
 scene.add_given_vessel(shipped_database())
-scene.add_sea(shipped_database(), hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
+scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
 jib, head = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0).tip
 for joint in ("A", "main_cylinder", "knuckle_cylinder"):
     scene.add_driver(joint=joint, curve=0.0)
@@ -18,9 +17,11 @@ scene.add_body(name="load", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(x, y, 
 strain = MASS * scene.gravity / EA
 first, deep = (tip - START) / (1.0 + strain), (tip + DEPTH) / (1.0 + strain)
 path = {"bodies": [jib, "load"], "points": [head, (0.0, 0.0, 0.0)]}
-scene.add_line(name="wire", **path, stiffness=EA, length=first)
+scene.add_line(name="wire", **path, EA=EA, length=first)
 scene.add_winch(line="wire", lag=0.2)
-lower = Stage(name="lower", until=Until.length("wire", above=deep), longest=300, commands={"wire.rate": RATE})
+lower = Stage(
+    name="lower", until=Until.length("wire", minimum=deep), maximum_duration=300, commands={"wire.rate": RATE}
+)
 stop = Stage(name="stop", duration=30.0, commands={"wire.rate": 0.0})
 result = simulate_stages(scene, [lower, stop, Stage(name="hold", duration=200.0)], dt_out=0.1)
 

@@ -2,23 +2,22 @@
 
 import numpy as np
 
-from seacrane import Scene, response_statistics, simulate, summary
+from seacrane import Scene, response_statistics, shipped_database, simulate, summary
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap
 
 MASS, HS, TP, START, END = 50e3, 1.5, 7.0, 600.0, 600.0 + 3.0 * 3600.0  # kg, m, s, s, s
 
-scene, ship = Scene(name="three hours"), shipped_database()
-scene.add_vessel(ship)
+scene = Scene(name="three hours")
+scene.add_vessel(shipped_database())
 load = Payload(mass=MASS, link_length=25.0)
 crane = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=True)
 scene.add_ballast()
-scene.add_sea(ship, hs=HS, tp=TP, direction_deg=180.0, count=300)
+scene.add_sea(hs=HS, tp=TP, direction_deg=180.0, count=300)
 result = simulate(scene, t_end=END, dt_out=0.5)  # a loose tolerance would feed the load's rocking
-print(summary(result, start=START))
+print(summary(result, after=START))
 
-sea = {"database": ship, "spectrum": jonswap(hs=HS, tp=TP), "heading": np.pi}  # by hand: the linear model
+sea = {"spectrum": jonswap(hs=HS, tp=TP), "heading": np.pi}  # by hand: the linear model
 heave = response_statistics(scene, **sea, body=crane.tip[0], point=crane.tip[1])
 motion = response_statistics(scene, **sea, body="vessel")
 turns = np.degrees(motion.std)

@@ -14,11 +14,11 @@ G, MASS, LENGTH, PULL, GAIN = 9.80665, 20e3, 20.0, 10e3, 7e-4  # m/s2, kg, m, N,
 scene = Scene(name="tugger")
 scene.add_body(name="payload", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(0, 0, -LENGTH))
 scene.add_line(
-    name="hoist", bodies=["ground", "payload"], points=[(0, 0, 0), (0, 0, 0)], stiffness=2e8,
+    name="hoist", bodies=["ground", "payload"], points=[(0, 0, 0), (0, 0, 0)], EA=2e8,
     length=LENGTH / (1.0 + MASS * G / 2e8),
 )  # fmt: skip
 scene.add_line(
-    name="tugger", bodies=["ground", "payload"], points=[(40, 0, -LENGTH), (0, 0, 0)], stiffness=5e6,
+    name="tugger", bodies=["ground", "payload"], points=[(40, 0, -LENGTH), (0, 0, 0)], EA=5e6,
     length=40.0 / (1.0 + PULL / 5e6),
 )  # fmt: skip
 scene.add_winch(line="tugger", tension=PULL, tension_gain=GAIN, maximum_rate=1.5)

@@ -21,7 +21,7 @@ for name, (base, foot, theta) in CRANES.items():
     above = scene.place_of(body=body, point=point) - CENTRE
     lugs[name] = above[1]
     points = [point, (0.0, above[1], 0.0)]
-    scene.add_line(name=name, bodies=[body, "load"], points=points, stiffness=EA, length=above[2] - 0.02)
+    scene.add_line(name=name, bodies=[body, "load"], points=points, EA=EA, length=above[2] - 0.02)
     scene.add_winch(line=name, rate=-0.05, lag=0.5)
 result = simulate(scene, t_end=180.0)
 

@@ -16,7 +16,7 @@ def peak(stiffness: float, *, snatch: bool) -> float:
         name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -LENGTH - hangs), velocity=velocity
     )
     path = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "damping_ratio": 0.0}
-    scene.add_line(name="wire", **path, stiffness=stiffness, length=LENGTH)
+    scene.add_line(name="wire", **path, EA=stiffness, length=LENGTH)
     if not snatch:
         scene.add_winch(line="wire", rate=-SPEED)
     half = np.pi * np.sqrt(MASS * LENGTH / stiffness)  # s, of the period of the load on its wire

@@ -5,4 +5,4 @@ Describe a `Scene`, `simulate` it, look at the `Result`. SI units, radians; x fo
 
 from seacrane.lazy import face
 
-__getattr__, __dir__, __all__ = face(__name__, __file__)
+__all__ = face(__name__, __file__)

@@ -36,6 +36,11 @@ class Curve:
         """
         From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both ends, held before and after. Raises SceneError when the times do not increase.
         """
+    @staticmethod
+    def table(times: typing.Any, values: typing.Any, *, between: str = 'linear') -> Curve:
+        """
+        Through samples (n,) of two or more: times in s that increase, values in the unit of what the curve drives, such as a channel of a result. `between`: "linear", whose rate jumps at the samples; or "cubic", whose rate and acceleration do not, at rest at both ends. Before the first sample it is held at its value, and after the last one at that. Steps end at its jumps.
+        """
     def __copy__(self) -> Curve:
         ...
     def __deepcopy__(self, memo: dict) -> Curve:
@@ -77,7 +82,7 @@ class Spectrum:
         """
         S(omega) in m2 s/rad for frequencies in rad/s, any shape; zero for omega <= 0.
         """
-    def energy(self, *, omega_min: typing.SupportsFloat | typing.SupportsIndex = 0.0, omega_max: typing.SupportsFloat | typing.SupportsIndex = ...) -> float:
+    def energy(self, *, minimum_omega: typing.SupportsFloat | typing.SupportsIndex = 0.0, maximum_omega: typing.SupportsFloat | typing.SupportsIndex = ...) -> float:
         """
         Integral of S between two frequencies, m2.
         """
@@ -568,7 +573,7 @@ class Body:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ...) -> None:
+    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ..., size: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -611,6 +616,11 @@ class Body:
     def quaternion(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
         """
         w, x, y, z: body to inertial
+        """
+    @property
+    def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, edges of the box that it is, about its centre of mass, body axes
         """
     @property
     def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
@@ -837,6 +847,7 @@ class HeaveCompensator:
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
         """
@@ -941,6 +952,7 @@ class Actuator:
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
         """
@@ -1000,6 +1012,7 @@ class PointForce:
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
         """
@@ -1049,6 +1062,7 @@ class Spring:
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
         """
@@ -1123,6 +1137,7 @@ class ForceTable:
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
         """
@@ -1172,6 +1187,7 @@ class FunctionForce:
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
         """
@@ -1213,6 +1229,7 @@ class FlowForce:
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
         """
@@ -1292,6 +1309,7 @@ class Friction:
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
         """
@@ -1341,6 +1359,7 @@ class SoftStop:
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
         """
@@ -1400,6 +1419,7 @@ class Line:
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
         """
@@ -1415,12 +1435,17 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    @property
+    def EA(self) -> float:
+        """
+        N, axial stiffness: tension over strain
+        """
     @property
     def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
         """
@@ -1535,6 +1560,11 @@ class Line:
         m/s, commanded, positive: pays out
         """
     @property
+    def rung(self) -> str:
+        """
+        'elastic', or 'quasi-static': its stretch follows the tension
+        """
+    @property
     def settling(self) -> float:
         """
         s, in which a quasi-static stretch follows
@@ -1545,19 +1575,9 @@ class Line:
         m/s, at which sheaves have 76 % of their friction
         """
     @property
-    def stiffness(self) -> float:
-        """
-        N, EA: tension over strain
-        """
-    @property
     def strains(self) -> list[float]:
         """
         from 0, of a table in place of EA
-        """
-    @property
-    def stretch(self) -> str:
-        """
-        'elastic', or 'quasi-static': then it follows the tension
         """
     @property
     def tension(self) -> Curve:
@@ -1589,6 +1609,7 @@ class GasSpring:
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
         """
@@ -1693,6 +1714,7 @@ class PendulumDamping:
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
         """
@@ -1752,6 +1774,7 @@ class SpanDrag:
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
         """
@@ -1826,6 +1849,7 @@ class HydraulicCylinder:
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
         """
@@ -2132,9 +2156,10 @@ class HydraulicCylinder:
         """
 class Limit:
     """
-    What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
+    What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...
     def __deepcopy__(self, memo: dict) -> Limit:
@@ -3051,7 +3076,7 @@ def pierson_moskowitz(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: ty
     -----
     W. J. Pierson and L. Moskowitz, J. Geophys. Res. 69 (24), 1964.
     """
-def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, omega_min: typing.SupportsFloat | typing.SupportsIndex | None = None, omega_max: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
+def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, minimum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, maximum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
     """
     Long-crested sea with deterministic amplitudes and jittered frequencies.
     
@@ -3070,7 +3095,7 @@ def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.Sup
         Where the waves travel to, rad, from +x (forward) towards +y (port).
     count : int
         Number of components.
-    omega_min, omega_max : float, optional
+    minimum_omega, maximum_omega : float, optional
         Range, rad/s; by default `Spectrum.default_range`. For JONSWAP and Pierson-Moskowitz the realised hs is
         then within 1 %.
     depth : float

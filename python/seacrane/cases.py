@@ -23,6 +23,7 @@ from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     import os
+__all__ = ["ACTUATORS", "SLEW_END", "case1", "case2", "case3", "vessel"]
 
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 NATURAL_FREQUENCY = 2.0 * np.pi * 0.8  # rad/s of every controlled coordinate
@@ -93,7 +94,7 @@ def _afloat(
     scene.add_vessel(chosen, memory=memory, kinematics=kinematics, mooring_period=mooring_period)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
-    scene.add_sea(chosen, **sea)
+    scene.add_sea(**sea)
     return scene
 
 
@@ -214,7 +215,7 @@ def case1(**options: Any) -> Scene:
 
         - foot (3,): place of the crane's foot in the vessel frame, m;
         - feed_forward: "references" (default), the quasi-static loads along the motion, by
-          `seacrane.feed_forward`; or "start", the constant loads of the start: strokes then end short.
+          `seacrane.analysis.feed_forward`; or "start", the constant loads of the start: strokes end short.
     """
     return _lift("case1", payload=None, motion=_SWING_OUT, **options)
 
@@ -227,3 +228,7 @@ def case2(*, payload: Payload | None = None, **options: Any) -> Scene:
 def case3(**options: Any) -> Scene:
     """Case 3: slew 0 to -90 deg, strokes 0 to 4 m, from 50 s on 3 + cos(2 pi t / 5) m; no payload."""
     return _lift("case3", payload=None, motion=_SWING_OUT_AND_OSCILLATE, **options)
+
+
+def __dir__() -> list[str]:
+    return __all__

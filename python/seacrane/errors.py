@@ -42,17 +42,32 @@ class SeacraneError(Exception):
     result : Result or None
         What a run had recorded when it raised this, with `interrupted` set and its last good state; None
         outside a run.
+    name : str
+        Of the element that it is about, where what raised it says so; else empty.
     """
 
     result: Recorded | None = None
+    name: str = ""
 
 
 class SceneError(SeacraneError, ValueError):
     """A scene, or one of its elements, contradicts itself or holds a value out of range."""
 
 
+class OutputMemoryError(SceneError, MemoryError):
+    """The outputs asked for would not fit into this computer's memory; nothing has been allocated."""
+
+
 class FileFormatError(SeacraneError, ValueError):
-    """A file is truncated, malformed or of an unknown kind."""
+    """A file is truncated, malformed or of an unknown kind.
+
+    Attributes
+    ----------
+    placed : bool
+        Whether the message begins with the file and the line.
+    """
+
+    placed: bool = False
 
 
 class SimulationError(SeacraneError, RuntimeError):
@@ -60,5 +75,24 @@ class SimulationError(SeacraneError, RuntimeError):
     the outputs until then."""
 
 
+class LineSlackError(SimulationError):
+    """A line on the rung "quasi-static" would go slack, or has hauled in to its end; the message names it."""
+
+
 class ChatteringError(SimulationError):
     """Limits make and break contact without end in no time; the message names limit, joint and time."""
+
+
+class WorkerVersionError(SeacraneError):
+    """A worker has another version of seacrane than the process that asks for the ensemble."""
+
+
+class PassivityError(SeacraneError, ValueError):
+    """A memory model that can deliver energy, where a passive one was asked for."""
+
+
+__all__ = [name for name, value in globals().items() if isinstance(value, type) and name.endswith("Error")]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -55,10 +55,8 @@ def simulate(
     progress : bool
         Show a progress bar.
     **shorthand
-        Parts of `method` and `outputs` by name, for calls that name few of them. `integrator`,
-        `formulation`, `max_step`, `spectral_radius` and `energy_limit` are those of `Method`, `rtol` is its
-        `tolerance`, `dt` its `step` (s); `dt_out` (s) and `channels` are those of `Outputs`. One that
-        contradicts the object is refused.
+        Attributes of `Method` and `Outputs` by name, for calls that name few of them. One that contradicts
+        the object is refused.
 
     Returns
     -------
@@ -87,7 +85,8 @@ def simulate(
     GrowingModeWarning
         After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
     LineRungWarning
-        After a run that began anew because a line with stretch="auto" went slack; in `stats` likewise.
+        After a second run, with elastic lines, in the place of one in which a line with rung="auto" went
+        slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
     LoadInHullWarning, FreeCraneWarning, LiftedStartWarning, QuasiStaticLineWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
@@ -98,5 +97,5 @@ def simulate(
             scene, t_end, accuracy, method=method, outputs=outputs, start=start, controllers=called,
             progress=progress, shorthand=shorthand,
         )  # fmt: skip
-    run = Run(scene, t_end, method=method, outputs=outputs, start=start, **shorthand)
+    run = Run(scene, t_end, method=method, outputs=outputs, start=start, controlled=bool(called), **shorthand)
     return finished(run, called, progress=progress)

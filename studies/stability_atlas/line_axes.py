@@ -33,7 +33,7 @@ def _heaved(
     strain = mass * GRAVITY / falls / stiffness
     scene.add_line(
         name="hoist", bodies=(["block", "load"] * falls)[: falls + 1], points=np.zeros((falls + 1, 3)),
-        stiffness=stiffness, length=falls * length / (1.0 + strain), mass=mass / falls**2, **line,
+        EA=stiffness, length=falls * length / (1.0 + strain), mass=mass / falls**2, **line,
     )  # fmt: skip
     return scene
 
@@ -43,7 +43,7 @@ def _stiffness(stiffness: float) -> Case:
 
 
 def _quasi_static(stiffness: float) -> Case:
-    return Case(scene=_heaved(stiffness=stiffness, stretch="quasi-static"), t_end=5.0, dt_out=0.1)
+    return Case(scene=_heaved(stiffness=stiffness, rung="quasi-static"), t_end=5.0, dt_out=0.1)
 
 
 def _snatching(stiffness: float) -> Case:

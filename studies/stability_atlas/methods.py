@@ -16,18 +16,18 @@ DEFAULT = Method()
 
 QUICK = (
     DEFAULT,
-    Method(formulation="recursive", integrator="tsit5", tolerance=1e-3),
-    Method(formulation="redundant", integrator="dop853", tolerance=1e-9),
-    Method(formulation="redundant", integrator="rk4", step=0.02),
-    Method(formulation="recursive", integrator="semi-implicit-euler", step=0.005),
-    Method(formulation="redundant", integrator="cvode-bdf", tolerance=1e-6),
+    Method(formulation="recursive", integrator="tsit5", rtol=1e-3),
+    Method(formulation="redundant", integrator="dop853", rtol=1e-9),
+    Method(formulation="redundant", integrator="rk4", dt=0.02),
+    Method(formulation="recursive", integrator="semi-implicit-euler", dt=0.005),
+    Method(formulation="redundant", integrator="cvode-bdf", rtol=1e-6),
 )
 
 TIGHT = (
-    Method(formulation="redundant", integrator="verner76", tolerance=1e-11),
-    Method(formulation="recursive", integrator="dop853", tolerance=1e-11),
-    Method(formulation="redundant", integrator="dop853", tolerance=1e-9),
-    Method(formulation="recursive", integrator="verner76", tolerance=1e-9),
+    Method(formulation="redundant", integrator="verner76", rtol=1e-11),
+    Method(formulation="recursive", integrator="dop853", rtol=1e-11),
+    Method(formulation="redundant", integrator="dop853", rtol=1e-9),
+    Method(formulation="recursive", integrator="verner76", rtol=1e-9),
 )
 """Of the references; they differ in equations and in method."""
 

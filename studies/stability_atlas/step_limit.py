@@ -170,7 +170,7 @@ def _settles(
     steps = STEPS if not known.residual_form else STEPS // 5
     method = method_of(known, h if known.setting == "dt" else LOOSE, formulation)
     if known.setting == "rtol":
-        method = replace(method, max_step=h)
+        method = replace(method, maximum_step=h)
     run = Run(scene, steps * h, method=method, start=start, model=model, dt_out=steps * h,
               channels=["position"])  # fmt: skip
     try:

@@ -1,13 +1,14 @@
-"""The summary that docs/extremes.md shows, from all runs of an atlas.
+"""The summary that README.md shows, from all runs of an atlas.
 
     PYTHONPATH=studies python -m stability_atlas.summary out/extremes/extremes.csv
 
-writes it to ``benchmarks/results/stability-atlas.csv``, from which ``benchmarks/documents.py`` fills it.
+writes it to ``benchmarks/results/stability-atlas.csv``, and fills README.md by ``benchmarks/documents.py``.
 """
 
 from __future__ import annotations
 
 import csv
+import subprocess
 import sys
 from collections.abc import Iterable
 from math import isfinite
@@ -56,6 +57,8 @@ def main(source: str) -> None:
     TARGET.parent.mkdir(parents=True, exist_ok=True)
     with TARGET.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
+    fill = [sys.executable, str(ROOT / "benchmarks" / "documents.py"), "--measured", str(TARGET)]
+    subprocess.run(fill, check=True)
 
 
 if __name__ == "__main__":

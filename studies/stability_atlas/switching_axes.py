@@ -60,7 +60,7 @@ def _snatch(amplitude: float) -> Case:
     scene.add_driver(
         joint="guide", curve=_core.Curve.harmonic(amplitude=amplitude, omega=2.0, phase=-0.5 * np.pi)
     )
-    scene.add_wire(joint="wire")
+    scene.add_line(joint="wire", rung="rigid")
     return Case(scene=scene, t_end=10.0, dt_out=0.1)
 
 

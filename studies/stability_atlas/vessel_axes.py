@@ -92,7 +92,7 @@ def _time_origin(t0: float) -> Case:
     # Both factors are integers: their product is exact, and the rest of a whole turn is right to 40 digits.
     turned = [_turn_of(int(w * 2.0**20) * int(t0)) for w in omega]
     twin.waves = replace(scene.waves, phase=np.asarray(waves.phase) + np.array(turned))
-    tight = Method(integrator="verner76", tolerance=1e-11)
+    tight = Method(integrator="verner76", rtol=1e-11)
     run = simulate(twin, t_end=60.0, method=tight, dt_out=0.5, channels=["position", "quaternion"])
     begin = _core.initial_state(scene.compile())
     start = _core.State(time=t0, values=begin.values, inputs=begin.inputs)

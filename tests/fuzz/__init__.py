@@ -1,1 +1,1 @@
-"""Hostile input: fuzz targets, mutators, driver and corpus; see docs/hostile-input.md."""
+"""Hostile input: fuzz targets, mutators, driver and corpus; see docs/contributing.md."""

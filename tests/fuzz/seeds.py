@@ -382,7 +382,7 @@ def main() -> None:
     put(
         "measured",
         "record",
-        json.dumps({**record, "omega_min": 0.5, "omega_max": 3.0, "name": "buoy"}).encode(),
+        json.dumps({**record, "minimum_omega": 0.5, "maximum_omega": 3.0, "name": "buoy"}).encode(),
     )
 
 

@@ -268,11 +268,11 @@ def _set_targets(
     ]
 
 
-def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: str) -> list[Target]:
+def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], *modules: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
     return [
-        Target(name, name, file, read, (module, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
-        Target(f"{name}-bytes", name, file, read, (module, *_NETCDF), None, unfolds=True),
+        Target(name, name, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
+        Target(f"{name}-bytes", name, file, read, (*modules, *_NETCDF), None, unfolds=True),
     ]
 
 
@@ -302,7 +302,8 @@ _ALL = [
         refusals=(SceneError,),
     ),
     Target("state", "state", "run.state", _state, ("files/state.py",)),
-    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
+    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py",
+                     "hydro/readers/seacrane_netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _bemio, "hydro/readers/bemio.py"),

@@ -3,5 +3,5 @@ engine.
 
 One module per problem: `scene(...)` describes it for seacrane, a function beside it gives the solution,
 published or computed by other means, and says which. `table.py` prints the table of
-docs/reference-problems.md.
+README.md.
 """

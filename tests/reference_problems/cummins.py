@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from test_convolution import convolved
 from test_vessel import moored, regular_wave
 
-from seacrane import Scene, State, Waves, linear_model, natural_modes, simulate
+from seacrane import Scene, State, linear_model, natural_modes, simulate
 from seacrane.hydro import shipped_database
+from seacrane.scene import Waves
 
 Array = NDArray[np.float64]
 AMPLITUDE, OMEGA, HEADING_DEG = 1e-5, 0.7, 135.0

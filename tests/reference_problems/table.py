@@ -1,4 +1,4 @@
-"""Writes the tables of docs/reference-problems.md to benchmarks/results.
+"""Writes the tables of README.md to benchmarks/results.
 
 Usage, from the repository: PYTHONPATH=tests python -m reference_problems.table
 """
@@ -6,6 +6,8 @@ Usage, from the repository: PYTHONPATH=tests python -m reference_problems.table
 from __future__ import annotations
 
 import csv
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -64,3 +66,4 @@ if __name__ == "__main__":
         with path.open("w", newline="", encoding="utf-8") as file:
             rows = (comparison.row() for comparison in comparisons())
             csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
+        subprocess.run([sys.executable, RESULTS.parent / "documents.py", "--measured", path], check=True)

@@ -12,7 +12,6 @@ import warnings
 import numpy as np
 
 from seacrane import Kept, cases, ensemble
-from seacrane.hydro import shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, module_of
 
 REPEATS = 3
@@ -27,11 +26,11 @@ def lanes_used(result):
 
 def seeds(count, lanes, span, rtol):
     """The ensemble, and the seconds that it took."""
-    keep = {"track": Kept(channel="position", at={"body": "payload"}), "lanes": lanes_used}
+    keep = {"track": Kept(channel="position", names={"body": "payload"}), "lanes": lanes_used}
     over = {"seed": range(1, count + 1)}
     begin = time.perf_counter()
     made = ensemble(
-        SCENE, over=over, keep=keep, database=shipped_database(), t_end=span, rtol=rtol, lanes=lanes,
+        SCENE, over=over, keep=keep, t_end=span, rtol=rtol, lanes=lanes,
         on_error="raise",
     )  # fmt: skip
     return made.dataset, time.perf_counter() - begin

@@ -90,7 +90,6 @@ class Compiler {
     return static_cast<int>(model_.load_states.size()) - 1;
   }
   double mass(const std::string& body) const { return scene_.bodies[idx(index_.at(body))].mass; }
-  /// Of lengths, m: what errors of positions count over.
   double gravity() const { return scene_.gravity; }
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 
@@ -292,13 +291,13 @@ class Compiler {
       const std::string what = "line '" + line.name + "': its stretch is quasi-static, and ";
       if (!model_.limits.empty()) {
         throw SceneError(what + "limit '" + model_.limits.front().name +
-                         "' makes impacts, which shake the line; choose stretch 'elastic'");
+                         "' makes impacts, which shake the line; choose rung 'elastic'");
       }
       for (const VesselDescription& v : scene_.vessels) {
         if (v.kinematics != VesselKinematics::paper) continue;
         throw SceneError(what + "vessel '" + v.name +
                          "' has kinematics 'paper', whose mass is not symmetric; "
-                         "choose 'yaw_following', or stretch 'elastic'");
+                         "choose 'yaw_following', or rung 'elastic'");
       }
     }
   }

@@ -24,7 +24,7 @@ struct Pull {
   const Line* line = nullptr;
 };
 
-/// Of a load with stiff states, along its direction: they follow its rate.
+/// The stiffness of a load with stiff states along its direction, when these follow its rate.
 double stiffness_of(const StiffSlopes& slopes) {
   const Eigen::Index n = slopes.rows() - 1;
   return std::abs(slopes.block(0, 1, 1, n).row(0).dot(slopes.block(1, 0, n, 1).col(0)));
@@ -39,7 +39,7 @@ class BounceFinder {
     if (lines_.empty() || model_.paper_kinematics) return {};
     factor();
     for (const Line& line : lines_) {
-      add([&](Vec6d* w) { line.add_path(input(), w); }, line.stiffness / line.length.at(0.0).value, &line);
+      add([&](Vec6d* w) { line.add_path(input(), w); }, line.EA / line.length.at(0.0).value, &line);
     }
     if (lines_.size() > kMostCoupled) return one_by_one();
     add_others();

@@ -6,8 +6,8 @@
 
 namespace seacrane {
 
-/// Those of the lines of a model whose limits are open, at its start; none of lines that move nothing there,
-/// nor with the paper's masses, which have no response to loads.
+/// The bounces of the lines of a model at its start, with its limits open. A line that moves nothing there
+/// has none, and neither has the paper's vessel, whose masses have no response to loads.
 std::vector<LineBounce> find_line_bounces(const Model& model);
 
 /// Gives lines without a mass of their own that of their bounce.

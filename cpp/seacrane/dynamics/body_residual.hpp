@@ -43,7 +43,7 @@ class BodyResidual {
   /// Slopes in up to twelve states of loads, from `first` on, in place of a body's directions.
   void differentiate_states(int first);
 
-  /// Of p on a body, and of D^T mu.
+  /// Slopes of the load p on a body, and of D^T mu.
   Slopes load(int body) const { return slopes(wrench_[idx(body)]); }
   Slopes second_load(int body) const { return slopes(second_wrench_[idx(body)]); }
   /// Bodies on which p may have slopes.
@@ -55,18 +55,18 @@ class BodyResidual {
   const LoadSum<Scalar>& sum() const { return sum_; }
   /// Rates of the memory states of the body's vessel.
   const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
-  /// Of lines, with accelerations held.
+  /// Tensions of quasi-static lines, with accelerations held.
   const std::vector<Scalar>& inertial_tensions() const { return inertial_; }
   /// Rates of the states of all loads.
   const std::vector<Scalar>& state_rates() const { return state_rate_; }
 
-  /// Of the wave load on a vessel, in its yaw frame: slopes over the x, y and yaw where it is taken, and the
+  /// Slopes of the wave load on a vessel, in its yaw frame, over the x, y and yaw where it is taken; and the
   /// sign of its power.
   struct WaveSlopes {
     double over_pose[6][3] = {};
     double direction = 1.0;
   };
-  /// Of a vessel whose body has been differentiated.
+  /// The slopes of a vessel whose body has been differentiated.
   const WaveSlopes& wave_slopes(std::size_t vessel) const { return wave_slopes_[vessel]; }
 
  private:

@@ -116,7 +116,7 @@ Dependence ConstraintSolver::take_dependence() {
   if (m.rows() == 0) return {};
   const int left_out = !regular_ && dependent_ ? m.rows() - row_space_->rank() : 0;
   redundant_ = redundant_rows(m, redundant_, left_out);
-  // Of the worst of rows that are redundant from the start nothing is ever left.
+  // Where rows are redundant from the start, nothing is ever left of the worst one.
   const bool hidden = redundant_ > 0 && redundant_ <= left_out;
   const double ratio = hidden ? std::pow(row_space_->singular_value(redundant_), -2) : condition_;
   return {ratio, redundant_, left_out, std::exchange(most_left_out_, 0)};

@@ -36,7 +36,7 @@ class ConstraintSolver {
   /// By the last factor(); acceleration and multipliers by body (ground last) and by row.
   void solve(const std::vector<Vec6d>& load, const std::vector<double>& right,
              std::vector<Vec6d>& acceleration, std::vector<double>& lambda);
-  /// The same with the paper's unsymmetric masses, which factor() leaves out; factors them.
+  /// Solves with the paper's unsymmetric masses, which factor() leaves out, and factors them.
   void solve_unsymmetric(const std::vector<Vec6d>& load, const std::vector<double>& right,
                          std::vector<Vec6d>& acceleration, std::vector<double>& lambda);
   /// motion := M^-1 D^T S^-1 residual, the smallest one in the mass metric that removes the residual, which

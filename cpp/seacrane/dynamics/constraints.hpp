@@ -27,7 +27,7 @@ double position_residual(const Terms& terms);
 double rate_residual(const Terms& terms, const double* y, double* out);
 /// Both, without the rows.
 ConstraintResidual constraint_residual(const Terms& terms, const double* y);
-/// The same at (t, y).
+/// Evaluates the terms at (t, y) first.
 ConstraintResidual constraint_residual(Terms& terms, double t, const double* y);
 /// out := D^T lambda by body, ground last.
 void multiplier_load(const Terms& terms, const double* lambda, std::vector<Vec6d>& out);

@@ -7,13 +7,13 @@ struct Model;
 /// S_ii / d_i, what a row of the Schur complement S = D M^-1 D^T has over what the rows before it leave of
 /// it, beyond which S has lost too many digits and something else takes over.
 inline constexpr double kInaccuratePivot = 1e5;
-/// The same with every mass one: beyond it rows may depend on each other, by geometry alone.
+/// The bound of this ratio with every mass one. Beyond it, rows may depend on each other by geometry alone.
 inline constexpr double kDependentPivot = 1e7;
 /// Relative singular value of D, every mass one, below which a combination of rows is not enforced.
 /// Change-point four-bars pass their singular position onto the right branch with 1e-4, and lose it with
 /// 1e-6.
 inline constexpr double kEnforcedSingularValue = 1e-4;
-/// The same as an eigenvalue of D M^-1 D^T.
+/// This bound for an eigenvalue of D M^-1 D^T.
 inline constexpr double kEnforcedEigenvalue = kEnforcedSingularValue * kEnforcedSingularValue;
 /// Relative singular value below which rows are redundant, as an assembled model reports.
 inline constexpr double kRedundantSingularValue = 3e-6;

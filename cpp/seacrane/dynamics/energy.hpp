@@ -8,7 +8,7 @@ namespace seacrane {
 double kinetic_energy(const Terms& terms, const double* y);
 /// Kinetic energy plus potential energy of gravity, springs and restoring, likewise.
 double mechanical_energy(const Terms& terms, double t, const double* y);
-/// The same at (t, y).
+/// Evaluates the terms at (t, y) first.
 double mechanical_energy_at(Terms& terms, double t, const double* y);
 
 }  // namespace seacrane

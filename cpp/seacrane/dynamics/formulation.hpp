@@ -33,8 +33,8 @@ class Formulation : public System {
   /// at its state point in inertial axes, and one for the ground at the end. For J^T of unit forces these are
   /// the columns of M^-1 J^T.
   virtual void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) = 0;
-  /// The same over the components of the state: what power `load` has for each of their rates, and their
-  /// rates under it; zero but for speeds.
+  /// The response over the components of the state: what power `load` has for each of their rates, and their
+  /// rates under it. Both are zero but for speeds.
   virtual void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) = 0;
   /// Its terms: inputs, the limit of curves and histories are set there.
   virtual Terms& terms() = 0;

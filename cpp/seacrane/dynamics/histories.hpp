@@ -25,7 +25,7 @@ class VesselHistories {
   auto end() { return histories_.end(); }
   auto begin() const { return histories_.begin(); }
   auto end() const { return histories_.end(); }
-  /// Of a vessel; null where its memory has states, or where it has none.
+  /// The convolution of a vessel; null where its memory has states, or where it has none.
   const RunningConvolution* of(int vessel) const;
 
   std::vector<TwistHistory> save() const;

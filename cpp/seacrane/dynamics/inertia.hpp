@@ -48,7 +48,7 @@ Mat6<T> rigid_mass_matrix(const BodyModel& body, const Mat3<T>& rotation) {
   return rigid_mass_matrix<T>(body, rotation, body.inertia);
 }
 
-/// The same with the body's shape, for a mass of one.
+/// The mass matrix of a body of this shape and a mass of one.
 inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
   return rigid_mass_matrix(body, rotation, body.shape) / body.mass;
 }

@@ -21,16 +21,16 @@ class InertialTensions {
   bool any() const { return !lines_.empty(); }
   Eigen::Index count() const { return tension_.size(); }
 
-  // In this order, right after an evaluation without them.
+  // Call these in this order, right after an evaluation without the tensions.
 
-  /// With its accelerations, by body.
+  /// Begins with the accelerations of that evaluation, by body.
   void start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration);
-  /// u, and room for w, which is the caller's to find.
+  /// The wrenches u of 1 N in a line, and room for the response w to them, which the caller writes.
   const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
   std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
   /// Solves for the tensions, and adds them to the loads of the terms.
   const VecXd& finish(Terms& terms);
-  /// What they add to accelerations.
+  /// Adds the share of the tensions to accelerations.
   void add_accelerations(std::vector<Vec6d>& acceleration) const;
 
   // What Jacobians need, at that evaluation.

@@ -4,8 +4,8 @@
 
 namespace seacrane {
 
-/// Of the multipliers `lambda` of the model of `terms`, the part of a limit that holds in the direction in
-/// which it can act: tension of a wire, push of a stop, pressure on a seat.
+/// The force of a limit that holds, from the multipliers `lambda` of the model of `terms`, positive in the
+/// direction in which it can act: tension of a wire, push of a stop, pressure on a seat.
 double limit_force(const Limit& limit, const Terms& terms, const double* lambda);
 
 }  // namespace seacrane

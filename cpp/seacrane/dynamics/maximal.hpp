@@ -50,12 +50,12 @@ class MaximalSystem final : public Formulation {
   /// Why jacobian() returned false or would; empty when it is there.
   std::string missing_jacobian() const;
   const Model& model() const { return model_; }
-  /// Of the last derivative(), by row.
+  /// The multipliers of the last derivative(), by row.
   const std::vector<double>& multipliers() const { return lambda_; }
   /// With the factors of the last evaluation.
   ConstraintSolver& solver() { return solver_; }
   InertialTensions& tensions() { return tensions_; }
-  /// Of the rows at (t, y), see ConstraintSolver::rank().
+  /// The rank of the rows at (t, y), see ConstraintSolver::rank().
   ConstraintRank rank(double t, const double* y, int skipped = 0);
   /// Evaluations that the dense solver took.
   long dense_solves() const { return dense_solves_; }

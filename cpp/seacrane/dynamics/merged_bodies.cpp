@@ -27,7 +27,7 @@ void write(const Model& m, int body, const BodyKinematics<double>& k, double* y)
   view<6>(y + m.layout.twist(body)) << k.velocity, k.angular_velocity;
 }
 
-/// The same body seen at another point, `lever` away in inertial axes.
+/// The motion of a body seen at another point, `lever` away in inertial axes.
 BodyKinematics<double> at_lever(BodyKinematics<double> k, const Vec3d& lever) {
   k.position += lever;
   k.velocity += k.angular_velocity.cross(lever);

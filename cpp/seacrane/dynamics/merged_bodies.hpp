@@ -14,7 +14,7 @@ class MergedBodies {
 
   /// The state of the merged bodies from that of the described ones.
   void merge(const double* bodies, double* y) const;
-  /// And back.
+  /// From merged bodies back to those described.
   void spread(const double* y, double* bodies) const;
   /// Kinematics of the described bodies from those of the merged ones, grounds last.
   void spread_kinematics(const BodyKinematics<double>* merged, BodyKinematics<double>* described) const;

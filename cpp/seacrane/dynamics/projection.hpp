@@ -22,7 +22,7 @@ bool close_positions(double worst, double tolerance, Correct&& correct) {
   return changed;
 }
 
-/// The same of rates, whose equations are linear: after two corrections what is left is rounding.
+/// Projects rates. Their equations are linear: after two corrections, what is left is rounding.
 template <class Residual, class Correct>
 bool close_rates(Residual&& residual, Correct&& correct) {
   bool changed = false;

@@ -112,7 +112,7 @@ void ResidualJacobian::write_memory_columns(const double* y, Eigen::Map<MatXd>& 
   }
 }
 
-/// Of the states of loads and of the work, in a direction of the residual.
+/// Writes the rates of the states of loads and of the work, in a direction of the residual.
 void ResidualJacobian::write_load_rates(int direction, double* column) const {
   const StateLayout& s = model_->layout;
   const auto d = idx(direction);

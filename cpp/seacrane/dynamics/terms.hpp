@@ -13,7 +13,7 @@
 
 namespace seacrane {
 
-/// Of loads: the sum, and the sum of the magnitudes.
+/// The power of loads: the sum, and the sum of the magnitudes.
 struct Power {
   double sum = 0.0, absolute = 0.0;
 
@@ -53,7 +53,7 @@ class Terms {
   /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
   /// of a state, from the fluid's states to those of loads.
   void evaluate_wrenches(double t, const double* memory, double* memory_rate);
-  /// The same with these loads in place of all that the model has.
+  /// Evaluates these loads in place of all that the model has.
   void evaluate_wrenches(double t, const double* memory, double* memory_rate, const CompiledLoads& loads);
   /// All of it at (t, y); of ydot the memory part.
   void evaluate(double t, const double* y, double* ydot);
@@ -63,7 +63,7 @@ class Terms {
   const std::vector<YawFrame<double>>& frames() const { return frames_; }  // by vessel
   const BodyInertia& inertia(int body) const { return inertia_[idx(body)]; }
   Mat6d mass_matrix(int body) const;
-  /// The same without the unsymmetric part of the paper's vessel.
+  /// The mass matrix without the unsymmetric part of the paper's vessel.
   Mat6d symmetric_mass(int body) const;
   const std::vector<RowBlock<double>>& blocks() const { return blocks_; }
   /// Wrenches less velocity terms.
@@ -81,7 +81,7 @@ class Terms {
   LoadInput<double> load_input(double t, const double* memory) const {
     return {t, curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_, inertial_.data()};
   }
-  /// Of the loads without potential, drivers included.
+  /// The power of the loads without potential, drivers included.
   const Power& power() const { return power_; }
   void add_driver_power(double power) { power_.add(power); }
   void add_power(const Power& power) {

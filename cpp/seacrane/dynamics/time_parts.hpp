@@ -14,7 +14,7 @@ class PartTimes {
  public:
   explicit PartTimes(long count) : count_(count) {}
 
-  /// Of part(i), i from 0.
+  /// Times part(i), with i from 0.
   template <class Part>
   void measure(const char* name, Part&& part) {
     const auto start = std::chrono::steady_clock::now();
@@ -29,7 +29,8 @@ class PartTimes {
   std::vector<std::pair<std::string, double>> values_;
 };
 
-/// Of an evaluation in maximal coordinates at (t, y); time advances by 1 ms a call where it counts.
+/// Times the parts of an evaluation in maximal coordinates at (t, y). Where it counts, time advances by 1 ms
+/// from call to call.
 std::vector<std::pair<std::string, double>> time_parts(MaximalSystem& system, double t, const double* y,
                                                        long count);
 

@@ -17,6 +17,7 @@ struct BodyDescription {
   Vec3d velocity = Vec3d::Zero();          // of the body origin, inertial frame
   Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
   bool gravity = true;
+  Vec3d size = Vec3d::Zero();  // of the box that it is, about the centre of mass; zero: not told
 
   static constexpr const char* type = "Body";
   static constexpr const char* text =
@@ -32,7 +33,9 @@ struct BodyDescription {
         optional("quaternion", &D::quaternion, "", "w, x, y, z: body to inertial"),
         optional("velocity", &D::velocity, "m/s", "of the body origin, inertial frame").usually(0.0, 100.0),
         optional("angular_velocity", &D::angular_velocity, "rad/s", "inertial frame").usually(0.0, 100.0),
-        optional("gravity", &D::gravity, "", "whether weight acts on it"));
+        optional("gravity", &D::gravity, "", "whether weight acts on it"),
+        optional("size", &D::size, "m", "edges of the box that it is, about its centre of mass, body axes")
+            .usually(1e-3, 500.0));
   }
 };
 

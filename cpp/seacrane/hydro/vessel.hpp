@@ -109,7 +109,7 @@ struct Vessel {
     const auto* models = std::get_if<Memory>(&memory);
     return models ? models->states() : 0;
   }
-  /// Of the fluid memory, then of the fast motion.
+  /// States of the fluid memory, then those of the fast motion.
   int memory_states() const { return fluid_states() + (fast ? FastMotion::states : 0); }
 
   /// -R A d/dt(R^T v) = -(R A R^T) vdot - bias: bias of the added mass, inertial axes.

@@ -70,7 +70,7 @@ double AdaptiveStep::step_in_use() const {
 void AdaptiveStep::collapse() const {
   if (max_step_ > 0.0 && max_step_ < smallest_step(time_)) {
     fail(max_step_, IntegrationError::no_component,
-         "max_step is below the resolution of time there; give a longer one or start nearer to 0");
+         "maximum_step is below the resolution of time there; give a longer one or start nearer to 0");
   }
   if (bad_component_ != IntegrationError::no_component) {
     fail(step_, bad_component_, "the step size has collapsed: the derivative is not finite");

@@ -54,7 +54,7 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
   weight_scale_ = std::sqrt(static_cast<double>(size) * inverse_count_);
 }
 
-/// Of the squared ratios of all components, by lane.
+/// Sums the squared ratios of all components, by lane.
 template <std::size_t lanes, class Ratio>
 std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
   std::array<double, lanes> out{};

@@ -59,13 +59,13 @@ class ErrorNorm {
 
   /// Norm of `vector` at the state y.
   double norm(const double* vector, const double* y) const;
-  /// The same of each lane.
+  /// The norm of each lane.
   Lanes norms(const double* vector, const double* y) const;
   /// Norm of y over the tolerances alone, without regard to rounding.
   double over_tolerances(const double* y) const;
   /// Norm of a - b at the state a.
   double distance(const double* a, const double* b) const;
-  /// The same of each lane.
+  /// The distance of each lane.
   Lanes distances(const double* a, const double* b) const;
   /// Reciprocal tolerances w, scaled so that sqrt(mean over all components of (w e)^2) is norm(e).
   void weights(const double* y, double* w) const;
@@ -73,7 +73,7 @@ class ErrorNorm {
   double typical(std::size_t i) const;
 
  private:
-  /// Of an evaluation and of the sums over a step, relative to the value.
+  /// The rounding of an evaluation and of the sums over a step, relative to the value.
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   /// Tolerances further below rounding are no oversight: steps collapse, and say so.
   static constexpr double most_eased = 1e4;

@@ -99,7 +99,7 @@ std::optional<double> Integrator::locate(const EventFunction& event) {
 
 void check_step_sizes(const IntegratorOptions& options) {
   check_step_size("fixed_step", options.fixed_step);
-  check_step_size("max_step", options.max_step);
+  check_step_size("maximum_step", options.max_step);
   check_step_size("initial_step", options.initial_step);
 }
 

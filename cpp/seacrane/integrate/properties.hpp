@@ -12,9 +12,9 @@ struct IntegratorProperties {
   /// The highest one for a method of variable order.
   int order;
   int lowest_order = order;
-  /// Of the embedded method that estimates the error; 0: none.
+  /// Order of the embedded method that estimates the error; 0: none.
   int error_order = 0;
-  /// Of the solution between the ends of a step; 0: it varies.
+  /// Order of the solution between the ends of a step; 0: it varies.
   int dense_order;
   /// Step without a choice of the user (s); 0: it chooses its steps by the tolerance.
   double default_step = 0.0;

@@ -16,8 +16,8 @@ struct Registration {
   std::vector<double> (*stability_polynomial)();
 };
 
-/// Of a class with `static constexpr IntegratorProperties properties`, a constructor from a Problem and
-/// options, and perhaps `static std::vector<double> stability_polynomial()`.
+/// Registers a class with `static constexpr IntegratorProperties properties`, a constructor from a Problem
+/// and options, and perhaps `static std::vector<double> stability_polynomial()`.
 template <class Method>
 constexpr Registration registration() {
   Registration out{

@@ -112,7 +112,7 @@ class PackedSystem final : public LaneSystem {
     return out;
   }
 
-  /// And the velocity terms, from which the wrenches begin.
+  /// Evaluates inertias, and the velocity terms, from which the wrenches begin.
   void evaluate_inertia() {
     for (int b = 0; b < model_->body_count(); ++b) {
       const BodyModel& body = model_->bodies[idx(b)];

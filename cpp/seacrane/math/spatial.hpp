@@ -28,7 +28,7 @@ class Twist {
     return {linear_[0], linear_[1], linear_[2], angular_[0], angular_[1], angular_[2]};
   }
 
-  /// Of the point `reach` away: v + omega x reach. Of accelerations without the centripetal part.
+  /// The twist at the point `reach` away: v + omega x reach. Accelerations go without their centripetal part.
   Twist shifted_to(const Vec3<T>& reach) const { return {linear_ + cross<T>(angular_, reach), angular_}; }
 
   Twist& operator+=(const Twist& b) {
@@ -61,7 +61,7 @@ class Wrench {
   const Vec3<T>& moment() const { return moment_; }
   Vec6<T> vector() const { return {force_[0], force_[1], force_[2], moment_[0], moment_[1], moment_[2]}; }
 
-  /// Of a wrench about the end of `reach`, about its start: the moment grows by reach x force.
+  /// A wrench about the end of `reach`, moved to its start: the moment grows by reach x force.
   Wrench shifted_from(const Vec3<T>& reach) const { return {force_, moment_ + cross<T>(reach, force_)}; }
   /// *this += w.shifted_from(reach).
   void add_shifted_from(const Vec3<T>& reach, const Wrench& w) {
@@ -108,7 +108,7 @@ template <class T>
 class SpatialInertia {
  public:
   SpatialInertia() = default;  // not set
-  /// Of a matrix of which only the lower triangle is read.
+  /// From a matrix whose lower triangle alone is read.
   explicit SpatialInertia(const Mat6<T>& m) { *this = m; }
   explicit SpatialInertia(const CompactInertia<T>& inertia) { *this = inertia; }
   SpatialInertia& operator=(const Mat6<T>& m) {

@@ -11,7 +11,7 @@ struct Symmetric3 {
 
   static Symmetric3 zero() { return {T(0), T(0), T(0), T(0), T(0), T(0)}; }
   static Symmetric3 diagonal(const T& a) { return {a, T(0), a, T(0), T(0), a}; }
-  /// Of a square block, of which only the lower triangle is read.
+  /// From a square block whose lower triangle alone is read.
   template <class Block>
   static Symmetric3 lower(const Block& m) {
     return {m(0, 0), m(1, 0), m(1, 1), m(2, 0), m(2, 1), m(2, 2)};

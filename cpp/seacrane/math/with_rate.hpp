@@ -48,7 +48,7 @@ double value_of(const WithRate<T>& x) {
   return value_of(x.value);
 }
 
-/// Of what order the derivatives are that a scalar carries.
+/// The order of the derivatives that a scalar carries.
 template <class T>
 inline constexpr int derivative_order = 1;
 template <class T>

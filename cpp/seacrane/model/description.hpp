@@ -19,7 +19,7 @@
 #include "seacrane/sea/wave_load.hpp"
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
-/// is the inertial frame. Every description is checked by its own validate().
+/// is the inertial frame. Scenes are checked as a whole before they are compiled.
 namespace seacrane {
 
 /// A joint coordinate to record.
@@ -29,7 +29,7 @@ struct RecordedCoordinate : CoordinateDescription {
 
 enum class VesselKinematics { yaw_following, paper };
 
-/// Linear hydrodynamics of a vessel about its body origin (the reference point), see DESIGN "Vessel".
+/// Linear hydrodynamics of a vessel about its body origin (the reference point), see docs/algorithms.md.
 struct VesselDescription {
   std::string name, body;
   Mat6d added_mass = Mat6d::Zero();

@@ -40,7 +40,7 @@ ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string
 /// Distance from the bound, its row of D, its rate: as a driver at the bound would have them.
 CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies);
 
-/// Of a seat: the second body's point from the first's, along the axes of the joint there.
+/// The second body's point of a seat from the first's, along the axes of the joint there.
 Vec3d offset_of_seat(const Limit& limit, const BodyKinematics<double>* bodies);
 
 /// Checks the limits of a scene whose joints, drivers and names have been checked.

@@ -40,6 +40,11 @@ void check_body(const BodyDescription& b) {
   }
   c.finite("velocity", b.velocity);
   c.finite("angular_velocity", b.angular_velocity);
+  c.finite("size", b.size);
+  if (!b.size.isZero(0.0) && !(b.size.minCoeff() > 0.0)) {
+    c.fail("size is (" + to_text(b.size[0]) + ", " + to_text(b.size[1]) + ", " + to_text(b.size[2]) +
+           ") m; give three edges above zero, or none");
+  }
 }
 
 void check_frame(const Check& c, const char* what, const Frame& f) {

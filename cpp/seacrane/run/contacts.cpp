@@ -25,12 +25,13 @@ constexpr double kLikelyDip = 0.25;      // of the smaller end: an estimated min
 std::pair<double, double> least_of_cubic(double y0, double m0, double y1, double m1) {
   const double rise = y1 - y0, b = 3.0 * rise - 2.0 * m0 - m1, a = m0 + m1 - 2.0 * rise;
   const double root = std::sqrt(std::max(0.0, b * b - 3.0 * a * m0));
-  // Of two forms of one number the one without cancellation; rounding may still leave the step.
+  // One number has two forms: this is the one without cancellation. Rounding may still leave the step.
   const double s = std::clamp(b > 0.0 ? -m0 / (b + root) : (root - b) / (3.0 * a), 0.0, 1.0);
   return {s, y0 + s * (m0 + s * (b + s * a))};
 }
 
-/// The same of the parabola through values at 0, 1/2 and 1; at 0 where it is least at an end.
+/// Place and value of the least of the parabola through values at 0, 1/2 and 1; at 0 where it is least at an
+/// end.
 std::pair<double, double> least_of_parabola(double y0, double ym, double y1) {
   const double c = 2.0 * (y0 - 2.0 * ym + y1), b = -3.0 * y0 + 4.0 * ym - y1;
   const double s = c > 0.0 ? -b / (2.0 * c) : 0.0;

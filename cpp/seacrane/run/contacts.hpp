@@ -57,7 +57,7 @@ class Contacts {
   /// `closed`), and what follows from it at the same time. Work takes up what the impact changed. Returns the
   /// limits that hold from then on.
   ClosedSet carry_out(double t, double* bodies, ClosedSet closed);
-  /// The same without an event: at the start.
+  /// Finds the set that holds without an event: at the start.
   ClosedSet settle(double t, double* bodies, ClosedSet closed);
   /// Starts watching from the state (t, bodies) of `at`.
   void start(Stepper& at, double t, const double* bodies);

@@ -100,8 +100,8 @@ Contacts::Consistency Contacts::consistency(const Stepper& at, int i) const {
   return towards < -kFall ? Consistency::changes : Consistency::holds;
 }
 
-/// Of limits that cannot all hold the loosest lets go, of equally loose ones the one that carries least,
-/// until the others can.
+/// Where limits cannot all hold, the loosest one lets go until the others can. Among equally loose ones it is
+/// the one that carries least.
 ClosedSet Contacts::release_loosest(double t, double* bodies, ClosedSet closed) {
   const int count = static_cast<int>(model_.limits.size());
   for (;;) {
@@ -249,7 +249,7 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
   return seats | carry | sharing(t, bodies, seats | carry, idle);
 }
 
-/// Those of `idle` that push when they hold beside `carry`, and let that push.
+/// The limits of `idle` that push when they hold beside `carry`, and that let `carry` push.
 ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, ClosedSet idle) {
   const int count = static_cast<int>(model_.limits.size());
   while (idle != 0) {
@@ -332,8 +332,9 @@ bool Contacts::is_dependent(Stepper& at, const Impact& impact, ClosedSet struck)
   return false;
 }
 
-/// A slow impact lets nothing go: limits that hit and release each other in turn would otherwise do so
-/// without end, slower and slower. What would pull then, settle() opens by its force.
+/// A slow impact releases no limit: limits that hit and release each other in turn would otherwise do so
+/// without end, slower and slower. Where a limit would have to pull afterwards, settle() opens it by its
+/// force.
 ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
   const Struck struck = struck_with(stepper_(closed), t, bodies, found);
   for (ClosedSet kept = closed | struck.limits;;) {

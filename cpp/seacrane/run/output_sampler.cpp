@@ -107,7 +107,7 @@ void OutputSampler::evaluate_coordinates(const Terms& terms) {
   }
 }
 
-/// Of the rows described: those that are stepped are fewer in the recursive form.
+/// Watches the rank of the rows described: fewer rows are stepped in the recursive form.
 void OutputSampler::watch_rank(Stepper& at, double t) {
   if (at.stepped.take_dependence().ratio > 0.0) return;
   const Dependence found = at.system.take_dependence();

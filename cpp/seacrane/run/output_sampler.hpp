@@ -31,9 +31,9 @@ class OutputSampler {
 
   /// Records the outputs due until t. `impact_loss`: so far, J.
   void record_until(Stepper& at, double t, double impact_loss);
-  /// Writes what is stepped at a time.
+  /// Writes the state of the stepped bodies at a time.
   using StateAt = std::function<void(double t, double* y)>;
-  /// The same with states from elsewhere.
+  /// Records outputs whose states come from elsewhere than the integrator.
   void record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at);
   /// One row of all channels of the scene, at the present time.
   Recording snapshot(Stepper& at, double impact_loss);

@@ -41,7 +41,7 @@ State initial_state(const Model& model);
 /// What the values and inputs of a state belong to, one text each: tells the state of another scene.
 std::vector<std::string> state_parts(const Model& model);
 
-/// Of the states of loads in a state whose parts are known: their names, and the place of the first in the
+/// The states of loads in a state whose parts are known: their names, and the place of the first one in the
 /// values.
 struct LoadStates {
   std::vector<std::string> names;

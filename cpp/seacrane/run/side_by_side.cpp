@@ -175,7 +175,7 @@ void SideBySide::record(double smooth_until) {
   }
 }
 
-/// Of all lanes in the last step; the same outputs of other lanes find it made.
+/// The state of all lanes at a time of the last step. Other lanes with this output find it made.
 const std::vector<double>& SideBySide::state_at(double t) {
   for (std::size_t i = 0; i < known_; ++i) {
     if (instants_[i].time == t) return instants_[i].state;

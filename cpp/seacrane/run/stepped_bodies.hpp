@@ -24,9 +24,9 @@ class SteppedBodies {
   MaximalSystem& described() { return described_; }
   /// What is stepped: the described bodies themselves where nothing is merged and the name is "redundant".
   Formulation& formulation() { return *stepped_; }
-  /// The same in maximal coordinates; null: it is in tree coordinates.
+  /// The formulation where it has maximal coordinates; null where it has those of the tree.
   MaximalSystem* maximal() { return maximal_; }
-  /// Those that are stepped: inputs, the limit of curves and histories are set there.
+  /// The terms that are stepped: inputs, the limit of curves and histories are set there.
   Terms& terms() { return *terms_; }
   /// Evaluations that a dense solver took.
   long dense_solves() const;

@@ -21,7 +21,7 @@ std::string formulation_of(const Model& model, const RunOptions& run) {
   return rigid ? "redundant" : run.formulation;
 }
 
-/// Of the tolerances of load states, which are the last before both integrals of work.
+/// Adds how tolerances of load states grow. These states are the last before both integrals of work.
 void add_growth(const Model& model, const RunOptions& run, IntegratorOptions& out) {
   const std::vector<LoadState>& states = model.load_states;
   if (std::ranges::none_of(states, [](const LoadState& one) { return one.growth > 0.0; })) return;
@@ -62,8 +62,8 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
   if (options.formulation == "redundant" && !inertial) residual.emplace(*bodies.maximal());
   if (inertial && integrator_of(options.integrator).residual_form) {
     throw std::invalid_argument("integrator \"" + options.integrator +
-                                "\" has no accelerations for lines with stretch 'quasi-static'; choose "
-                                "another one, or stretch 'elastic'");
+                                "\" has no accelerations for lines with rung 'quasi-static'; choose "
+                                "another one, or rung 'elastic'");
   }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, *model, options));

@@ -29,7 +29,7 @@ class StepperPool {
   /// run that continues from a State.
   void step_from(Stepper& next, double t, const double* bodies);
 
-  /// Of all steppers.
+  /// The counters of all steppers together.
   Counters counters() const;
   long dense_solves() const;
 

@@ -83,7 +83,12 @@ void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides
     const int side = sides[i++];
     if constexpr (requires { load.refused(side); }) {
       const std::string why = load.refused(side);
-      if (!why.empty()) throw std::domain_error(why + ", at t = " + to_text(t) + " s");
+      if (why.empty()) return;
+      const std::string text = why + ", at t = " + to_text(t) + " s";
+      if constexpr (requires { load.slack(side); }) {
+        if (load.slack(side)) throw LineSlackError(text);
+      }
+      throw std::domain_error(text);
     }
   });
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace seacrane {
 struct LimitReached {
   double time = 0.0;  // s
   std::string name;
+};
+
+/// A line on the quasi-static rung that would go slack, or whose winch has hauled in to its end.
+class LineSlackError : public std::domain_error {
+ public:
+  using std::domain_error::domain_error;
 };
 
 /// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a
@@ -31,13 +38,13 @@ class Switches {
   /// Takes the sides at the state (t, y) of what is stepped, where a step starts. Throws std::domain_error
   /// where a load cannot be on its side.
   void watch(Stepper& at, double t, const double* y);
-  /// The same for a run that goes on: what is at a bound there has been noted before.
+  /// Begins a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
   /// Where the last step of `at` is to end when it is taken again: at the first crossing inside it, or just
   /// behind its start, where it began on the old side of a jump. Nothing where there is no crossing but at
   /// its ends: then the next step starts from the sides at its end.
   std::optional<double> find(Stepper& at);
-  /// Of the last step only the part until t counts.
+  /// Cuts the last step: only its part until t counts.
   void shorten(double t);
   /// Bounds reached so far.
   const std::vector<LimitReached>& reached() const { return reached_; }

@@ -53,7 +53,7 @@ class ExactWaveLoad {
     double largest_omega_, step_;
     std::int64_t number_ = std::numeric_limits<std::int64_t>::min();
   };
-  /// The same at the knot that the phases are moved to.
+  /// Evaluates the load at the knot that the phases are moved to.
   void evaluate(const KnotPhases& phases, double* value, double* rate, double* acceleration) const;
 
   const WaveComponents& waves() const { return waves_; }

@@ -17,10 +17,10 @@ const char* const kRealisation = "wave realisation";
 void check(const RealisationOptions& o, double from, double to) {
   sea::require(o.count >= 1 && o.count <= 1'000'000, kRealisation, "count", o.count,
                "give 1 to 1000000 components; 200 is the default");
-  sea::require(std::isfinite(from) && from >= 0.0, kRealisation, "omega_min", from,
+  sea::require(std::isfinite(from) && from >= 0.0, kRealisation, "minimum_omega", from,
                "give a frequency of zero or more in rad/s");
-  sea::require(std::isfinite(to) && to > from, kRealisation, "omega_max", to,
-               "give a finite frequency in rad/s above omega_min");
+  sea::require(std::isfinite(to) && to > from, kRealisation, "maximum_omega", to,
+               "give a finite frequency in rad/s above minimum_omega");
   sea::require_finite(o.direction, kRealisation, "direction", "rad");
 }
 

@@ -23,7 +23,7 @@ SpectralPeak::SpectralPeak(const std::string& object, double hs, double tp, doub
   sea::require(std::isfinite(hs) && hs > 0.0, object, "hs", hs,
                "give a significant wave height above zero in m, or leave the sea out for still water");
   sea::require_positive(tp, object, "tp", "s");
-  // Beyond any water, and their powers would overflow.
+  // Values beyond these belong to no water, and their powers would overflow.
   sea::require(hs >= 1e-6 && hs <= 1e3, object, "hs", hs, "give a significant wave height of 1e-6 to 1000 m");
   sea::require(tp >= 1e-3 && tp <= 1e4, object, "tp", tp, "give a peak period of 0.001 to 10000 s");
   sea::require(std::isfinite(gamma) && gamma >= 1.0, object, "gamma", gamma,

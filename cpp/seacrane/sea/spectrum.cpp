@@ -117,8 +117,9 @@ double Spectrum::operator()(double omega) const {
 
 double Spectrum::energy(double omega_min, double omega_max) const {
   const std::string object = object_of(name_);
-  sea::require(omega_min >= 0.0, object, "omega_min", omega_min, "give a frequency of zero or more in rad/s");
-  sea::require(omega_max >= omega_min, object, "omega_max", omega_max, "give at least omega_min");
+  sea::require(omega_min >= 0.0, object, "minimum_omega", omega_min,
+               "give a frequency of zero or more in rad/s");
+  sea::require(omega_max >= omega_min, object, "maximum_omega", omega_max, "give at least minimum_omega");
   return sum_over(parts_, [=](const auto& part) { return part.energy(omega_min, omega_max); });
 }
 

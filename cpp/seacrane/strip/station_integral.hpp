@@ -10,8 +10,8 @@ namespace seacrane::strip {
 /// stations and linear between them; exact.
 Eigen::MatrixX3d moment_weights(const std::vector<double>& x);
 
-/// The same of f(x) x^power exp(-i k x), power 0, 1 (Filon's rule): exact for any k, so that short waves need
-/// no more stations than the shape of f does.
+/// Weights of the integrals of f(x) x^power exp(-i k x), power 0, 1 (Filon's rule): exact for any k, so that
+/// short waves need no more stations than the shape of f does.
 Eigen::MatrixX2cd oscillatory_weights(const std::vector<double>& x, double k);
 
 }  // namespace seacrane::strip

@@ -46,7 +46,7 @@ BESIDE = 1.5  # the error of one of two methods that are as good as each other, 
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
 STABLE = 3.0  # its step times that mode
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
-CHOSEN = {"integrator": "integrator", "rtol": "tolerance", "dt": "step", "spectral_radius": "spectral_radius"}
+CHOSEN = ("integrator", "rtol", "dt", "spectral_radius")
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
@@ -92,7 +92,7 @@ class _Done:
 
     @property
     def tolerance(self) -> float:
-        return self.method.used_tolerance
+        return self.method.used_rtol
 
 
 def run_to_accuracy(
@@ -170,7 +170,7 @@ def error_of(
 
 def _cheap(case: _Case, method: Method) -> Method:
     """What tells the error of a method."""
-    if method.used_tolerance <= ROUNDING:
+    if method.used_rtol <= ROUNDING:
         return _looser(method)
     return probe_of(method, stiffest=method.integrator == STIFF and case.explicit_steps > MOST_STEPS)
 
@@ -208,7 +208,7 @@ def refuse_what_is_chosen(
     """SceneError for an integrator, a tolerance or a step beside an accuracy, and for controllers."""
     given = {word: shorthand[word] for word in CHOSEN if shorthand.get(word) is not None}
     if method is not None:
-        chosen = {name: getattr(method, name) for name in CHOSEN.values()}
+        chosen = {name: getattr(method, name) for name in CHOSEN}
         given |= {name: value for name, value in chosen.items() if value != getattr(Method(), name)}
     if given:
         named = ", ".join(f"{name}={value!r}" for name, value in given.items())
@@ -225,7 +225,7 @@ def refuse_what_is_chosen(
 def without_what_is_chosen(method: Method) -> Method:
     """The method with the defaults of what an accuracy chooses."""
     usual = Method()
-    return replace(method, **{name: getattr(usual, name) for name in CHOSEN.values()})
+    return replace(method, **{name: getattr(usual, name) for name in CHOSEN})
 
 
 def _converged(case: _Case, kept: Method) -> Result:
@@ -240,12 +240,12 @@ def _converged(case: _Case, kept: Method) -> Result:
         errors, known = _errors(case, done)
         if case.excess(errors) <= 1.0:
             return _with_estimate(case, done, errors)
-        if method.used_tolerance <= TIGHTEST:
+        if method.used_rtol <= TIGHTEST:
             raise SceneError(_unreachable(case, errors))
         method = _tighter(method, case.excess(errors) if known else STEP)
         if method.integrator == STIFF:
             done.append(_run(case, _cheap(case, method)))
-        elif method.used_tolerance < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_tolerance:
+        elif method.used_rtol < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_rtol:
             done.append(_run(case, _looser(method)))
     return done[-1].result
 
@@ -255,11 +255,11 @@ def _run(case: _Case, method: Method) -> _Done:
 
 
 def _with_setting(method: Method, chosen: Method) -> Method:
-    return replace(method, integrator=chosen.integrator, tolerance=chosen.tolerance)
+    return replace(method, integrator=chosen.integrator, rtol=chosen.rtol)
 
 
 def _looser(method: Method) -> Method:
-    return replace(method, tolerance=STEP * method.used_tolerance)
+    return replace(method, rtol=STEP * method.used_rtol)
 
 
 def _tighter(method: Method, factor: float) -> Method:
@@ -267,8 +267,8 @@ def _tighter(method: Method, factor: float) -> Method:
     error = expected_error(method)
     found = _with_setting(method, method_for(error / factor, stiff=method.integrator == STIFF))
     if expected_error(found) > 0.6 * error:
-        found = replace(method, tolerance=method.used_tolerance / math.sqrt(STEP))
-    return replace(found, tolerance=max(found.used_tolerance, TIGHTEST))
+        found = replace(method, rtol=method.used_rtol / math.sqrt(STEP))
+    return replace(found, rtol=max(found.used_rtol, TIGHTEST))
 
 
 def first_method(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:

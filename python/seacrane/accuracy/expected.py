@@ -39,7 +39,7 @@ FORCE_SCALE = 0.125  # of the weight that the force carries
 def expected_error(method: Method) -> float:
     """Expected error of a method over the scale of a quantity."""
     factor, power = ERROR[method.integrator]
-    return factor * math.pow(method.used_tolerance, power)
+    return factor * math.pow(method.used_rtol, power)
 
 
 def method_for(error: float, *, stiff: bool = False) -> Method:
@@ -50,7 +50,7 @@ def method_for(error: float, *, stiff: bool = False) -> Method:
     factor, power = ERROR[name]
     decades = math.log10(max(error, 1e-300) / factor) / power
     tolerance = float(f"{10.0 ** (math.floor(2.0 * decades) / 2.0):.6g}")
-    return Method(integrator=name, tolerance=min(max(tolerance, TIGHTEST), LOOSEST))
+    return Method(integrator=name, rtol=min(max(tolerance, TIGHTEST), LOOSEST))
 
 
 def probe_of(method: Method, *, stiffest: bool = False) -> Method:
@@ -60,10 +60,10 @@ def probe_of(method: Method, *, stiffest: bool = False) -> Method:
     the scene is so stiff that this would take far too many steps, implicit.
     """
     if method.integrator == STIFF and stiffest:
-        return replace(method, integrator=BESIDE_STIFFEST, tolerance=TIGHTER * method.used_tolerance)
+        return replace(method, integrator=BESIDE_STIFFEST, rtol=TIGHTER * method.used_rtol)
     if method.integrator == STIFF:
         return replace(method, integrator=BESIDE)
-    return replace(method, integrator=LOWER[method.integrator], tolerance=LOOSEST)
+    return replace(method, integrator=LOWER[method.integrator], rtol=LOOSEST)
 
 
 def unit_error(scene: Scene, quantity: Quantity) -> float:

@@ -18,6 +18,7 @@ from seacrane import _core
 from seacrane.analysis.frequency_domain import SummedResponse, response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.crane_parts import payloads
+from seacrane.description.databases import database_of
 from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
@@ -25,7 +26,8 @@ from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
-from seacrane.scene.vessel_memory import database_of
+from seacrane.renamed import refusing
+from seacrane.warnings import ModelErrorWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -35,10 +37,6 @@ Array = NDArray[np.float64]
 QUANTITIES = ("payload_position", "roll")
 GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])  # weights of the first samples, of order 4
 LONGEST = 3600.0  # s of a run whose error is carried step by step
-
-
-class ModelErrorWarning(UserWarning):
-    """The fit of the fluid memory leaves a larger error than the accuracy asked of the integration."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,13 +66,13 @@ class ModelError:
         return np.asarray(np.abs(self.error).max(axis=0))
 
 
+@refusing
 def model_error(
     scene: Scene,
     *,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     times: ArrayLike,
-    database: HydroDatabase | None = None,
 ) -> ModelError:
     """Error that the fitted fluid memory leaves in the motion of a point of any body, in the scene's waves.
 
@@ -87,16 +85,14 @@ def model_error(
         Body coordinates, from the body origin, m.
     times : array_like, shape (n,)
         s, increasing, over no more than an hour.
-    database : HydroDatabase, optional
-        The one that the vessel was added from. Default: the one that `add_vessel` was given in this process.
 
     Raises
     ------
     SceneError
-        Without waves, without a known database or without a memory of states, for times that do not increase,
+        Without waves, for a vessel without a database or a memory of states, for times that do not increase,
         or as `linear_model`.
     """
-    carried = _carried(scene, np.asarray(times, dtype=float), database)
+    carried = _carried(scene, np.asarray(times, dtype=float))
     output = carried.linear.output(body=body, point=point)
     return ModelError(time=carried.time, error=carried.error @ output.T, motion=carried.motion @ output.T)
 
@@ -112,7 +108,7 @@ def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dic
     if not wanted or scene.waves is None or given_vessels(scene):
         return {}
     try:
-        carried = _carried(scene, times, None)
+        carried = _carried(scene, times)
         found = {name: _largest(scene, carried, name) for name in wanted}
     except SceneError:
         return {}
@@ -140,7 +136,7 @@ class _Carried:
 
 
 @one_thread
-def _carried(scene: Scene, times: Array, database: HydroDatabase | None) -> _Carried:
+def _carried(scene: Scene, times: Array) -> _Carried:
     if times.ndim != 1 or len(times) < 2 or not np.all(np.diff(times) > 0.0):
         raise SceneError("model error: times do not increase; give two or more times in s")
     if times[-1] - times[0] > LONGEST:
@@ -151,9 +147,7 @@ def _carried(scene: Scene, times: Array, database: HydroDatabase | None) -> _Car
     element = next(each for each in scene.vessels.values() if each.body == vessel)
     if isinstance(element.memory, _core.RetardationFunctions) or not element.memory:
         raise SceneError(f"vessel {vessel!r}: has no fitted memory whose error could be told")
-    known = database_of(element) if database is None else database
-    if known is None:
-        raise SceneError(f"vessel {vessel!r}: give the database that it was added from")
+    known = database_of(scene, vessel, "the error of its memory")
     linear, functions = linear_model(scene, vessel=vessel), _functions(known)
     even = np.arange(times[0], times[-1] + functions.step, functions.step)
     states = _from_rest(linear, response_summed(linear, body=vessel), even)

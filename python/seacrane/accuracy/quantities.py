@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.description.given import given_vessels
+from seacrane.description.holding import with_holds
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.result.channels import CHANNELS, DERIVED
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -111,9 +112,7 @@ def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -
     for name, value in accuracy.items():
         if name not in quantities:
             raise SceneError(f"accuracy: {name!r} was not measured; choose from {', '.join(quantities)}")
-        limit = number_of(f"accuracy: {name}", value)
-        if not (np.isfinite(limit) and limit > 0.0):
-            raise SceneError(f"accuracy: {name} is {limit}; give a finite number above zero")
+        limit = positive_of(f"accuracy: {name}", value)
         out[name] = limit
     return out
 
@@ -143,7 +142,7 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
             )
         )
     driven = {actuator.joint for actuator in scene.actuators.values()}
-    driven |= {driver.joint for driver in scene.drivers.values()}
+    driven |= {driver.joint for driver in with_holds(scene).drivers.values()}
     if cylinders(scene) and driven.issuperset(cylinders(scene).values()):
         found.append(_channel("cylinder_force", unit="N"))
     if hooks(scene):

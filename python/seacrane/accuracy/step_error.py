@@ -104,7 +104,7 @@ def step_error(
         When the run with the step itself cannot continue.
     """
     method, outputs = settled(method, outputs, shorthand)
-    if method.step is None:
+    if method.dt is None:
         raise SceneError("dt is None; give the positive step whose error is asked for")
     model = scene.compile()
     measured = quantities_of(scene, model, quantities)
@@ -113,7 +113,7 @@ def step_error(
     runs: list[dict[str, Array]] = []
     order = 0
     for longer in (1.0, 2.0, 4.0):
-        tried = replace(method, step=longer * method.step)
+        tried = replace(method, dt=longer * method.dt)
         run = Run(scene, t_end, method=tried, outputs=recorded, start=start, model=model)
         if run.core.adaptive:
             raise SceneError(

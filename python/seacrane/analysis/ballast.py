@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.text import text_table
 from seacrane.validity.stability import warn_of_capsize
+from seacrane.warnings import BallastOutsideHullWarning
 
 Array = NDArray[np.float64]
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
@@ -35,13 +36,9 @@ BESIDE = 0.1  # of half the hull, by which a tank is outside
 FAR = 1.0  # likewise of one force, which stands for weights on both sides
 
 
-class BallastOutsideHullWarning(UserWarning):
-    """Ballast was put where the ship has no room for it."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class Ballast:
-    """What `Scene.add_ballast` added.
+    """What `Scene.add_ballast` added, and how the vessel rests with it.
 
     Attributes
     ----------
@@ -57,6 +54,8 @@ class Ballast:
         Of each tank then, kg.
     changes : mapping of str to float
         By how much that differs from what it held, kg.
+    forces : tuple of PointForce
+        The elements of the scene that stand for it.
     """
 
     body: str
@@ -66,6 +65,7 @@ class Ballast:
     center: Array
     contents: Mapping[str, float] = field(default_factory=dict)
     changes: Mapping[str, float] = field(default_factory=dict)
+    forces: tuple[_core.PointForce, ...] = ()
 
     def __str__(self) -> str:
         told = (
@@ -129,17 +129,19 @@ def add_ballast(
     name = name_of("ballast", name)
     kind = _Force(scene, vessel) if tanks is None else _Tanks(scene, vessel, target, tanks_of(tanks))
     found = _fitted(scene, vessel, target, kind)
-    for key, (point, force) in kind.forces(found).items():
+    forces = tuple(
         add_point_force(
             scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
+        for key, (point, force) in kind.forces(found).items()
+    )
     told = kind.told(found, target)
     places: dict[str, Any] = {"the force": told.center}
     if tanks is not None:
         places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
     _warn_of_places(scene.bodies[vessel.body], places, FAR if tanks is None else BESIDE)
     warn_of_capsize(scene)
-    return told
+    return replace(told, forces=forces)
 
 
 def _warn_of_places(hull: _core.Body, places: Mapping[str, Any], margin: float) -> None:

@@ -90,16 +90,10 @@ def path_through(
 
 
 def _polyline(times: Array, values: Array) -> _core.Curve:
-    kept = np.flatnonzero(np.diff(times) > 0.0)
-    pieces = [
-        (times[i], [values[i], (values[i + 1] - values[i]) / (times[i + 1] - times[i]), 0.0, 0.0, 0.0, 0.0])
-        for i in kept
-    ]
-    end = (times[-1], [values[-1], 0.0, 0.0, 0.0, 0.0, 0.0])
-    starts, coefficients = zip(*pieces, end, strict=True)
-    return _core.Curve.pieces(
-        starts=[float(t) for t in starts], coefficients=[[float(c) for c in one] for one in coefficients]
-    )
+    at, first = np.unique(times, return_index=True)
+    if at.size == 1:
+        return _core.Curve.constant(value=float(values[0]))
+    return _core.Curve.table(at, values[first])
 
 
 def values_of(what: str, given: Any) -> Array:

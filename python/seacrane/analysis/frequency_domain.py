@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.description.databases import database_of
 from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
@@ -29,21 +30,19 @@ Complex = NDArray[np.complex128]
 def motion_rao(
     scene: Description | LinearModel,
     *,
-    database: HydroDatabase,
     omega: ArrayLike,
     heading: ArrayLike,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     state: _core.State | None = None,
     memory: str = "scene",
+    database: HydroDatabase | None = None,
 ) -> Complex:
     """Complex motion of a point of any body per metre of wave amplitude.
 
     Parameters
     ----------
     scene : Scene or LinearModel
-    database : HydroDatabase
-        Whose wave excitation acts on the vessel.
     omega, heading : array_like, broadcast against each other
         rad/s, of the waves; rad, direction of travel from the vessel's x (following) towards its y (port).
     body : str
@@ -52,8 +51,11 @@ def motion_rao(
     state : State, optional
         At rest; default ``equilibrium(scene)``. Not with a LinearModel.
     memory : str
-        "scene" (default), or "database": A and B of `database` by frequency, see `linear_model`. Not with a
-        LinearModel. A database of a forward speed needs "database".
+        "scene" (default), or "database": A and B of the vessel's database by frequency, see `linear_model`.
+        Not with a LinearModel.
+    database : HydroDatabase, optional
+        Whose wave excitation acts on the vessel. Default: that of the LinearModel, or the vessel's own.
+        Another one is the same ship at a forward speed, which needs ``memory="database"``.
 
     Returns
     -------
@@ -65,25 +67,36 @@ def motion_rao(
     Raises
     ------
     SceneError
-        As `linear_model`, for frequencies outside the database, with a ship whose motion is given, or where
-        the model's memory is not of the database's speed.
+        As `linear_model`, for a vessel without a database or given another one, for frequencies outside it,
+        with a ship whose motion is given, or where the model's memory is not of the database's speed.
     """
     linear = linear_of(scene, state, memory, database)
-    require_same_speed(linear, database)
+    database = excitation_of(linear, database)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))
     force = database.force_at(w.ravel(), b.ravel()).reshape(-1, 6)
     x = linear.response(omega=encounter_frequency_at(database, w.ravel(), b.ravel()), force=force)
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
 
 
-def require_same_speed(linear: LinearModel, database: HydroDatabase) -> None:
-    """Refuse a database of another forward speed than that of the matrices in a linear model."""
+def excitation_of(linear: LinearModel, given: HydroDatabase | None) -> HydroDatabase:
+    """The database whose waves load the vessel of a linear model: by default that of its matrices.
+
+    Raises
+    ------
+    SceneError
+        Without one, and for one of another forward speed than the matrices.
+    """
+    if linear.vessel is None:
+        raise SceneError(f"scene {linear.scene.name!r}: has no vessel on which waves act; add one")
+    held = next((one.database for one in linear.memories if one.body == linear.vessel), None)
+    database = database_of(linear.scene, linear.vessel, "a motion in waves", given or held)
     speed = linear.speed
     if speed != database.speed:
         raise SceneError(
             f"database {database.name!r}: is of {database.speed:g} m/s, the memory of the linear model of "
             f"{speed:g} m/s; give memory='database', which takes the matrices of this database"
         )
+    return database
 
 
 def linear_of(

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.databases import database_of
 from seacrane.description.scene import Description
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import transformer
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
@@ -30,13 +32,18 @@ class FrequencyMemory:
 
     The load is ``-(-w^2 added_mass + i w damping + stiffness)`` times the displacement of the vessel's origin
     and its rotation vector, in axes that follow its yaw. ``matrices`` takes ``omega`` (k,) in rad/s, of
-    encounter at the forward speed ``speed`` (m/s), of either sign, and gives the three, each (k, 6, 6).
+    encounter at its forward speed, of either sign, and gives the three, each (k, 6, 6).
+    ``database`` is where they are from, unless they are those of a convolution.
     """
 
     vessel: str
     body: str
     matrices: Callable[[Array], tuple[Array, Array, Array]]
-    speed: float = 0.0
+    database: HydroDatabase | None = None
+
+    @property
+    def speed(self) -> float:
+        return 0.0 if self.database is None else self.database.speed
 
     def impedance(self, omega: Array) -> Complex:
         """``-w^2 added_mass + i w damping + stiffness`` (k, 6, 6)."""
@@ -54,8 +61,9 @@ def frequency_memories(
     ----------
     scene : Scene
     memory : str
-        "scene": convolutions only. "database": the matrices of `database` for `vessel` too.
+        "scene": convolutions only. "database": the matrices of a database for `vessel` too.
     database : HydroDatabase or None
+        In place of the vessel's own: the same ship at a forward speed.
     vessel : str or None
         Body on which waves act.
 
@@ -66,14 +74,13 @@ def frequency_memories(
     """
     if memory not in KINDS:
         raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")
-    if memory == "database" and (database is None or vessel is None):
-        missing = "a database" if database is None else "a vessel"
-        raise SceneError(f"scene {scene.name!r}: memory='database' needs {missing}; give one")
+    if memory == "database" and vessel is None:
+        raise SceneError(f"scene {scene.name!r}: memory='database' needs a vessel; add one")
     found = []
     for name, element in scene.vessels.items():
         if memory == "database" and element.body == vessel:
-            assert database is not None
-            found.append(_of_database(scene, name, element, database))
+            own = database_of(scene, element.body, "memory='database'", database)
+            found.append(_of_database(scene, name, element, own))
         elif isinstance(element.memory, _core.RetardationFunctions):
             found.append(_of_convolution(name, element))
     return tuple(found)
@@ -86,7 +93,7 @@ def without_memory(scene: Description, memories: tuple[FrequencyMemory, ...]) ->
     out = scene.copy()
     for each in memories:
         fields = out.vessels[each.vessel].__getstate__()
-        out.vessels[each.vessel] = _core.VesselHydrodynamics(**{**fields, "memory": []})
+        out.vessels[each.vessel] = VesselHydrodynamics(**{**fields, "memory": []})
     return out
 
 
@@ -155,4 +162,4 @@ def _of_database(
         added_mass, damping, stiffness = (spline(np.clip(np.abs(omega), low, high)) for spline in splines)
         return added_mass - inertia, damping, following_yaw(stiffness) - restoring
 
-    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices, speed=database.speed)
+    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices, database=database)

@@ -11,6 +11,7 @@ from seacrane.analysis.inverse import at_rest, locked_at_rest
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
+from seacrane.description.holding import let_go
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, what_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -44,7 +45,7 @@ def holding_forces(scene: Description) -> dict[str, float]:
 
 def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
     cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
-    held = locked_at_rest(without_cylinders(scene))
+    held = locked_at_rest(without_cylinders(let_go(scene)))
     for one in cylinders:
         add_rod(held, one)
     _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in cylinders})

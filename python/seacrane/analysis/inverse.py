@@ -1,6 +1,6 @@
 """Static balance, inverse dynamics and driven scenes: which loads does a motion need?
 
-All three prescribe coordinates by drivers and read their multipliers (DESIGN, "Multibody").
+All three prescribe coordinates by drivers and read their multipliers.
 """
 
 from __future__ import annotations

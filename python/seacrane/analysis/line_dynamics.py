@@ -34,7 +34,7 @@ class LineDynamics:
         kg, that its tension accelerates along the line, as the bodies are joined.
     omega : float
         rad/s: motion of a frequency far below it strains the line by (frequency / omega)^2 of what bends a
-        rigid one. That of a single line: sqrt(stiffness / (length mass)).
+        rigid one. That of a single line: sqrt(EA / (length mass)).
     fastest : float
         rad/s, of it alone: others only slow what it makes of a mode.
     swing : float
@@ -85,9 +85,9 @@ def line_dynamics(
     paths = {name: _Path(scene, model, line, values, accelerations) for name, line in lines.items()}
     directions = np.stack([path.direction for path in paths.values()], axis=1)
     yielding = directions.T @ _response(terms, directions)
-    stiffness = np.array([line.stiffness / _unstretched(line, time)[0] for line in lines.values()])
+    stiffness = np.array([line.EA / _unstretched(line, time)[0] for line in lines.values()])
     pulls = [
-        line.stiffness * max(path.length / _unstretched(line, time)[0] - 1.0, 0.0)
+        line.EA * max(path.length / _unstretched(line, time)[0] - 1.0, 0.0)
         for line, path in zip(lines.values(), paths.values(), strict=True)
     ]
     omegas = _omegas(yielding, stiffness, np.array(pulls))
@@ -99,10 +99,10 @@ def line_dynamics(
         bounced = model.line_bounces[name][0] if name in model.line_bounces else mass
         l0, rate, bend = _unstretched(line, time, states)
         strain_rate = (path.rate - rate * path.length / l0) / l0
-        damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * (line.mass or bounced) / l0)
+        damping = 2.0 * line.damping_ratio * np.sqrt(line.EA * (line.mass or bounced) / l0)
         straining = path.bend - path.length / l0 * bend - 2.0 * rate * strain_rate
         out[name] = LineDynamics(
-            tension=float(line.stiffness * (path.length / l0 - 1.0) + damping * l0 * strain_rate),
+            tension=float(line.EA * (path.length / l0 - 1.0) + damping * l0 * strain_rate),
             ringing=float(mass * np.hypot(straining, omegas[i] * strain_rate * l0)),
             mass=mass,
             omega=float(omegas[i]),

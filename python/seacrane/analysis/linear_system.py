@@ -336,11 +336,10 @@ def linear_model(
         Body on which waves act. Default: that of the scene's waves, or the only vessel.
     memory : str
         "scene" (default): the vessel's fitted states, or its convolution by frequency. "database": the A, B
-        and additional matrices of `database` by frequency in place of the vessel's memory, so that nothing
+        and additional matrices of its database by frequency in place of the vessel's memory, so that nothing
         is fitted.
     database : HydroDatabase, optional
-        The one that the vessel was added from, or the same ship at a forward speed; with
-        ``memory="database"``.
+        With ``memory="database"``: the same ship at a forward speed. Default: the vessel's own.
 
     Raises
     ------
@@ -348,9 +347,8 @@ def linear_model(
         If something moves or accelerates at the state, the vessel is not clear, or the database is missing or
         not the vessel's.
     """
-    memories = frequency_memories(
-        scene, memory=memory, database=database, vessel=_wave_body(scene, vessel) if database else None
-    )
+    body = _wave_body(scene, vessel) if memory == "database" else None
+    memories = frequency_memories(scene, memory=memory, database=database, vessel=body)
     if memories:
         if state is not None:
             first = Terms(compile_scene(held(scene, time=state.time)), time=state.time).memory.start

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.analysis.frequency_domain import linear_of, require_same_speed
+from seacrane.analysis.frequency_domain import excitation_of, linear_of
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import natural_modes
 from seacrane.description.scene import Description
@@ -18,12 +18,12 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
-from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
+from seacrane.warnings import EncounterFrequencyWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -111,7 +111,6 @@ class ResponseStatistics:
 def response_statistics(
     scene: Description | LinearModel,
     *,
-    database: HydroDatabase,
     spectrum: _core.Spectrum,
     heading: float,
     body: str,
@@ -119,6 +118,7 @@ def response_statistics(
     duration: float = 10800.0,
     state: _core.State | None = None,
     memory: str = "scene",
+    database: HydroDatabase | None = None,
     spreading: Spreading | None = None,
 ) -> ResponseStatistics:
     """Response spectrum, significant and most probable largest motion of a point of any body.
@@ -129,7 +129,7 @@ def response_statistics(
 
     Parameters
     ----------
-    scene, database, body, point, state, memory
+    scene, body, point, state, memory, database
         As `motion_rao`.
     spectrum : Spectrum
     heading : float
@@ -153,16 +153,16 @@ def response_statistics(
     EncounterFrequencyWarning
         At forward speed more than 10 % of the energy is met outside the table of the matrices.
     """
-    span = number_of("duration", duration)
-    if not (np.isfinite(span) and span > 0.0):
-        raise SceneError(f"duration is {span} s; give a finite positive number")
+    span = positive_of("duration", duration, "s")
     if spreading is not None and not isinstance(spreading, Spreading):
         raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
     linear = linear_of(scene, state, memory, database)
-    require_same_speed(linear, database)
+    database = excitation_of(linear, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
     if database.trusted_band is not None and database.trusted_band[0] > low:
-        below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
+        below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(
+            0
+        )
         warn_of_waves_below_band(database, below, "waves of a spectrum")
     main, output = float(heading), linear.output(body=body, point=point)
     headings, shares = np.array([main]), np.ones(1)
@@ -183,7 +183,7 @@ def response_statistics(
         spectrum=density,
         std=np.sqrt(moments[:, 0]),
         duration=span,
-        wave_energy_share=spectrum.energy(omega_min=low, omega_max=high) / spectrum.moment(0),
+        wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
         moments=moments,
         headings=headings,
         heading_share=shares,
@@ -261,7 +261,7 @@ def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Arra
 
 
 def _met_frequencies(database: HydroDatabase, heading: float, about: Array) -> Array:
-    """Even over the band, and where waves of a direction are met at the frequencies ``about`` resonances.
+    """Wave frequencies: even over the band, and those that are met at the frequencies ``about`` resonances.
 
     In following seas the frequency of encounter rises, turns and falls: a resonance is met up to three times.
     """

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.analysis.taut_lines import pose_of
-from seacrane.description.assembled import AssemblyWarning
 from seacrane.description.compilation import compile_scene
 from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders
 from seacrane.description.scene import Some
 from seacrane.errors import SceneError
+from seacrane.warnings import AssemblyWarning
 
 Array = NDArray[np.float64]
 STEP = 0.05  # m, of rods on their way to other lengths: projection takes only small steps

@@ -22,7 +22,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import not_negative_of
 from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
@@ -118,9 +118,7 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     if state is not None:
         found = _rest(scene, float(state.time), state_values(scene, state))
     else:
-        end = number_of("equilibrium: time", time)
-        if not (np.isfinite(end) and end >= 0.0):
-            raise SceneError(f"equilibrium: time is {end} s; give a finite time, zero or later")
+        end = not_negative_of("equilibrium: time", time, "s")
         found = next(_rests(scene, [end]))
     warn_of_rest("equilibrium", scene, *found)
     return found[1]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.holding import decided
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
@@ -27,6 +28,7 @@ def ends_of(cylinder: _core.HydraulicCylinder) -> dict[str, Any]:
 
 def without_cylinders(scene: Some) -> Some:
     """The scene without its hydraulic cylinders, and without the compensators that they follow."""
+    scene = decided(scene)
     there = hydraulic_cylinders(scene)
     loads = without_compensation(scene.loads)
     return scene.copy(loads={name: load for name, load in loads.items() if name not in there})

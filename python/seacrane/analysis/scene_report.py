@@ -12,6 +12,7 @@ from seacrane.description.assembled import moves
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 from seacrane.description.given import floating_bodies, given_vessels
+from seacrane.description.holding import Drive, held_drives, with_holds
 from seacrane.description.loads import kind_of, named
 from seacrane.description.scene import Description
 
@@ -45,10 +46,12 @@ def scene_report(scene: Description) -> dict[str, Rows]:
     SceneError
         If the scene does not compile.
     """
+    held = held_drives(scene)
+    scene = with_holds(scene)
     model = compile_scene(scene)
     report = {
         "size": _size(scene, model),
-        "elements": elements_of(scene),
+        "elements": [*elements_of(scene), *_held(held)],
         "merged": _merged(model),
         "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
@@ -105,6 +108,12 @@ def elements_of(scene: Description) -> Rows:
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     rows.append(("crane parts", _crane_parts(scene)))
     return [(label, names) for label, names in rows if names]
+
+
+def _held(found: dict[str, list[Drive]]) -> Rows:
+    """Drives of cranes on which nothing acts, and which stand where they are described."""
+    held = [f"{prefix}{label} ({joint})" for prefix, drives in found.items() for label, joint, _ in drives]
+    return [("held where described, as nothing acts on them", held)] if held else []
 
 
 def _crane_parts(scene: Description) -> list[str]:

@@ -14,8 +14,8 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
-from seacrane.validity.range import LARGEST_HEEL, LargeHeelWarning
-from seacrane.validity.stability import CreepingRestWarning, UnstableRestWarning
+from seacrane.validity.range import LARGEST_HEEL
+from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

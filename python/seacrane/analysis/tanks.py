@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, shaped_of
+from seacrane.inputs.checked import number_of, positive_of, shaped_of
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
@@ -40,12 +40,10 @@ class Tank:
     def __post_init__(self) -> None:
         x, y, z = shaped_of("tank: point", self.point, (3,)).tolist()
         object.__setattr__(self, "point", (x, y, z))
-        for key in ("capacity", "content"):
-            object.__setattr__(self, key, number_of(f"tank: {key}", getattr(self, key)))
+        object.__setattr__(self, "capacity", positive_of("tank: capacity", self.capacity, "kg"))
+        object.__setattr__(self, "content", number_of("tank: content", self.content))
         if not np.all(np.isfinite(self.point)):
             raise SceneError(f"tank: point is {self.point}; give three finite numbers, m")
-        if not (np.isfinite(self.capacity) and self.capacity > 0.0):
-            raise SceneError(f"tank: capacity is {self.capacity:g} kg; give one above zero")
         if not 0.0 <= self.content <= self.capacity:
             raise SceneError(
                 f"tank: content is {self.content:g} kg; give one from 0 to its capacity of "
@@ -59,7 +57,7 @@ def tanks_of(given: Any) -> dict[str, Tank]:
         raise SceneError(f"ballast: tanks are {shown(given)}; give at least one Tank by its name")
     for name, tank in given.items():
         if not isinstance(name, str) or not isinstance(tank, Tank):
-            raise SceneError(f"ballast: tank {shown(name)} is {shown(tank)}; give a seacrane.Tank")
+            raise SceneError(f"ballast: tank {shown(name)} is {shown(tank)}; give a seacrane.scene.Tank")
     return dict(given)
 
 

@@ -13,6 +13,7 @@ from seacrane.analysis.inverse import driven, hold_vessel
 from seacrane.description.compilation import compile_scene
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import path_of
+from seacrane.description.places import placed
 from seacrane.description.scene import GROUND, Description
 from seacrane.inputs.frames import rotation_matrix
 
@@ -43,7 +44,7 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
     float
         n for n falls along the direction.
     """
-    places = [_placed(scene, body, point) for body, point in path_of(line)]
+    places = [placed(scene, body, point) for body, point in path_of(line)]
     shortening = {body: np.zeros(3) for body in line.bodies if body != GROUND}
     for (first, start), (second, end) in pairwise(zip(line.bodies, places, strict=True)):
         span = end - start
@@ -53,14 +54,6 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
                 shortening[body] = shortening[body] + sign * along
     load = max(shortening.values(), key=lambda slope: float(slope[2]))
     return float(load @ _unit(direction))
-
-
-def _placed(scene: Description, name: str, point: Any) -> Array:
-    at = np.asarray(point, dtype=float)
-    if name == GROUND:
-        return at
-    body = scene.bodies[name]
-    return np.asarray(np.asarray(body.position) + rotation_matrix(np.asarray(body.quaternion)) @ at)
 
 
 def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction: Any) -> float:

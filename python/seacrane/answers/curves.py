@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.hanging import POSES, hanging_vectors, swing
 from seacrane.errors import FileFormatError
-from seacrane.figures.traces import NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.figures.overview import payload_bodies
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
@@ -24,6 +25,7 @@ MOTIONS = ("heave", "roll", "pitch")
 SAME = {"tension": "link_tension"}
 REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
+POSES = ("position", "quaternion")
 CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
 SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
 
@@ -78,7 +80,13 @@ def reported_curves(result: Result) -> list[Curve]:
 def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
-    found = [_load(result, one) for name in loads for one in beyond_rounding(traces(result, name))]
+    links = set(result.coords[result.dims["tension"][1]]) if "tension" in held else set()
+    found = [
+        _load(result, one)
+        for name in loads
+        for one in beyond_rounding(traces(result, name))
+        if name != "hook_load" or one.names[0] not in links  # a link's is its tension
+    ]
     leads = [
         Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
         for name in LEADS
@@ -112,8 +120,7 @@ def _load(result: Result, one: Trace) -> Curve:
 
 def _hanging_weight(result: Result, one: Trace) -> float | None:
     """Of the load on a link, N, as the run noted it."""
-    weights = json.loads(str(result.stats.get("hanging_weight", "{}")))
-    on_lines = json.loads(str(result.stats.get("line_weight", "{}")))
+    weights, on_lines = result.about.hanging_weight, result.about.line_weight
     name = one.names[0] if one.names else ""
     if one.channel == "line_tension":
         weight = on_lines[name][0] / on_lines[name][1] if name in on_lines else None
@@ -122,10 +129,9 @@ def _hanging_weight(result: Result, one: Trace) -> float | None:
     elif one.channel in ("tension", "hook_load"):
         weight = weights.get(name)
     else:
-        cranes = json.loads(str(result.stats.get("cranes", "[]")))
-        links = {f"{crane['prefix']}hook": crane["link"] for crane in cranes if crane["link"]}
+        links = {f"{one['prefix']}hook": one["link"] for one in result.about.cranes if one["link"]}
         link = links.get(name) if one.names else next(iter(links.values()), None)
-        weight = weights.get(link)
+        weight = weights.get(link or "")
     return None if weight is None else float(weight)
 
 
@@ -154,3 +160,34 @@ def _motions(result: Result) -> list[Curve]:
         Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, values=one.values)
         for one in beyond_rounding(every)
     ]
+
+
+def hanging_vectors(result: Result) -> dict[str, Array]:
+    """From the upper to the lower end of the one link that each load hangs on, (n, 3), m, inertial axes.
+
+    By body. Empty where the poses were not recorded, or a result notes no links.
+    """
+    if not set(POSES) <= set(result.channels):
+        return {}
+    links = result.about.outline.get("links", [])
+    found = {}
+    for body in payload_bodies(result):
+        own = [link for link in links if link[2] == body]
+        if len(own) == 1:
+            first, first_point, _, point = own[0]
+            found[body] = _place(result, body, point) - _place(result, first, first_point)
+    return found
+
+
+def swing(vector: Array) -> Array:
+    """Angle (n,) of hanging vectors (n, 3) from straight down, rad."""
+    return np.arctan2(np.hypot(vector[:, 0], vector[:, 1]), -vector[:, 2])
+
+
+def _place(result: Result, body: str, point: Sequence[float]) -> Array:
+    """Of a point given from a body's centre of mass; of the ground as it is."""
+    at = np.asarray(point, dtype=float)
+    if body not in result.coords["body"]:
+        return at
+    turn = rotation_matrix(result.select("quaternion", body=body))
+    return np.asarray(result.select("position", body=body) + turn @ at)

@@ -12,24 +12,29 @@ from numpy.typing import NDArray
 
 from seacrane.analysis.crane_poses import crane_of, path_through, places_of, posed, values_of
 from seacrane.analysis.rest_state import rest_states
+from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
-from seacrane.answers.rest_columns import AtRest
-from seacrane.answers.rest_judge import RestJudge
+from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.validity.range import LARGEST_HEEL
+from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
 NOTHING = 1e-8  # m, deg, kN, t
+Columns = dict[str, tuple[str, float]]
+Pose = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -277,3 +282,55 @@ def _require_range(scene: Description, place: tuple[str, str], label: str, value
                 f"statics: {label} is {value:g} {unit}, outside its range of {limit.minimum:g} to "
                 f"{limit.maximum:g} {unit} from the described pose; give one within"
             )
+
+
+class RestJudge:
+    """Looks at rest states one after another, and tells the worst of them at the end."""
+
+    def __init__(self, scene: Description) -> None:
+        self._name, self._poses = scene.name, 0
+        self._falling: list[tuple[Growing, str]] = []
+        self._heeled: list[tuple[float, str]] = []
+
+    def seen(self, at_rest: AtRest, pose: Pose) -> Columns:
+        """The columns of a state at rest."""
+        columns, where = columns_of(at_rest), _where(pose)
+        self._poses += 1
+        grows = growing(at_rest.scene, at_rest.model, at_rest.state)
+        stability = [f"{name} {value:.3g} {unit}" for name, (unit, value) in columns.items() if _is_gm(name)]
+        if grows:
+            self._falling.append((grows[0], f"{where}{', '.join(stability)}"))
+        for name, (_, value) in columns.items():
+            if name.split(" ")[0] in ("heel", "trim") and abs(value) > np.degrees(LARGEST_HEEL):
+                self._heeled.append((abs(value), f"{where}{name} is {value:.3g} deg"))
+        return columns
+
+    def warn(self) -> None:
+        """Warn of the pose in which most grows fastest, and of that with the largest heel."""
+        if self._falling:
+            worst, told = max(self._falling, key=lambda one: one[0].value.real)
+            warn_caller(
+                f"statics: scene {self._name!r} does not stay at rest in {len(self._falling)} of "
+                f"{self._poses} poses; {told or 'as described'}: {worst.label} {worst.words}. Lower "
+                "the weights, take less on the hook, or hold what tips over",
+                UnstableRestWarning,
+            )
+        if self._heeled:
+            _, told = max(self._heeled)
+            warn_caller(
+                f"statics: {told}, beyond {np.degrees(LARGEST_HEEL):.0f} deg in {len(self._heeled)} of "
+                f"{self._poses} poses: restoring is linear, so that heel, GM and all that follows from them "
+                "are not those of the ship there. Take less on the hook or nearer, add ballast "
+                "(Scene.add_ballast), or look at righting_arms",
+                LargeHeelWarning,
+            )
+
+
+def _is_gm(name: str) -> bool:
+    return name == "GM" or name.startswith("GM ")
+
+
+def _where(pose: Pose) -> str:
+    if not pose:
+        return ""
+    return f"at {', '.join(f'{name} {value:.4g}' for name, value in pose.items())} "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.answers.curves import Curve, reported_curves
-from seacrane.answers.remarks import remarks_on
 from seacrane.answers.statics import Statics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.text import text_table
+from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.utilisation import Utilisation
 
@@ -28,6 +28,11 @@ STARRED = "* at the first output told of: no static value is known."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
+ENOUGH_WAVES = 100  # peak periods: fewer tell of an extreme no more than what happened once
+FIRST, LAST = 0.2, 0.5  # parts of the record that are compared
+FEWEST_OUTPUTS = 20
+DRIFTED = 2.0  # standard deviations of the last part, between the means
+CALMED = 2.0  # times the standard deviation of the last part
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,11 +171,12 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
+@refusing
 def summary(
     result: Result,
     *,
-    start: float | None = None,
-    end: float | None = None,
+    after: float | None = None,
+    before: float | None = None,
     static: Statics | None = None,
 ) -> Summary:
     """Static value, mean, standard deviation, extremes and dynamic factor of what matters in a run.
@@ -178,13 +184,13 @@ def summary(
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
     heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
     The static tension of a link is the weight that hangs on it. Of all else the value at the first output
-    from `start` on takes its place, marked by a star.
+    from `after` on takes its place, marked by a star.
 
     Parameters
     ----------
     result : Result
         Of any run.
-    start, end : float, optional
+    after, before : float, optional
         Part of it that mean, standard deviation, extremes and starred values are taken from, s; default: all.
     static : Statics, optional
         In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
@@ -204,7 +210,7 @@ def summary(
             f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
         )
     known = _static(static)
-    part = _part(result, start, end)
+    part = _part(result, after, before)
     time = result.time[part]
     every = [
         replace(one, static=known.get(one.name, one.static))
@@ -236,16 +242,16 @@ def _static(given: Statics | None) -> dict[str, float]:
     return found
 
 
-def _part(result: Result, start: float | None, end: float | None) -> slice:
-    """Outputs from `start` to `end`, both included."""
-    first = result.time[0] if start is None else number_of("summary: start", start)
-    last = result.time[-1] if end is None else number_of("summary: end", end)
+def _part(result: Result, after: float | None, before: float | None) -> slice:
+    """Outputs from `after` to `before`, both included."""
+    first = result.time[0] if after is None else number_of("summary: after", after)
+    last = result.time[-1] if before is None else number_of("summary: before", before)
     part = slice(
         int(np.searchsorted(result.time, first)), int(np.searchsorted(result.time, last, side="right"))
     )
     if part.start >= part.stop:
         raise SceneError(
-            f"summary: no output is between start = {first:g} and end = {last:g} s; the result has "
+            f"summary: no output is between after = {first:g} and before = {last:g} s; the result has "
             f"{result.time[0]:g} to {result.time[-1]:g} s"
         )
     return part
@@ -272,3 +278,44 @@ def _factor(static: float, low: float, high: float) -> float | None:
         return None
     factor = (high if static > 0.0 else low) / static
     return factor if factor > 0.0 else None
+
+
+def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str]:
+    """One sentence each, for the part of a run from the first to the last of `time`."""
+    stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
+    return [*stopped, *_short(result, time), *_transient(time, curves)]
+
+
+def _short(result: Result, time: Array) -> list[str]:
+    period, span = result.settings.get("tp"), float(time[-1] - time[0])
+    if not isinstance(period, (int, float)) or not period or span >= ENOUGH_WAVES * period:
+        return []
+    return [
+        f"Too short for statistics: {span:g} s are {span / period:.0f} peak periods. Largest and smallest "
+        f"are those of these waves alone; run {ENOUGH_WAVES * period:g} s or more, or several seeds."
+    ]
+
+
+def _transient(time: Array, curves: Sequence[Curve]) -> list[str]:
+    """The curve whose first part is most unlike its last part."""
+    if time.size < FEWEST_OUTPUTS or not curves:
+        return []
+    excess = [_unlike(one.values) for one in curves]
+    worst = int(np.argmax(excess))
+    if excess[worst] <= 1.0:
+        return []
+    return [
+        f"A starting transient or a move is inside: {curves[worst].name} does not behave in the first fifth "
+        f"of {time[0]:g} to {time[-1]:g} s as in the second half. Pass start= to leave the beginning out."
+    ]
+
+
+def _unlike(values: Array) -> float:
+    """How much a record's beginning differs from its end, over what is allowed."""
+    finite = values[np.isfinite(values)]
+    first, last = finite[: int(FIRST * finite.size)], finite[finite.size - int(LAST * finite.size) :]
+    if not first.size or np.ptp(finite) <= 1e-9 * np.abs(finite).max():
+        return 0.0
+    spread = max(float(last.std()), 1e-9 * float(np.ptp(finite)))
+    drift = abs(float(first.mean() - last.mean())) / (DRIFTED * spread)
+    return max(drift, float(first.std()) / (CALMED * spread))

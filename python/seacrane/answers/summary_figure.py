@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from seacrane.answers.curves import Curve, reported_curves
 from seacrane.errors import SceneError
-from seacrane.figures.overview import marks_of
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.result import Result
+from seacrane.result.history import marks_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

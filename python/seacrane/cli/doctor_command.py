@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import argparse
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, requires, version
 
 from seacrane.cli.json_text import to_json
 from seacrane.plotting.text import text_table
 
 Facts = list[tuple[str, str]]
+NOT_FOR_USERS = ("dev", "bench", "fuzz", "docs", "wheel")  # extras that only work on the package itself needs
+NUMBER = re.compile(r"\d+")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the facts; 1 where something that is needed is missing, too old, or does not work."""
     from seacrane.installation.build import build_facts, core_file
-    from seacrane.installation.packages import asked_packages
 
     asked = asked_packages()
     needed = [package for package in asked if not package.extra]
@@ -55,3 +60,79 @@ def _show(sections: dict[str, Facts], missing: list[str], *, as_json: bool) -> N
             table = text_table(("", ""), facts).splitlines()[1:]
             print("\n".join([name, *(f"  {line}" for line in table), ""]))
     print("missing: " + "; ".join(missing) if missing else "all that is needed is there")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Package:
+    """One package that is asked for.
+
+    Attributes
+    ----------
+    name : str
+    extra : str
+        The optional part of seacrane that needs it; empty for what is always needed.
+    least : str
+        Least version, or empty.
+    found : str
+        Version that is installed, or empty.
+    """
+
+    name: str
+    extra: str
+    least: str
+    found: str
+
+    @property
+    def good(self) -> bool:
+        """Whether it is installed and not too old."""
+        return bool(self.found) and _numbers(self.found) >= _numbers(self.least)
+
+    @property
+    def words(self) -> str:
+        """What is there, and what to do where it is not enough."""
+        if self.good:
+            return self.found
+        what = f"seacrane[{self.extra}]" if self.extra else f"{self.name}>={self.least}".removesuffix(">=")
+        state = f"{self.found}, too old: {self.least} or newer is needed" if self.found else "not installed"
+        return f"{state}; pip install '{what}'"
+
+
+def asked_packages() -> list[Package]:
+    """All packages of the installed metadata, those for users; none where there is no metadata."""
+    try:
+        lines = requires("seacrane") or []
+    except PackageNotFoundError:
+        return []
+    return chosen_packages(lines, _installed)
+
+
+def chosen_packages(lines: Iterable[str], installed: Callable[[str], str]) -> list[Package]:
+    """The packages of requirements as metadata writes them; those for other Pythons are left out."""
+    found = []
+    for line in lines:
+        wanted, _, marker = line.partition(";")
+        extra = re.search(r"extra == [\"'](.+?)[\"']", marker)
+        if "python_version" in marker or (extra and extra[1] in NOT_FOR_USERS):
+            continue
+        parts = re.match(r"\s*([\w.-]+)[^>=]*(?:[>=]=\s*([\w.]+))?", wanted)
+        if parts:
+            name = parts[1]
+            found.append(
+                Package(
+                    name=name, extra=extra[1] if extra else "", least=parts[2] or "", found=installed(name)
+                )
+            )
+    return found
+
+
+def _installed(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    """Of a version's release: 2.10.1rc1 is (2, 10, 1)."""
+    release = re.match(r"[\d.]*", text)
+    return tuple(int(number) for number in NUMBER.findall(release[0] if release else ""))

@@ -70,7 +70,7 @@ def _simulate(name: str) -> Result:
     scene = getattr(cases, case)(**options)
     results = []
     for _ in range(REPEATS):
-        results.append(simulate(scene, T_END, outputs=Outputs(dt=DT_OUT)))
+        results.append(simulate(scene, T_END, outputs=Outputs(dt_out=DT_OUT)))
         if results[-1].interrupted:
             return results[-1]
     return min(results, key=lambda result: float(result.stats["wall_s"]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
@@ -56,8 +55,7 @@ def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[C
     )  # fmt: skip
 
     def read() -> Result:
-        limited = [state["channel"] for state in json.loads(str(done.stats.get("limit_states", "[]")))]
-        return done.load((*KEPT, *CHANNELS, *limited))
+        return done.load((*KEPT, *CHANNELS, *(state.channel for state in done.about.limit_states)))
 
     return read, done.path
 

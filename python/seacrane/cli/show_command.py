@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     path = Path(arguments.result)
     result = Result.load(path)
-    told = summary(result, start=arguments.start, end=arguments.end)
+    told = summary(result, after=arguments.start, before=arguments.end)
     if arguments.json:
         print(to_json({"rows": told.to_dict(), "remarks": told.remarks}))
     else:

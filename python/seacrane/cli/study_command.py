@@ -12,8 +12,7 @@ from importlib import import_module
 from typing import Any
 
 from seacrane.cli.command_line import INTERRUPTED
-from seacrane.ensembles.job import WorkerVersionError
-from seacrane.errors import SceneError
+from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
 
 

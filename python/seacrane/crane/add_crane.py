@@ -49,8 +49,9 @@ def add_crane(
     s2: float = 0.0,
     coordinates: Mapping[str, float] | None = None,
     payload: Payload | None = None,
+    payload_mass: float | None = None,
     damping: bool = True,
-    held: bool = False,
+    held: bool | None = None,
     hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
     prefix: str = "",
 ) -> CraneRoles:
@@ -69,12 +70,17 @@ def add_crane(
     coordinates : mapping of str to float, optional
         Of another crane: angles (rad) and strokes (m) from the pose in which it is drawn, by label, such as
         ``{"slew": 0.5, "boom": 1.0}``; those that are not given stay there, or follow their loop.
-    payload : Payload or None
+    payload : Payload, optional
+        What hangs from the tip; default: nothing.
+    payload_mass : float, optional
+        In its place, kg: a `Payload` of this mass, all else as usual.
     damping : bool
         Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
-    held : bool
-        Whether drivers hold slew, luffs and strokes where they are described. False: drives are to be added.
-        Hydraulic cylinders hold their strokes themselves.
+    held : bool, optional
+        Default: what nothing acts on when the scene is compiled, of slew, luffs and strokes, is held where it
+        is described; `Scene.report` names it. False: it is free, and falls. True: drivers hold all of them
+        from now on, named ``"<joint>.<coordinate>"``, which stages and `Scene.replace` may change. Hydraulic
+        cylinders hold their strokes themselves.
     hydraulics : mapping of str to mapping, optional
         By the labels of cylinders, "main" and "knuckle" of a knuckle boom, the entries of
         `add_hydraulic_cylinder` beside its geometry: that cylinder is hydraulic, named as its joint, and
@@ -105,7 +111,12 @@ def add_crane(
     if prefix in scene.roles:
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
     parts = _parts(crane, foot, {"theta": theta, "s1": s1, "s2": s2}, coordinates)
-    damped, is_held = flag_of("crane: damping", damping), flag_of("crane: held", held)
+    damped = flag_of("crane: damping", damping)
+    is_held = None if held is None else flag_of("crane: held", held)
+    if payload_mass is not None:
+        if payload is not None:
+            raise SceneError("crane: payload and payload_mass are given; put the mass into the Payload")
+        payload = Payload(mass=payload_mass)
     bodies, joints = list(parts.bodies), list(parts.joints)
     if payload is not None:
         bodies.append(payload.under(parts.tip[1]))
@@ -142,6 +153,7 @@ def add_crane(
         areas=parts.areas,
         luffs={label: prefix + name for label, name in parts.luffs.items()},
         ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
+        held=is_held is not False,
     )
 
 
@@ -248,7 +260,7 @@ class _Frame:
         """With its blocks in the coordinates of the scene's bodies."""
         ends = [self._block(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
         return LuffingRope(
-            name=prefix + rope.name, falls=rope.falls, stiffness=rope.stiffness, first=ends[0], second=ends[1]
+            name=prefix + rope.name, falls=rope.falls, EA=rope.EA, first=ends[0], second=ends[1]
         )
 
     def _block(self, name: str, at: Array) -> tuple[str, Vector]:

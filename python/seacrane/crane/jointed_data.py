@@ -102,8 +102,8 @@ class RopeData:
         Its own, and the label of the hinge that it holds.
     falls : int
         Parts of rope between the two blocks.
-    stiffness : float
-        EA of one part, N.
+    EA : float
+        Axial stiffness of one part, N.
     first, second : (str, ndarray (3,))
         Bodies and blocks at home, crane-foot frame, m; the second one is beyond the hinge.
     """
@@ -111,7 +111,7 @@ class RopeData:
     name: str
     luff: str
     falls: int
-    stiffness: float
+    EA: float
     first: tuple[str, Array]
     second: tuple[str, Array]
 

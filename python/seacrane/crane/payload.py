@@ -10,8 +10,7 @@ import numpy.typing as npt
 
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.damping import BOX_DRAG, SWING_RATIO
-from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.plausible import warn_of_density
 
 Array = npt.NDArray[np.float64]
@@ -51,13 +50,9 @@ class Payload:
         values = {"mass": self.mass, "link_length": self.link_length}
         values |= {f"size[{index}]": edge for index, edge in enumerate(self.size)}
         for name, given in values.items():
-            value = number_of(f"payload: {name}", given)
-            if not (math.isfinite(value) and value > 0.0):
-                raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
+            positive_of(f"payload: {name}", given)
         for name in ("swing_damping_ratio", "drag_coefficient"):
-            value = number_of(f"payload: {name}", getattr(self, name))
-            if not (math.isfinite(value) and value >= 0.0):
-                raise SceneError(f"payload: {name} is {value!r}; it must be finite, and zero or more.")
+            not_negative_of(f"payload: {name}", getattr(self, name))
         warn_of_density("payload", self.mass, math.prod(self.size))
 
     @property

@@ -19,10 +19,11 @@ from seacrane.crane.link_frames import FOOT_FRAME, Frames, Placed
 from seacrane.crane.mass_properties import MassProperties
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
 from seacrane.crane.urdf_visuals import meshes_of
-from seacrane.crane.urdf_warning import warn_of_urdf
 from seacrane.errors import FileFormatError
 from seacrane.files.whole_file import read_whole
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import listed, shown
+from seacrane.warnings import UrdfWarning
 
 Array = NDArray[np.float64]
 LARGEST_FILE = 2**24  # bytes
@@ -270,6 +271,8 @@ def _warn_of_dynamics(source: str, what: str, joint: Element) -> None:
         return
     losses = [value_of(source, what, dynamics, key, default=0.0) for key in ("damping", "friction")]
     if any(not math.isclose(loss, 0.0) for loss in losses):
-        warn_of_urdf(
-            f"{source}: {what} has damping or friction, which is not taken over; add it by Scene.add_friction"
+        warn_caller(
+            f"{source}: {what} has damping or friction, which is not taken over; add it by "
+            "Scene.add_friction",
+            UrdfWarning,
         )

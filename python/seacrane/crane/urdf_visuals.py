@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from seacrane.crane.jointed_data import MeshData
 from seacrane.crane.link_frames import Placed
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
-from seacrane.crane.urdf_warning import warn_of_urdf
 from seacrane.errors import FileFormatError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
+from seacrane.warnings import UrdfWarning
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
@@ -70,8 +71,9 @@ def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str,
     if not (scale[0] == scale[1] == scale[2] and scale[0] > 0.0):
         raise FileFormatError(f"{source}: {what} has scale {scale.tolist()}; give three equal numbers.")
     if path.suffix.lower() not in READABLE:
-        warn_of_urdf(
-            f"{source}: {what} is {shown(given)}, which is not drawn; convert it to {', '.join(READABLE)}"
+        warn_caller(
+            f"{source}: {what} is {shown(given)}, which is not drawn; convert it to {', '.join(READABLE)}",
+            UrdfWarning,
         )
         return None
     return MeshData(file=path, scale=float(scale[0]), **where)

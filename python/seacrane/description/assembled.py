@@ -9,6 +9,7 @@ from seacrane import _core
 from seacrane.description.joint_coordinates import Jointed, start_pose
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import AssemblyWarning
 
 Array = NDArray[np.float64]
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
@@ -16,10 +17,6 @@ MOST_MOVE = 1.0  # m: however large the scale
 LARGEST_TURN = 0.01  # rad: the angle that they refer to
 LARGEST_SHARE = 0.01  # of a velocity that was described
 NAMED = 3
-
-
-class AssemblyWarning(UserWarning):
-    """Closing the joints moved bodies from where they were described, or changed a described velocity."""
 
 
 def moves(scene: Jointed, model: _core.Model) -> list[tuple[str, float, float]]:

@@ -45,8 +45,8 @@ class Clearance:
 
 def add_clearance(
     scene: Description,
-    *,
     name: str,
+    *,
     points: str | Sequence[str],
     body: str = GROUND,
     center: Any = (0.0, 0.0, 0.0),

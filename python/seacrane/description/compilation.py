@@ -6,9 +6,10 @@ import warnings
 
 from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
+from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_heavy_winch
+from seacrane.description.rungs import compiled_loads
 from seacrane.description.scene import Description
-from seacrane.description.stretch import compiled_loads
 from seacrane.description.wave_loads import compiled_waves
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
@@ -16,6 +17,7 @@ from seacrane.inputs.checked import name_of, number_of, text_of
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     """What `Scene.compile` does, without its look at what capsizes; its docstring says what is raised."""
+    scene = with_holds(scene)
     for line in lines_of(scene.loads).values():
         if line.winch:
             refuse_heavy_winch(line)

@@ -18,7 +18,7 @@ from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.roles import CraneRoles, Vector
 from seacrane.description.scene import GROUND, Description, coordinate_of
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import shaped_of, text_of
+from seacrane.inputs.checked import flag_of, shaped_of, text_of
 from seacrane.inputs.shown import shown
 
 
@@ -35,6 +35,7 @@ def add_roles(
     areas: Mapping[str, Any] | None = None,
     luffs: Mapping[str, str | tuple[str, str]] | None = None,
     ropes: Mapping[str, LuffingRope] | None = None,
+    held: bool = False,
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
@@ -64,6 +65,9 @@ def add_roles(
         Hinge that raises and lowers the jib, or hinge and coordinate, by its label.
     ropes : mapping of str to LuffingRope, optional
         That holds a hinge, by the hinge's label.
+    held : bool
+        Whether a slew drive, luff or cylinder on which nothing acts when the scene is compiled is held where
+        it is described, as those of `add_crane` are.
 
     Returns
     -------
@@ -103,6 +107,7 @@ def add_roles(
         tip=None if tip is None else _tip(scene, what, tip),
         capacity=capacity_of(what, capacity),
         areas=areas_by_label(what, {} if areas is None else areas, cylinders or {}),
+        held=flag_of(f"{what}: held", held),
     )
     scene.roles[prefix] = roles
     return roles
@@ -129,10 +134,10 @@ def _check_rope(
     for body, _ in (rope.first, rope.second):
         if body != GROUND:
             _require(what, f"rope {rope.name!r}: block", body, scene.bodies, "body")
-    if not (rope.falls >= 1 and np.isfinite(rope.stiffness) and rope.stiffness > 0.0):
+    if not (rope.falls >= 1 and np.isfinite(rope.EA) and rope.EA > 0.0):
         raise SceneError(
-            f"{what}: rope {rope.name!r} has {rope.falls} falls of EA {rope.stiffness:g} N; give one fall or "
-            "more, and a stiffness above zero"
+            f"{what}: rope {rope.name!r} has {rope.falls} falls of EA {rope.EA:g} N; give one fall or "
+            "more, and an EA above zero"
         )
 
 
@@ -158,6 +163,12 @@ def cylinders(scene: Description) -> dict[str, str]:
         for label, joint in roles.cylinders.items()
         if joint in scene.joints
     }
+
+
+def drive_named(scene: Description, label: str) -> tuple[str, str] | None:
+    """Joint and coordinate of a slew drive, luff or cylinder by its label, such as "slew" or "aft main"."""
+    strokes = {name: (joint, "displacement") for name, joint in cylinders(scene).items()}
+    return {**strokes, **luffs(scene), **slews(scene)}.get(label)
 
 
 def piston_areas(scene: Description) -> dict[str, Areas]:

@@ -10,7 +10,7 @@ from seacrane import _core
 from seacrane.description.forces import add_load
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, text_of
+from seacrane.inputs.checked import curve_of, name_of, not_negative_of, number_of, shaped_of, text_of
 from seacrane.inputs.plausible import direction_of
 
 AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205
@@ -21,8 +21,8 @@ KNOTS = 36  # over the circle: a spline through them is a cosine to 3e-6
 
 def add_pendulum_damping(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     first_point: Any = (0.0, 0.0, 0.0),
@@ -76,8 +76,8 @@ def add_pendulum_damping(
 
 def add_air_drag(
     scene: Description,
-    *,
     body: str,
+    *,
     frontal_area: float,
     lateral_area: float,
     drag_coefficient: float = BOX_DRAG,
@@ -120,9 +120,7 @@ def add_air_drag(
     what = f"air drag {text_of('air drag: name', name, f'{body} drag')!r}"
     dragged = _body(scene, what, body)
     angles = np.linspace(0.0, 2.0 * np.pi, KNOTS, endpoint=False)
-    coefficient = number_of(f"{what}: drag_coefficient", drag_coefficient)
-    if not (np.isfinite(coefficient) and coefficient >= 0.0):
-        raise SceneError(f"{what}: drag_coefficient is {coefficient!r}; give one of zero or more")
+    coefficient = not_negative_of(f"{what}: drag_coefficient", drag_coefficient)
     rows = coefficient * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(KNOTS)])
     element = _core.FlowForce(
         name=name or f"{body} drag",

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.databases import require_alike
 from seacrane.description.loads import named
 from seacrane.description.range import Range
 from seacrane.description.scene import ELEMENTS, KINDS, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import KEYWORDS
 
 EDITED = (
     *ELEMENTS,
@@ -42,8 +44,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     Raises
     ------
     SceneError
-        For a name that is not there or is of several kinds, a name that would change, or arguments that this
-        kind does not have; values are checked at compile().
+        For a name that is not there or is of several kinds, a name that would change, arguments that this
+        kind does not have, or a database that the vessel is not from; values are checked at compile().
     """
     key = _table_of(scene, name, kind)
     table = getattr(scene, key)
@@ -54,7 +56,11 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     unknown = [argument for argument in changes if argument not in arguments]
     if unknown or "name" in changes:
         known = ", ".join(argument for argument in arguments if argument != "name")
-        raise SceneError(f"{what}: cannot change {[*unknown, 'name'][0]!r}; it has {known}")
+        first, older = [*unknown, "name"][0], KEYWORDS.get(type(old).__name__, {})
+        has = f"since 0.3 it is {older[first]!r}" if first in older else f"it has {known}"
+        raise SceneError(f"{what}: cannot change {first!r}; {has}")
+    if changes.get("database") is not None:
+        require_alike(scene, old, changes["database"])
     for argument, value in changes.items():
         if isinstance(arguments[argument], _core.Curve):
             changes[argument] = curve_of(f"{what}: {argument}", value)

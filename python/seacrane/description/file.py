@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 from seacrane import _core
 from seacrane.description.bodies import add_body
 from seacrane.description.clearances import clearances_from_node, clearances_to_data
+from seacrane.description.databases import databases_from_node, databases_to_data
 from seacrane.description.drives import add_actuator, add_driver
 from seacrane.description.file_elements import (
     element_from_node,
@@ -35,6 +36,7 @@ from seacrane.description.file_origin import (
 from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
+from seacrane.description.holding import free_drives
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
@@ -42,6 +44,7 @@ from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.scene import Description
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.node import Node
@@ -58,7 +61,7 @@ _CLASSES: dict[str, type] = {
     "point_forces": _core.PointForce,
     "springs": _core.Spring,
     "force_tables": _core.ForceTable,
-    "vessels": _core.VesselHydrodynamics,
+    "vessels": VesselHydrodynamics,
     "points": _core.Point,
 }
 _ADD: dict[str, Callable[..., Any]] = {
@@ -81,6 +84,7 @@ _ADDED_LATER: dict[str, Any] = {
     "roles": None,
     "provenance": None,
     "meshes": [],
+    "databases": [],
 }  # what older files of this version lack
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
@@ -110,7 +114,8 @@ def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
         )
     try:
         text = json.dumps(described(scene), indent=1, allow_nan=False)
-        _scene(Node({**_ADDED_LATER, **json.loads(text)}, f"scene {scene.name!r}"), Description())
+        written = _ADDED_LATER | json.loads(text) | {"databases": []}  # checked when they were made
+        _scene(Node(written, f"scene {scene.name!r}"), Description())
     except SceneError:
         raise
     except FileFormatError as error:
@@ -180,6 +185,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "provenance",
         "meshes",
         "notes",
+        "databases",
     )
     root.expect(fields)
     return _scene(root, scene)
@@ -188,9 +194,13 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, limit states, clearances and meshes do not count, and of C functions only their names.
+    Notes, provenance, databases, limit states, clearances and meshes do not count, and of C functions only
+    their names.
     """
-    data = described(scene.copy(notes={}, provenance={}, limit_states={}, clearances={}, meshes={}))
+    data = _elements(scene.copy(notes={}, provenance={}, limit_states={}, clearances={}, meshes={}))
+    for roles in data["roles"]:
+        if not free_drives(scene, scene.roles[roles["prefix"]]):
+            roles.pop("held", None)  # nothing is, and scenes of before 0.3 have no such entry
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -225,6 +235,7 @@ def _scene(root: Node, scene: Some) -> Some:
         mesh_from_node(node, scene)
     scene.notes = notes_from_node(root.at("notes"))
     _origin(root, scene)
+    databases_from_node(root.at("databases"), scene)
     return scene
 
 
@@ -243,6 +254,12 @@ def _origin(root: Node, scene: Description) -> None:
 
 def described(scene: Description) -> dict[str, Any]:
     """The scene as plain data."""
+    databases = databases_to_data(scene)
+    return _elements(scene) | ({"databases": databases} if databases else {})
+
+
+def _elements(scene: Description) -> dict[str, Any]:
+    """All but the databases of its vessels, on which no motion depends."""
     out: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,

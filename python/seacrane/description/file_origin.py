@@ -34,6 +34,8 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         ]
     if roles.ropes:
         more["ropes"] = [{"luff": label, **_rope_to_data(rope)} for label, rope in roles.ropes.items()]
+    if roles.held:
+        more["held"] = True
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
@@ -47,7 +49,7 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(_ROLES, optional=("capacity", "areas", "luffs", "ropes"))
+        entry.expect(_ROLES, optional=("capacity", "areas", "luffs", "ropes", "held"))
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
         found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
@@ -65,6 +67,8 @@ def roles_from_node(node: Node, scene: Description) -> None:
             found["luffs"] = {name: (joint, coordinate) for name, joint, coordinate in rows}
         if "ropes" in entry.value:
             found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
+        if "held" in entry.value:  # files of before 0.3 lack it: a crane that nothing held was free
+            found["held"] = entry.at("held").flag()
         with entry.scene_errors():
             add_roles(scene, **found)
 
@@ -94,7 +98,7 @@ def _areas(node: Node) -> dict[str, Any]:
 
 def _rope_to_data(rope: LuffingRope) -> dict[str, Any]:
     ends = {key: {"body": body, "point": list(point)} for key, (body, point) in _ends(rope).items()}
-    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.stiffness} | ends
+    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.EA} | ends
 
 
 def _ends(rope: LuffingRope) -> dict[str, tuple[str, Vector]]:
@@ -109,8 +113,8 @@ def _rope_from_node(node: Node) -> tuple[str, LuffingRope]:
         node.at(key).expect(("body", "point"))
         x, y, z = node.at(key).at("point").array((3,)).tolist()
         ends[key] = (node.at(key).at("body").text(), (x, y, z))
-    falls, stiffness = (node.at(key).number() for key in ("falls", "stiffness"))
-    rope = LuffingRope(name=node.at("name").text(), falls=int(falls), stiffness=stiffness, **ends)
+    falls, axial = (node.at(key).number() for key in ("falls", "stiffness"))
+    rope = LuffingRope(name=node.at("name").text(), falls=int(falls), EA=axial, **ends)
     return node.at("luff").text(), rope
 
 

@@ -14,8 +14,8 @@ from seacrane.inputs.checked import numbers_of
 
 def add_point_force(
     scene: Description,
-    *,
     name: str,
+    *,
     body: str,
     force: Any,
     point: Any = (0.0, 0.0, 0.0),
@@ -30,8 +30,8 @@ def add_point_force(
 
 def add_spring(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     first_point: Any = (0.0, 0.0, 0.0),
@@ -61,7 +61,7 @@ def add_spring(
 
 
 def add_force_table(
-    scene: Description, *, name: str, body: str, times: Any, loads: Any, point: Any = (0.0, 0.0, 0.0)
+    scene: Description, name: str, *, body: str, times: Any, loads: Any, point: Any = (0.0, 0.0, 0.0)
 ) -> _core.ForceTable:
     """Force and moment `loads` (n, 6) in N and N m, inertial axes, about a point of the body (m, body
     coordinates), over `times` (n,) in s: linear in between, held outside."""
@@ -74,7 +74,7 @@ def add_force_table(
 
 
 def add_function_force(
-    scene: Description, *, name: str, body: str, address: int, parameters: Sequence[float] = ()
+    scene: Description, name: str, *, body: str, address: int, parameters: Sequence[float] = ()
 ) -> _core.FunctionForce:
     """A C function called in every evaluation, by its address (`numba.cfunc(...).address` or a `ctypes`
     pointer): void f(double t, const double* state13, const double* parameters, double* wrench6). State:

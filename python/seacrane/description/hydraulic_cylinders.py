@@ -9,10 +9,11 @@ import numpy as np
 from seacrane import _core
 from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
+from seacrane.description.holding import decided
+from seacrane.description.places import placed
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
-from seacrane.inputs.frames import rotation_matrix
 
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
@@ -36,6 +37,7 @@ def slide_of(scene: Description, cylinder: _core.HydraulicCylinder) -> str | Non
 
 def with_ideal_cylinders(scene: Some) -> Some:
     """The scene with an actuator of the same name in place of each cylinder that has a joint to act on."""
+    scene = decided(scene)
     found = hydraulic_cylinders(scene)
     slides = {name: slide for name, one in found.items() if (slide := slide_of(scene, one)) is not None}
     out = scene.copy(loads={name: load for name, load in scene.loads.items() if name not in slides})
@@ -108,14 +110,10 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     """At which the cylinder stands as described, m."""
     places = []
     for end in ("first", "second"):
-        body, point = settings[end], np.asarray(settings.get(f"{end}_point", (0.0, 0.0, 0.0)), dtype=float)
-        if body == GROUND:
-            places.append(point)
-            continue
-        if body not in scene.bodies:
+        body = settings[end]
+        if body != GROUND and body not in scene.bodies:
             raise SceneError(f"{what}: there is no body {body!r}; add it first")
-        described = scene.bodies[body]
-        places.append(np.asarray(described.position) + rotation_matrix(described.quaternion) @ point)
+        places.append(placed(scene, body, settings.get(f"{end}_point", (0.0, 0.0, 0.0))))
     length = float(np.linalg.norm(places[1] - places[0]))
     shortest = number_of(f"{what}: retracted_length", settings["retracted_length"])
     longest = shortest + number_of(f"{what}: stroke", settings["stroke"])

@@ -18,9 +18,9 @@ Array = NDArray[np.float64]
 
 def add_joint(
     scene: Description,
+    name: str,
     *,
     kind: str,
-    name: str,
     first: str,
     second: str,
     point: Any = None,
@@ -40,7 +40,7 @@ def add_joint(
     ----------
     kind : str
         weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance or free: a key of
-        `seacrane.joint_kinds()`, which lists what each takes.
+        `seacrane.scene.joint_kinds()`, which lists what each takes.
     name, first, second : str
         The joint and its bodies; "ground" is the inertial frame.
     point : array_like, shape (3,)

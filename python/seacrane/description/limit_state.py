@@ -16,7 +16,7 @@ class LimitState:
     channel : str
     maximum, minimum : float or None
         In the unit of the channel; None where there is no such bound.
-    where : mapping of str to str
+    names : mapping of str to str
         Names along the channel's dimensions, such as ``{"cylinder": "main"}``; of a dimension that is not
         named, the worst counts.
     """
@@ -25,7 +25,7 @@ class LimitState:
     channel: str
     maximum: float | None = None
     minimum: float | None = None
-    where: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "where", dict(self.where))
+        object.__setattr__(self, "names", dict(self.names))

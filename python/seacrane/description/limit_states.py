@@ -8,22 +8,25 @@ from dataclasses import asdict
 from typing import Any
 
 from seacrane.description.limit_state import LimitState
+from seacrane.description.pick import pick_of
 from seacrane.description.scene import Description, insert
 from seacrane.errors import SceneError
 from seacrane.files.node import Node
-from seacrane.inputs.checked import name_of, number_of, text_of
+from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 
-KEYS = ("name", "channel", "maximum", "minimum", "where")
+KEYS = ("name", "channel", "maximum", "minimum")
 
 
+@refusing
 def add_limit_state(
     scene: Description,
-    *,
     channel: str,
-    max: float | None = None,
-    min: float | None = None,
-    where: Mapping[str, str] | None = None,
+    *,
+    maximum: float | None = None,
+    minimum: float | None = None,
+    names: Mapping[str, str] | None = None,
     name: str | None = None,
 ) -> LimitState:
     """State what a channel may reach: every result then tells its utilisation, `Result.utilisation`.
@@ -33,12 +36,12 @@ def add_limit_state(
     Parameters
     ----------
     channel : str
-        As results name it, such as "link_tension" or "vessel_motion".
-    max, min : float, optional
+        As results name it, such as "link_tension", or a selector with names: "vessel_motion[roll]".
+    maximum, minimum : float, optional
         Largest and smallest value that it may have, in its SI unit (rad for angles); not zero.
-    where : mapping of str to str, optional
-        Names along its dimensions, such as ``{"cylinder": "main"}`` or ``{"motion": "roll"}``. Of a dimension
-        that is not named, the worst counts.
+    names : mapping of str to str, optional
+        Names along its dimensions beside those in the selector, such as ``{"cylinder": "main"}``. Of a
+        dimension that is not named, the worst counts.
     name : str, optional
         Default: the channel and the names.
 
@@ -49,30 +52,26 @@ def add_limit_state(
     Raises
     ------
     SceneError
-        For bounds that leave nothing between them or are zero; a channel or a name that the scene does not
-        have is refused when a run starts.
+        For an unknown channel, and for bounds that leave nothing between them or are zero; a channel or a
+        name that the scene does not have is refused when a run starts.
     """
-    channel = text_of("limit state: channel", channel)
-    chosen = _where(channel, where or {})
-    name = name_of("limit state", name, " ".join([channel.replace("_", " "), *chosen.values()]))
-    bounds = {key: _bound(name, key, value) for key, value in (("max", max), ("min", min))}
-    high, low = bounds["max"], bounds["min"]
+    if not isinstance(names or {}, Mapping):
+        raise SceneError(f"limit state: names is {shown(names)}; give names by dimension")
+    pick = pick_of("limit state", channel, names)
+    if pick.after is not None:
+        raise SceneError(f"limit state {pick}: holds at all times; leave after out")
+    words = [pick.channel.replace("_", " "), *pick.names.values()]
+    name = name_of("limit state", name, " ".join(words))
+    high, low = _bound(name, "maximum", maximum), _bound(name, "minimum", minimum)
     if high is None and low is None:
-        raise SceneError(f"limit state {name!r}: has neither max nor min; give one")
+        raise SceneError(f"limit state {name!r}: has neither maximum nor minimum; give one")
     if high is not None and low is not None and not low < high:
-        raise SceneError(f"limit state {name!r}: min is {low:g} and max {high:g}; min must be below max")
-    state = LimitState(name=name, channel=channel, maximum=high, minimum=low, where=chosen)
+        raise SceneError(
+            f"limit state {name!r}: minimum is {low:g} and maximum {high:g}; minimum must be below maximum"
+        )
+    state = LimitState(name=name, channel=pick.channel, maximum=high, minimum=low, names=pick.names)
     added: LimitState = insert("limit state", scene.limit_states, state)
     return added
-
-
-def _where(channel: str, given: Any) -> dict[str, str]:
-    if not isinstance(given, Mapping):
-        raise SceneError(
-            f'limit state of {channel!r}: where is {shown(given)}; give names, such as {{"motion": "roll"}}'
-        )
-    what = f"limit state of {channel!r}: where"
-    return {text_of(what, dim): text_of(f"{what}, {dim}", name) for dim, name in given.items()}
 
 
 def _bound(name: str, key: str, value: Any) -> float | None:
@@ -95,16 +94,18 @@ def limit_states_to_data(scene: Description) -> list[dict[str, Any]]:
 def limit_states_from_node(node: Node, scene: Description) -> None:
     """Give a scene the limit states that `limit_states_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(KEYS)
+        older = isinstance(entry.value, dict) and "where" in entry.value  # of before 0.3
+        named = "where" if older else "names"
+        entry.expect((*KEYS, named))
         bounds = {
-            short: None if entry.at(key).value is None else entry.at(key).number()
-            for key, short in (("maximum", "max"), ("minimum", "min"))
+            key: None if entry.at(key).value is None else entry.at(key).number()
+            for key in ("maximum", "minimum")
         }
-        where = entry.at("where")
-        if not isinstance(where.value, dict):
-            where.fail("give an object with names")
-        names = {dim: where.at(dim).text() for dim in where.value}
+        names = entry.at(named)
+        if not isinstance(names.value, dict):
+            names.fail("give an object with names")
+        given = {dim: names.at(dim).text() for dim in names.value}
         with entry.scene_errors():
             add_limit_state(
-                scene, name=entry.at("name").text(), channel=entry.at("channel").text(), where=names, **bounds
+                scene, name=entry.at("name").text(), channel=entry.at("channel").text(), names=given, **bounds
             )

@@ -6,12 +6,13 @@ A new kind of load is its C++ file with an entry in `elements/loads/registry.hpp
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.errors import SceneError
 
 LOAD_KINDS: Mapping[str, type] = _core.LOAD_KINDS
+Some = TypeVar("Some")
 BEYOND = 1e5  # m: springs to such ends stand for a direction
 
 
@@ -37,6 +38,11 @@ def named(element: Any, role: str) -> list[str]:
     return [text for texts in found for text in ([texts] if isinstance(texts, str) else texts)]
 
 
+def changed(element: Some, **entries: Any) -> Some:
+    """An element of the core with other entries."""
+    return type(element)(**element.__getstate__() | entries)  # type: ignore[operator]
+
+
 def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
     """The elastic lines among loads."""
     return {name: load for name, load in loads.items() if isinstance(load, _core.Line)}
@@ -44,7 +50,7 @@ def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
 
 def any_stiff(loads: Mapping[str, Any]) -> bool:
     """Whether loads have states of their own that would bind the steps of explicit methods."""
-    return any(isinstance(load, _core.HydraulicCylinder) for load in loads.values())
+    return any(type(load).STIFF for load in loads.values())
 
 
 def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
@@ -73,7 +79,7 @@ def springs_of(
 
 
 def whole_of(name: str, line: _core.Line) -> str:
-    """The line that one is a segment of, as `Scene.add_heavy_line` names them; else its own name."""
+    """The line that one is a segment of, as rung "with mass" names them; else its own name."""
     whole, _, number = name.rpartition(".")
     tied = any(body.startswith(f"{whole}.") for body in line.bodies)
     return whole if number.isdigit() and whole and tied else name
@@ -84,9 +90,9 @@ def refuse_heavy_winch(line: _core.Line) -> None:
     whole = whole_of(line.name, line)
     if whole != line.name:
         raise SceneError(
-            f"line {line.name!r}: is a segment of heavy line {whole!r}, and what a winch pays out has no "
-            "mass, so that it would carry too little. Let the winch haul a line without mass on which the "
-            "heavy one hangs, or run the heavy line at fixed lengths"
+            f"line {line.name!r}: is a segment of line {whole!r}; rung 'with mass' takes no winch, as what "
+            "it pays out would have no mass, so that it would carry too little. Let the winch haul a line of "
+            "another rung on which this one hangs, or run it at fixed lengths"
         )
 
 

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.renamed import refusing
+
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Block = tuple[str, Vector]
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class LuffingRope:
     """A rope of several falls between blocks on both sides of a hinge.
@@ -22,15 +25,15 @@ class LuffingRope:
         Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
     falls : int
         Parts of rope between the blocks; all carry the same tension.
-    stiffness : float
-        EA of one fall, N.
+    EA : float
+        Axial stiffness of one fall, N.
     first, second : (str, (float, float, float))
         Body and point in its coordinates, m; the second one moves with the hinge.
     """
 
     name: str
     falls: int
-    stiffness: float
+    EA: float
     first: Block
     second: Block
 

@@ -76,8 +76,8 @@ class Mesh:
 
 def add_mesh(
     scene: Description,
-    *,
     body: str,
+    *,
     file: str | os.PathLike[str] | None = None,
     vertices: Any = None,
     faces: Any = None,

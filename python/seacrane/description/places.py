@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.scene import Description
+from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
@@ -36,10 +36,16 @@ def place_of(scene: Description, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> 
     """
     name = text_of("place: body", body)
     local = np.array(shaped_of(f"place on {name!r}: point", point, (3,)))
-    if name == "ground":
-        return local
-    if name not in scene.bodies:
+    if name != GROUND and name not in scene.bodies:
         known = ", ".join(map(repr, scene.bodies)) or "none"
         raise SceneError(f"place: there is no body {name!r}, the scene has {known}; add it first")
-    held = scene.bodies[name]
-    return np.asarray(np.array(held.position) + rotation_matrix(held.quaternion) @ local)
+    return placed(scene, name, local)
+
+
+def placed(scene: Description, body: str, point: Any) -> NDArray[np.float64]:
+    """As `place_of`; whatever is no body is the ground."""
+    local = np.asarray(point, dtype=float)
+    if body not in scene.bodies:
+        return local
+    held = scene.bodies[body]
+    return np.asarray(np.asarray(held.position) + rotation_matrix(held.quaternion) @ local)

@@ -12,9 +12,9 @@ from seacrane.inputs.checked import name_of, number_of, shaped_of
 
 
 def record_coordinate(
-    scene: Description, *, joint: str, coordinate: str | None = None, name: str | None = None
-) -> None:
-    """Record a joint coordinate and its rate under a name (default: the joint's)."""
+    scene: Description, joint: str, *, coordinate: str | None = None, name: str | None = None
+) -> str:
+    """Record a joint coordinate and its rate under a name (default: the joint's), which is returned."""
     coordinate = coordinate_of(scene, "recorded coordinate", joint, coordinate)
     name = name_of("recorded coordinate", name, joint)
     if scene.recorded.get(name, (joint, coordinate)) != (joint, coordinate):
@@ -22,9 +22,10 @@ def record_coordinate(
             f"recorded coordinate {name!r}: is {'.'.join(scene.recorded[name])} already; give another name"
         )
     scene.recorded[name] = (joint, coordinate)
+    return name
 
 
-def add_point(scene: Description, *, name: str, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
+def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
     """Record the motion of a point of a body: channels point_position, point_velocity, point_acceleration.
 
     Parameters
@@ -52,8 +53,8 @@ def add_point(scene: Description, *, name: str, body: str, point: Any = (0.0, 0.
 
 def add_range(
     scene: Description,
-    *,
     joint: str,
+    *,
     minimum: float,
     maximum: float,
     coordinate: str | None = None,

@@ -15,6 +15,7 @@ from seacrane.description.given import require_described
 from seacrane.description.joint_coordinates import ANGLES, coordinate_at, start_pose, wrapped
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import DriverImpulseWarning
 
 if TYPE_CHECKING:
     from seacrane.description.range import Range
@@ -27,10 +28,6 @@ BEYOND = 1e-9  # m or rad
 HALF_A_TURN = np.pi * (1.0 - 1e-9)
 PLACES = 17  # looked at in each piece of a reference
 PER_PERIOD, MOST_PERIODS = 16, 100
-
-
-class DriverImpulseWarning(UserWarning):
-    """A driver's rate jumps: what it drives takes an impulse, whose work is in no energy."""
 
 
 @dataclass(frozen=True)

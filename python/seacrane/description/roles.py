@@ -38,6 +38,8 @@ class CraneRoles:
         Largest allowable load (kg) over the radius of the tip from the slew axis (m); empty: none is known.
     areas : mapping of str to (float, float)
         Full side and rod side of the piston, m2, by the cylinder's label, where they are known.
+    held : bool
+        Whether a drive on which nothing acts when the scene is compiled is held as it is described.
     """
 
     prefix: str = ""
@@ -50,6 +52,7 @@ class CraneRoles:
     areas: Mapping[str, Areas] = field(default_factory=dict)
     luffs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     ropes: Mapping[str, LuffingRope] = field(default_factory=dict)
+    held: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))

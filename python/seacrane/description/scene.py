@@ -13,6 +13,7 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.table import Table
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
@@ -22,7 +23,7 @@ STANDARD_GRAVITY = 9.80665
 Some = TypeVar("Some", bound="Description")
 
 
-KINDS: Mapping[str, str] = {  # what the elements of each table are called
+COMPILED: Mapping[str, str] = {  # what the elements of each table are called
     "bodies": "body",
     "joints": "joint",
     "drivers": "driver",
@@ -34,6 +35,9 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "loads": "load",
     "vessels": "vessel",
     "points": "point",
+}
+KINDS: Mapping[str, str] = {
+    **COMPILED,
     "recorded": "recorded coordinate",
     "ranges": "range",
     "roles": "crane",
@@ -42,8 +46,8 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "clearances": "clearance",
     "meshes": "mesh",
 }
-ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
-LOADS = tuple(KINDS)[3:9]  # of these, loads
+ELEMENTS = tuple(COMPILED)
+LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
 
 
 @dataclass(kw_only=True, eq=False, repr=False)
@@ -69,6 +73,7 @@ class Description:
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
         Elements by name, immutable; `loads` are those of `add_load`: wind, current, limits, friction.
+        `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.
@@ -100,7 +105,7 @@ class Description:
     force_tables: dict[str, _core.ForceTable] = field(default_factory=dict)
     function_forces: dict[str, _core.FunctionForce] = field(default_factory=dict)
     loads: dict[str, Any] = field(default_factory=dict)
-    vessels: dict[str, _core.VesselHydrodynamics] = field(default_factory=dict)
+    vessels: dict[str, VesselHydrodynamics] = field(default_factory=dict)
     points: dict[str, _core.Point] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)

@@ -17,12 +17,9 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
-
-
-class RepeatingSeaWarning(UserWarning):
-    """A run is longer than its sea: after one period it meets the same waves, and extremes learn nothing."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,7 +92,7 @@ class HullLoads:
         for name in ("force_by_heading", "drift_by_heading"):
             table = getattr(self, name)
             if table is not None and not isinstance(table, ByHeading):
-                raise SceneError(f"waves: {name} is {shown(table)}; give a seacrane.ByHeading")
+                raise SceneError(f"waves: {name} is {shown(table)}; give a seacrane.scene.ByHeading")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,7 +136,9 @@ class Waves:
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
         if not isinstance(self.provenance, SeaProvenance):
-            raise SceneError(f"waves: provenance is {shown(self.provenance)}; give a seacrane.SeaProvenance")
+            raise SceneError(
+                f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
+            )
 
     def __repr__(self) -> str:
         on = ", ".join(map(repr, self.hulls)) or "no vessel"

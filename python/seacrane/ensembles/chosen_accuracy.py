@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -17,16 +16,13 @@ from seacrane.ensembles.study import Study
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.run.method import Method
+from seacrane.warnings import AccuracyNotHeldWarning
 
 A_PROBE_FOR, MOST_PROBES = 25, 3  # members; each probe takes about two runs
 CHECKED = 0.04  # of the members, each by its run once more and a cheap one
 SEED = 20250101  # of which members are checked
 
 Errors = Mapping[str, float]
-
-
-class AccuracyNotHeldWarning(UserWarning):
-    """A member that was checked has a larger error than `accuracy` allows: probes were milder than it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,7 +137,7 @@ def _warn(told: EnsembleAccuracy, members: Members) -> None:
     warn_caller(
         f"accuracy: {beyond} of {len(told.checks)} members that were checked are beyond it; worst is member "
         f"{index} ({at}): {name} has an error of {errors[name]:.3g}, allowed are {told.limits[name]:g}. Give "
-        f"rtol={told.method.used_tolerance / 10.0:g} in its place",
+        f"rtol={told.method.used_rtol / 10.0:g} in its place",
         AccuracyNotHeldWarning,
     )
 
@@ -171,8 +167,8 @@ def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Val
     if result.interrupted:
         raise KeyboardInterrupt
     stats = result.stats
-    tolerance = float(json.loads(str(stats["settings"]))["rtol"])
-    method = replace(study.method, integrator=str(stats["integrator"]), tolerance=tolerance)
+    tolerance = float(result.settings["rtol"])
+    method = replace(study.method, integrator=str(stats["integrator"]), rtol=tolerance)
     return Probe(
         method=method,
         errors={name: float(stats[f"error_estimate_{name}"]) for name in accuracy},

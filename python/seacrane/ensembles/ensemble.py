@@ -22,7 +22,7 @@ from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
-from seacrane.ensembles.other_sea import WORDS, Databases
+from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.stored_members import growth_in, members_in
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
@@ -33,6 +33,7 @@ from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -40,6 +41,7 @@ from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
     from typing_extensions import Unpack
 
@@ -78,6 +80,13 @@ class Ensemble:
         """What a member has of what varies."""
         return self.members.values(index)
 
+    def __str__(self) -> str:
+        return f"{repr(self)[1:-1]}\n{self.to_dataframe()}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """What was kept as columns of a table, over the parameters; of kept curves over their axes too."""
+        return self.dataset.drop_vars(("failure", "validity", "kept_apart"), errors="ignore").to_dataframe()
+
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
@@ -92,6 +101,7 @@ class Ensemble:
         return _ensemble(members, store.dataset(members))
 
 
+@refusing
 def ensemble(
     source: Source,
     *,
@@ -100,7 +110,6 @@ def ensemble(
     t_end: float = 100.0,
     method: Method | None = None,
     outputs: Outputs | None = None,
-    database: Databases = None,
     start: Start = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
@@ -133,8 +142,6 @@ def ensemble(
         End time, s.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
-    database : HydroDatabase or mapping, optional
-        Where words of the sea vary: that with which it was added, by vessel where there are several.
     start : State or callable, optional
         Where every member begins, such as ``equilibrium(scene)``, or a function of its scene that tells it;
         default: the assembled start of its scene.
@@ -206,7 +213,6 @@ def ensemble(
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        databases=database,
         t_end=number_of("t_end", t_end),
         method=how,
         outputs=outputs_for(wanted, recorded),
@@ -216,7 +222,7 @@ def ensemble(
     )
     for what in wanted.values():
         if isinstance(what, Kept):
-            what.require_times(study.t_end, recorded.dt)
+            what.require_times(study.t_end, recorded.dt_out)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = _pack_size(pack, len(members), study.lanes)

@@ -6,9 +6,9 @@ from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 
-from seacrane.ensembles.job import Job, Pack, WorkerVersionError
+from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.outcome import Outcome
-from seacrane.errors import SimulationError
+from seacrane.errors import SimulationError, WorkerVersionError
 from seacrane.version import __version__
 
 PACKAGE = __name__.partition(".")[0]

@@ -20,7 +20,7 @@ from seacrane.ensembles.store import Store, kept_packs
 from seacrane.ensembles.targets import Target
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.statistics.judged import FailedSeedsWarning, FewSeedsWarning
+from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
 
 BATCH = 20  # seeds: fewer would be judged too often, by intervals that scatter too much
 IN_A_PACK = 2  # as a rule, so that one combination of parameters still fills several cores

@@ -11,10 +11,9 @@ from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
-from seacrane.errors import SeacraneError
+from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
-from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
+from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
@@ -24,10 +23,6 @@ from seacrane.version import __version__
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
-
-
-class WorkerVersionError(SeacraneError):
-    """A worker has another version of seacrane than the process that asks for the ensemble."""
 
 
 class Job:
@@ -111,7 +106,7 @@ class Job:
 def _stepped(run: Run) -> Run:
     """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
     with Interrupts() as interrupts:
-        drive(run, Calls((), run.start.time), interrupts)
+        run = ended(run, (), interrupts)
     interrupts.take()  # pressed as the run ended: the members after it are not to be run
     if run.interrupted:
         raise KeyboardInterrupt

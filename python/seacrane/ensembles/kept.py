@@ -8,13 +8,14 @@ from typing import Any, Literal
 
 import numpy as np
 
+from seacrane.description.channels import attributes
+from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.result import Result
-from seacrane.result.channels import attributes
-from seacrane.result.pick import Pick, pick_of
 
 NUMBERS: Mapping[str, Callable[..., Any]] = {
     "mean": np.mean,
@@ -31,6 +32,7 @@ TEXTS = {
 }
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class Kept:
     """One channel of a run, or a number for it.
@@ -45,12 +47,12 @@ class Kept:
     what : str
         "series" (default): values over time. "mean", "standard_deviation", "maximum", "minimum": of its
         output times, each with the same weight.
-    at : mapping of str to str
+    names : mapping of str to str
         Names along its dimensions, as of `Result.select`, such as ``{"body": "payload", "axis": "z"}``;
         dimensions that are not named are kept.
     after : float
         s: earlier outputs are left out, such as transients of the start.
-    step : float, optional
+    interval : float, optional
         s between the values of a series, a multiple of the output interval; default: that interval.
 
     Raises
@@ -61,25 +63,23 @@ class Kept:
 
     channel: str
     what: Literal["series", "mean", "standard_deviation", "maximum", "minimum"] = "series"
-    at: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
     after: float = 0.0
-    step: float | None = None
+    interval: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.channel, Pick) or "[" in text_of("kept: channel", self.channel):
             self._take(pick_of("kept: channel", self.channel))
         if self.what not in ("series", *NUMBERS):
             raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
-        if not isinstance(self.at, Mapping):
-            raise SceneError(f"kept {self.channel}: at is {shown(self.at)}; give names by dimension")
-        if not np.isfinite(number_of(f"kept {self.channel}: after", self.after)):
-            raise SceneError(f"kept {self.channel}: after is {self.after}; give a finite time in s")
-        if self.step is None:
+        if not isinstance(self.names, Mapping):
+            raise SceneError(f"kept {self.channel}: names is {shown(self.names)}; give names by dimension")
+        finite_of(f"kept {self.channel}: after", self.after, "s")
+        if self.interval is None:
             return
         if self.what != "series":
-            raise SceneError(f"kept {self.channel}: step is for a series; leave it out of {self.what!r}")
-        if not number_of(f"kept {self.channel}: step", self.step) > 0.0:
-            raise SceneError(f"kept {self.channel}: step is {self.step}; give a positive number of s")
+            raise SceneError(f"kept {self.channel}: interval is for a series; leave it out of {self.what!r}")
+        positive_of(f"kept {self.channel}: interval", self.interval, "s")
 
     @classmethod
     def of_text(cls, text: str) -> Kept:
@@ -96,40 +96,40 @@ class Kept:
             selector, what = text, "series"
         pick = pick_of(f"kept {shown(text)}", selector)
         kept: Any = what
-        return cls(channel=pick.channel, what=kept, at=pick.names, after=pick.after or 0.0)
+        return cls(channel=pick.channel, what=kept, names=pick.names, after=pick.after or 0.0)
 
     def _take(self, pick: Pick) -> None:
-        """The names and the time of a selector, beside which neither `at` nor `after` says the same."""
-        if not isinstance(self.at, Mapping) or self.at.keys() & pick.names.keys():
-            raise SceneError(f"kept {pick}: at is {shown(self.at)}; give each name once")
+        """The names and the time of a selector, beside which neither `names` nor `after` says the same."""
+        if not isinstance(self.names, Mapping) or self.names.keys() & pick.names.keys():
+            raise SceneError(f"kept {pick}: names is {shown(self.names)}; give each name once")
         if pick.after is not None and self.after:
             raise SceneError(f"kept {pick}: after is given twice; leave one out")
         object.__setattr__(self, "channel", pick.channel)
-        object.__setattr__(self, "at", {**pick.names, **self.at})
+        object.__setattr__(self, "names", {**pick.names, **self.names})
         object.__setattr__(self, "after", self.after if pick.after is None else pick.after)
 
     def require_times(self, t_end: float, interval: float) -> None:
         """Raise SceneError where a run to `t_end` (s) with outputs at an interval (s) has none of it."""
         if self.after > t_end:
             raise SceneError(f"kept {self.channel}: after is {self.after:g} s, the run ends at {t_end:g} s")
-        every = 1.0 if self.step is None else self.step / interval
+        every = 1.0 if self.interval is None else self.interval / interval
         if abs(every - round(every)) > 1e-9 * every or every < 0.5:
             raise SceneError(
-                f"kept {self.channel}: step is {self.step:g} s, no multiple of the output interval of "
-                f"{interval:g} s; give a multiple"
+                f"kept {self.channel}: interval is {self.interval:g} s, no multiple of the output interval "
+                f"of {interval:g} s; give a multiple"
             )
 
     def of(self, result: Result) -> Labelled:
         """It, of a result."""
-        channel = result.select(self.channel, **self.at)
-        dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.at)
+        channel = result.select(self.channel, **self.names)
+        dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.names)
         coords = {dim: np.array(result.coords[dim]) for dim in dims[1:]}
         told = attributes(self.channel)
         first = int(np.searchsorted(result.time, self.after))
         if self.what == "series":
             every = 1
-            if self.step is not None and result.time.size > 1:
-                every = round(self.step / float(result.time[1] - result.time[0]))
+            if self.interval is not None and result.time.size > 1:
+                every = round(self.interval / float(result.time[1] - result.time[0]))
             time = result.time[first::every]
             return Labelled(
                 values=np.array(channel[first::every]),

@@ -12,9 +12,9 @@ from seacrane import _core
 from seacrane.description.crane_parts import hooks
 from seacrane.ensembles.linear_motions import LinearMotions, Motion
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import Databases
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -42,6 +42,7 @@ class _Control(ABC):
         return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
 
 
+@refusing
 class LinearControl(_Control):
     """A motion of the linearised scene, from rest, in the waves of any seed.
 
@@ -52,8 +53,6 @@ class LinearControl(_Control):
     ----------
     scene : Scene
         With a sea of one wave system, whose seed varies.
-    database : HydroDatabase or mapping
-        With which its sea was added, by vessel where there are several.
     body : str
     axis : str
         "x", "y", "z" of the point, or "roll", "pitch", "yaw" of the body's rotation vector; inertial frame.
@@ -79,7 +78,6 @@ class LinearControl(_Control):
         self,
         scene: Scene,
         *,
-        database: Databases,
         body: str,
         axis: str,
         t_end: float,
@@ -91,7 +89,7 @@ class LinearControl(_Control):
         state: _core.State | None = None,
     ) -> None:
         self._motions = LinearMotions(
-            scene, [Motion(body=body, axis=axis, point=point, derivative=derivative)], database=database,
+            scene, [Motion(body=body, axis=axis, point=point, derivative=derivative)],
             t_end=t_end, after=after, dt=dt, words=words, state=state,
         )  # fmt: skip
 
@@ -100,6 +98,7 @@ class LinearControl(_Control):
         return np.asarray(self._motions.series(seed)[0])
 
 
+@refusing
 class HookLoadControl(_Control):
     """The load in a link by the linear motions of its ends, to second order in the swing.
 
@@ -111,7 +110,7 @@ class HookLoadControl(_Control):
     ----------
     scene : Scene
         With a sea of one wave system, whose seed varies, and a load on a link.
-    database, t_end, after, dt, words, state
+    t_end, after, dt, words, state
         As of `LinearControl`.
     link : str, optional
         Joint between crane and load; default: the only one.
@@ -126,7 +125,6 @@ class HookLoadControl(_Control):
         self,
         scene: Scene,
         *,
-        database: Databases,
         t_end: float,
         after: float = 0.0,
         dt: float = 0.1,
@@ -147,9 +145,8 @@ class HookLoadControl(_Control):
         ]
         lift = Motion(body=joint.first, axis="z", point=head, derivative=2)
         self._motions = LinearMotions(
-            scene, [*motions, lift], database=database, t_end=t_end, after=after, dt=dt, words=words,
-            state=state,
-        )  # fmt: skip
+            scene, [*motions, lift], t_end=t_end, after=after, dt=dt, words=words, state=state
+        )
 
     def series(self, seed: int) -> Array:
         """The load in the link of a seed at `times`, N, shape (n,)."""

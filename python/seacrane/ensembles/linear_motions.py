@@ -13,7 +13,7 @@ from seacrane import _core
 from seacrane.analysis.frequency_domain import component_forces
 from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea, with_sea
+from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -74,7 +74,6 @@ class LinearMotions:
         scene: Scene,
         motions: Sequence[Motion],
         *,
-        database: Databases,
         t_end: float,
         after: float,
         dt: float,
@@ -87,9 +86,9 @@ class LinearMotions:
         for word in self._words:
             if word not in WORDS or word == "seed":
                 raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
-        require_same_sea(scene, database, ("seed", *self._words))
+        require_same_sea(scene, ("seed", *self._words))
         assert scene.waves is not None
-        self._scene, self._databases = scene.copy(), database
+        self._scene = scene.copy()
         linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))
         if linear.memories:
             raise SceneError(
@@ -105,7 +104,7 @@ class LinearMotions:
 
     def series(self, seed: int) -> Array:
         """All motions in the sea of a seed, shape (motions, times)."""
-        sea = with_sea(self._scene, self._databases, {**self._words, "seed": int(seed)}).waves
+        sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
         assert sea is not None
         omega, forces = component_forces(sea)
         rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)

@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.description.databases import database_of
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.ensembles.sea_state import sea_state_of
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of
-from seacrane.inputs.shown import shown
 from seacrane.scene.drift import add_drift
 from seacrane.scene.position import SLOW_SHARE, use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
@@ -23,16 +22,14 @@ from seacrane.validity.hull_range import peak_frequency
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
 
-Databases = HydroDatabase | Mapping[str, HydroDatabase] | None
 
-
-def with_sea(scene: Scene, databases: Databases, given: Mapping[str, Any]) -> Scene:
+def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     """A copy of the scene in another sea, all else of which is as it was; repeats are not looked for."""
     assert scene.waves is not None
     old = scene.waves
     out = scene.copy(waves=_realised(scene, given))
     for body, hull in old.hulls.items():
-        _put(out, _database_of(databases, body), body, hull, old)
+        _put(out, body, hull, old)
     return out
 
 
@@ -49,7 +46,7 @@ def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
     return realised_sea(None, {**settings, **given}, depth, look_for_repeats=False)
 
 
-def require_same_sea(scene: Scene, databases: Databases, words: Collection[str]) -> None:
+def require_same_sea(scene: Scene, words: Collection[str]) -> None:
     """Raise SceneError unless the sea of the scene has these words, and is what is made again from them."""
     if scene.waves is None:
         raise SceneError(f"over: scene {scene.name!r} has no sea; add one, or vary something else")
@@ -64,7 +61,7 @@ def require_same_sea(scene: Scene, databases: Databases, words: Collection[str])
             f"over: the sea of scene {scene.name!r} is a SeaState, of which the seed can vary, and not "
             f"{', '.join(others)}; give a function that makes the scene"
         )
-    made = with_sea(scene, databases, {}).waves
+    made = with_sea(scene, {}).waves
     assert made is not None
     arrays = ("omega", "amplitude", "phase", "direction")
     if not all(np.array_equal(getattr(made, name), getattr(scene.waves, name)) for name in arrays):
@@ -74,10 +71,10 @@ def require_same_sea(scene: Scene, databases: Databases, words: Collection[str])
         )
     for body, hull in scene.waves.hulls.items():
         if not np.allclose(made.hulls[body].transfer, hull.transfer, rtol=SAME, atol=0.0):
-            name = _database_of(databases, body).name
+            name = database_of(scene, body, "its sea").name
             raise SceneError(
                 f"over: with database {name!r} the waves load vessel {body!r} otherwise than in scene "
-                f"{scene.name!r}; give the database with which its sea was added"
+                f"{scene.name!r}; give the vessel the database of its sea, or add its sea anew"
             )
 
 
@@ -102,28 +99,19 @@ def _settings(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _database_of(databases: Databases, body: str) -> HydroDatabase:
-    found = databases.get(body) if isinstance(databases, Mapping) else databases
-    if not isinstance(found, HydroDatabase):
-        raise SceneError(
-            f"database is {shown(databases)} and the sea varies; give the HydroDatabase of vessel {body!r}"
-        )
-    return found
-
-
-def _put(scene: Scene, database: HydroDatabase, body: str, hull: HullLoads, old: Waves) -> None:
+def _put(scene: Scene, body: str, hull: HullLoads, old: Waves) -> None:
     """Put a vessel into the sea of the scene as it was put into the old one."""
     as_at_start = hull.heading == heading_of(scene.bodies[body].quaternion)
     scene.add_sea(
-        database, vessel=body, position=hull.position, relative_bound=old.relative_bound,
+        vessel=body, position=hull.position, relative_bound=old.relative_bound,
         evaluation=old.evaluation, heading_deg=None if as_at_start else float(np.degrees(hull.heading)),
     )  # fmt: skip
     if hull.drift is not None:
-        add_drift(scene, database, vessel=body, outside="hold")
+        add_drift(scene, vessel=body, outside="hold")
     if hull.force_by_heading is None:
         return
     if hull.cutoff:
         usual = hull.cutoff == SLOW_SHARE * peak_frequency(old)
-        use_slow_position(scene, database, vessel=body, cutoff=None if usual else hull.cutoff)
+        use_slow_position(scene, vessel=body, cutoff=None if usual else hull.cutoff)
     else:
-        use_actual_position(scene, database, vessel=body)
+        use_actual_position(scene, vessel=body)

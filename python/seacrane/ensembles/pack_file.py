@@ -69,7 +69,7 @@ def read_pack(path: Path) -> list[Outcome]:
 
 
 def _alike(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
-    """The members that did not fail, those whose arrays lie alike together."""
+    """The members that did not fail, grouped by the layout of their arrays."""
     groups: list[list[Outcome]] = []
     for one in outcomes:
         if one.failure:

@@ -49,5 +49,5 @@ def _paths(scene: Scene) -> list[str]:
         for table in ELEMENTS
         for name, element in getattr(scene, table).items()
         for attribute in element.__getstate__()
-        if attribute != "name"
+        if attribute not in ("name", "database")
     ]

@@ -89,7 +89,7 @@ def sensitivity(
     source : Scene or callable
         As of `ensemble`; a function takes `seed` and the parameters.
     parameters : mapping of str to (float, float)
-        Value and step of each, such as ``{"loads.tugger.stiffness": (2e5, 2e4)}``. The error of a central
+        Value and step of each, such as ``{"loads.tugger.EA": (2e5, 2e4)}``. The error of a central
         difference goes with the square of the step.
     seeds : iterable of int
         At least 10.
@@ -98,7 +98,7 @@ def sensitivity(
     number : str
         "mean" (default) of it over the seeds; "mpm" or "p90" of largest values by Gumbel's distribution.
     **given
-        Further arguments of `ensemble`: t_end, database, executor, store, rtol and so on.
+        Further arguments of `ensemble`: t_end, executor, store, rtol and so on.
 
     Returns
     -------

@@ -12,15 +12,12 @@ from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.pack_file import read_pack, write_pack
 from seacrane.errors import FileFormatError
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import LostMembersWarning
 
 if TYPE_CHECKING:
     import xarray
 
 DIGITS = 7  # of a pack's number in the name of its file
-
-
-class LostMembersWarning(UserWarning):
-    """Members that were in a store are lost or damaged, and are run again."""
 
 
 class Store(Protocol):

@@ -10,7 +10,7 @@ from seacrane import _core
 from seacrane.ensembles.kept import Kept, made_by
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea, with_sea
+from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.ensembles.paths import require_paths, with_values
 from seacrane.ensembles.variables import RESERVED
 from seacrane.errors import SceneError
@@ -34,8 +34,6 @@ class Study:
     Attributes
     ----------
     source : Scene or callable
-    databases : HydroDatabase, mapping or None
-        With which the sea of a scene is made again, by vessel where there are several.
     t_end : float
         s.
     method, outputs
@@ -49,7 +47,6 @@ class Study:
     """
 
     source: Source
-    databases: Databases
     t_end: float
     method: Method
     outputs: Outputs
@@ -64,7 +61,7 @@ class Study:
         require_paths(self.source, names, WORDS)
         words = [name for name in names if name in WORDS]
         if words:
-            require_same_sea(self.source, self.databases, words)
+            require_same_sea(self.source, words)
 
     def parts(self, values: Values) -> tuple[Values, Values]:
         """Of the values of a member, words of the sea and the others."""
@@ -88,7 +85,7 @@ class Study:
 
     def in_sea(self, scene: Scene, words: Values) -> Scene:
         """A copy of a scene in another sea."""
-        return with_sea(scene, self.databases, words)
+        return with_sea(scene, words)
 
     def kept_of(self, result: Result) -> dict[str, Labelled]:
         """What is kept of a result."""
@@ -124,4 +121,4 @@ def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
     if outputs.channels is not None or not all(isinstance(what, Kept) for what in keep.values()):
         return outputs
     channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
-    return Outputs(dt=outputs.dt, channels=tuple(channels))
+    return Outputs(dt_out=outputs.dt_out, channels=tuple(channels))

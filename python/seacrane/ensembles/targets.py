@@ -167,7 +167,7 @@ def with_static_parts(keep: Keep, targets: tuple[Target, ...]) -> Keep:
             continue
         what = keep[target.variable]
         assert isinstance(what, Kept)
-        mean = Kept(channel=what.channel, what="mean", at=what.at, after=what.after)
+        mean = Kept(channel=what.channel, what="mean", names=what.names, after=what.after)
         if out.setdefault(target.static, mean) != mean:
             raise SceneError(
                 f"keep: the name {target.static!r} is that of the static part of {target.variable!r}; rename"

@@ -18,7 +18,7 @@ from seacrane.ensembles.dataset import failure_of, table_of
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import MOST_MEMBERS, Members
 from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.store import LostMembersWarning, numbers_of
+from seacrane.ensembles.store import numbers_of
 from seacrane.ensembles.study_folder import IN_ZARR, records_of
 from seacrane.ensembles.variables import NOT_RUN, TEXTS, axes_of, own_dims
 from seacrane.ensembles.zarr_arrays import require_arrays, require_bounded
@@ -36,6 +36,7 @@ from seacrane.ensembles.zarr_chunks import (
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write, space_left
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import LostMembersWarning
 
 if TYPE_CHECKING:
     import xarray

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.result.channels import DERIVED
+from seacrane.description.channels import DERIVED
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 
@@ -49,7 +49,9 @@ class Case:
     def outputs(self, channels: Iterable[str]) -> Outputs:
         """At the times of the case, those of the channels that the scene has."""
         known = offered_channels(self.model)
-        return Outputs(dt=self.dt_out, channels=[name for name in dict.fromkeys(channels) if name in known])
+        return Outputs(
+            dt_out=self.dt_out, channels=[name for name in dict.fromkeys(channels) if name in known]
+        )
 
 
 def offered_channels(model: _core.Model) -> set[str]:

@@ -42,5 +42,5 @@ def methods(
 def method_of(integrator: Integrator, value: float, formulation: str) -> Method:
     """The method with a tolerance or a step, whichever sets the integrator's accuracy."""
     if integrator.setting == "dt":
-        return Method(formulation=formulation, integrator=integrator.name, step=value)
-    return Method(formulation=formulation, integrator=integrator.name, tolerance=value)
+        return Method(formulation=formulation, integrator=integrator.name, dt=value)
+    return Method(formulation=formulation, integrator=integrator.name, rtol=value)

@@ -2,61 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.traces import Trace, beyond_rounding, shown_unit, traces
 from seacrane.inputs.frames import AXES_NOTE
-from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet, draw
+from seacrane.plotting.panel import Panel, Sheet, draw
 from seacrane.result import Result
+from seacrane.result.history import axes_note, marks_of, panels_of, title_of
+from seacrane.result.traces import Trace, beyond_rounding, shown_unit, traces
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 Panels = list[tuple[str, list[Trace]]]
-STYLES = ("-", "--", ":")
-EVENTS = {
-    "contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off",
-    "through": "through the seat that it left",
-    "stage": "stage begins", "connection": "connection",
-    "limit": "bound reached",
-}  # fmt: skip
-
-
-def panels_of(quantity: str, found: Iterable[Trace], *, skip: int = 0) -> list[Panel]:
-    """A panel for each unit; labels are the names of a trace but the first `skip`."""
-    by_unit: dict[str, list[Trace]] = {}
-    for one in found:
-        by_unit.setdefault(one.unit, []).append(one)
-    return [
-        Panel(
-            quantity=quantity,
-            unit=unit,
-            lines=tuple(
-                Line(
-                    label=" ".join(one.names[skip:]),
-                    values=one.values,
-                    colour=i,
-                    style=STYLES[i // len(COLOURS) % len(STYLES)],
-                )
-                for i, one in enumerate(group)
-            ),
-        )
-        for unit, group in by_unit.items()
-    ]
-
-
-def marks_of(result: Result) -> Mapping[str, Array]:
-    """Times of the events of limits, by what happened."""
-    return {
-        text: np.array([event.time for event in result.events if event.kind == kind])
-        for kind, text in EVENTS.items()
-        if any(event.kind == kind for event in result.events)
-    }
 
 
 def resultants(result: Result, channel: str) -> list[Trace]:
@@ -116,7 +78,7 @@ def overview_sheet(result: Result) -> Sheet:
         held = ", ".join(result.channels) or "no channels"
         raise ValueError(f"a result with {held} has nothing to plot")
     return Sheet(
-        title=f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}",
+        title=title_of(result),
         caption=f"What was recorded; triangles mark the largest and the smallest value. {AXES_NOTE}",
         abscissa=result.time,
         panels=tuple(panels),
@@ -124,12 +86,6 @@ def overview_sheet(result: Result) -> Sheet:
         marks=marks_of(result),
         extremes=True,
     )
-
-
-def axes_note(result: Result, channels: Iterable[str]) -> str:
-    """The axis convention, for a figure of channels that have directions."""
-    directed = any({"axis", "motion"} & set(result.dims[channel]) for channel in channels)
-    return AXES_NOTE if directed else ""
 
 
 def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> list[Panel]:

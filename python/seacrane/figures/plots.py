@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.frequency_domain import motion_rao
+from seacrane.analysis.frequency_domain import excitation_of, linear_of, motion_rao
 from seacrane.errors import SceneError
-from seacrane.figures.overview import axes_note, marks_of, panels_of, payload_bodies, resultants
-from seacrane.figures.traces import Trace, traces
+from seacrane.figures.overview import payload_bodies, resultants
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.renamed import refusing
 from seacrane.result import Result
-from seacrane.result.pick import pick_of
+from seacrane.result.history import marks_of, panels_of, title_of, wanted_traces
+from seacrane.result.traces import Trace
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seacrane.analysis.linear_system import LinearModel
-    from seacrane.hydro import HydroDatabase
     from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -34,72 +34,8 @@ VIEWS = ((0, 1, "from above"), (0, 2, "from starboard"), (1, 2, "from ahead"))
 HEADINGS_DEG = (0.0, 45.0, 90.0, 135.0, 180.0)
 
 
-def _title(result: Result) -> str:
-    return f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}"
-
-
-def _wanted(result: Result, channels: Sequence[str], names: dict[str, str]) -> dict[str, list[Trace]]:
-    """Traces of each channel; each name picks where the channel has its dimension.
-
-    Raises
-    ------
-    SceneError
-        For a channel that was not recorded, or a name that no channel holds.
-    """
-    if not channels:
-        raise SceneError(f"channels: none is named; this result holds {', '.join(result.channels)}")
-    picks = [pick_of("plot", channel, held=result.channels) for channel in channels]
-    for dim in names:
-        if not any(dim in result.dims[pick.channel] for pick in picks):
-            raise SceneError(f"{dim}={names[dim]!r}: none of {', '.join(channels)} has this dimension")
-    found: dict[str, list[Trace]] = {}
-    try:
-        for pick in picks:
-            own = {dim: name for dim, name in names.items() if dim in result.dims[pick.channel]}
-            found.setdefault(pick.channel, []).extend(traces(result, pick.channel, **own, **pick.names))
-    except (TypeError, ValueError) as error:
-        raise SceneError(str(error)) from error
-    return found
-
-
-def plot_history(result: Result, *channels: str, **names: str) -> Figure:
-    """Draw channels over time, a panel for each channel and unit, with events and extremes marked.
-
-    Parameters
-    ----------
-    result : Result
-    *channels : str
-        Names as in `Result.channels`, or selectors as of `Result.select`: "roll", "position[load, z]".
-    **names : str
-        Pick one along a dimension, such as ``body="payload"`` or ``motion="roll"``.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    SceneError
-        For a channel or name that the result does not hold.
-    """
-    sheet = history_sheet(result, *channels, **names)
-    return draw(sheet, note=axes_note(result, [pick_of("plot", one).channel for one in channels]))
-
-
-def history_sheet(result: Result, *channels: str, **names: str) -> Sheet:
-    """The panels of `plot_history` with their numbers."""
-    found = _wanted(result, channels, names)
-    panels = [
-        panel for channel, every in found.items() for panel in panels_of(channel.replace("_", " "), every)
-    ]
-    return Sheet(
-        title=_title(result), caption=f"Triangles mark the largest and the smallest value. {AXES_NOTE}",
-        abscissa=result.time, panels=tuple(panels), columns=2 if len(panels) > 3 else 1,
-        marks=marks_of(result), extremes=True,
-    )  # fmt: skip
-
-
-def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: str) -> Figure:
+@refusing
+def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
     """Draw the variance of channels over frequency, by averaged periodograms (Welch).
 
     Parameters
@@ -107,10 +43,10 @@ def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: s
     result : Result
         At least 64 outputs, evenly spaced.
     *channels : str
-    start : float
+    after : float
         Leave out what comes before, s.
     **names : str
-        As of `plot_history`.
+        As of `Result.plot`.
 
     Returns
     -------
@@ -122,15 +58,15 @@ def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: s
     SceneError
         For a channel or name that the result does not hold, or a record that is too short or uneven.
     """
-    return draw(spectrum_sheet(result, *channels, start=start, **names))
+    return draw(spectrum_sheet(result, *channels, after=after, **names))
 
 
-def spectrum_sheet(result: Result, *channels: str, start: float = 0.0, **names: str) -> Sheet:
+def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: str) -> Sheet:
     """The panels of `plot_spectrum` with their numbers."""
     from scipy.signal import welch
 
-    found = _wanted(result, channels, names)
-    kept = _even_part(result, start)
+    found = wanted_traces(result, channels, names)
+    kept = _even_part(result, after)
     step = float(result.time[kept][1] - result.time[kept][0])
     count = kept.stop - kept.start
     length = min(count, max(2 * count // (SEGMENTS + 1), round(RESOLVED / step), FEWEST_OUTPUTS))
@@ -158,7 +94,7 @@ def spectrum_sheet(result: Result, *channels: str, start: float = 0.0, **names: 
         )
     ]  # fmt: skip
     return Sheet(
-        title=f"{_title(result)}: spectra from {result.time[kept][0]:g} s on",
+        title=f"{title_of(result)}: spectra from {result.time[kept][0]:g} s on",
         caption="One-sided densities; the area below a curve is the variance about the mean.",
         abscissa=omega, abscissa_name="omega", abscissa_unit="rad/s", panels=tuple(panels),
         columns=2 if len(panels) > 3 else 1,
@@ -176,15 +112,15 @@ def _squared(unit: str) -> str:
     return f"{unit}2 s/rad" if unit.isalpha() else f"({unit})2 s/rad"
 
 
-def _even_part(result: Result, start: float) -> slice:
+def _even_part(result: Result, after: float) -> slice:
     """Outputs from a time on; without the last where it is early."""
-    first = int(np.searchsorted(result.time, start))
+    first = int(np.searchsorted(result.time, after))
     step = np.diff(result.time[first:])
     last = result.time.size - int(step.size > 1 and abs(step[-1] - step[0]) > 1e-6 * step[0])
     even = step[: last - first - 1]
     if last - first < FEWEST_OUTPUTS or np.ptp(even) > 1e-6 * even[0]:
         raise SceneError(
-            f"start is {start:g} s: a spectrum takes {FEWEST_OUTPUTS} evenly spaced outputs or more, and "
+            f"after is {after:g} s: a spectrum takes {FEWEST_OUTPUTS} evenly spaced outputs or more, and "
             f"{max(last - first, 0)} follow; run longer, record more often, or start earlier"
         )
     return slice(first, last)
@@ -240,7 +176,7 @@ def draw_track(result: Result, *bodies: str) -> Figure:
     handles = cell.get_legend_handles_labels()[0]
     if len(handles) <= MOST_NAMED:
         figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
-    figure.suptitle(plain(f"{_title(result)}: tracks, circle at the start, square at the end"), fontsize=11)
+    figure.suptitle(plain(f"{title_of(result)}: tracks, circle at the start, square at the end"), fontsize=11)
     return figure
 
 
@@ -284,15 +220,15 @@ def reaction_sheet(result: Result, *joints: str) -> Sheet:
         )
     ]
     return Sheet(
-        title=f"{_title(result)}: reactions", caption="Sizes of what each joint exerts on its second body.",
+        title=f"{title_of(result)}: reactions", caption="Sizes of what each joint exerts on its second body.",
         abscissa=result.time, panels=tuple(panels), marks=marks_of(result), extremes=True,
     )  # fmt: skip
 
 
+@refusing
 def plot_rao(
     scene: Scene | LinearModel,
     *,
-    database: HydroDatabase,
     body: str,
     point: Any = (0.0, 0.0, 0.0),
     headings_deg: Sequence[float] = HEADINGS_DEG,
@@ -300,11 +236,12 @@ def plot_rao(
 ) -> Figure:
     """Draw the motion of a point of any body per metre of wave amplitude, over frequency.
 
-    ``database.plot("motion")`` draws those of the vessel alone.
+    ``database.plot("motion")`` draws those of the vessel alone. A ship at a forward speed comes as a
+    `linear_model` of its database.
 
     Parameters
     ----------
-    scene, database, body, point
+    scene, body, point
         As `motion_rao`.
     headings_deg : sequence of float
         Directions that the waves travel to, deg; 0 following.
@@ -320,25 +257,22 @@ def plot_rao(
     SceneError
         As `motion_rao`.
     """
-    return draw(rao_sheet(scene, database, body, point, headings_deg, omega))
+    return draw(rao_sheet(scene, body, point, headings_deg, omega))
 
 
 def rao_sheet(
     scene: Scene | LinearModel,
-    database: HydroDatabase,
     body: str,
     point: Any,
     headings_deg: Sequence[float],
     omega: Any,
 ) -> Sheet:
     """The panels of `plot_rao` with their numbers."""
+    linear = linear_of(scene, None)
+    database = excitation_of(linear, None)
     frequency = np.asarray(database.omega if omega is None else omega, dtype=float)
     heading = np.deg2rad(np.asarray(headings_deg, dtype=float))
-    motion = np.abs(
-        motion_rao(
-            scene, database=database, omega=frequency, heading=heading[:, None], body=body, point=point
-        )
-    )
+    motion = np.abs(motion_rao(linear, omega=frequency, heading=heading[:, None], body=body, point=point))
     motion[..., 3:] = np.rad2deg(motion[..., 3:])
     rotations = ("about x", "about y", "about z")
     panels = tuple(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -83,16 +82,15 @@ def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
     """
     if not {"position", "quaternion"} <= set(result.channels):
         return {}
-    outline = json.loads(str(result.stats.get("outline", "{}")))
-    bodies = set(result.coords["body"])
-    found = {name: _outlined(about) for name, about in outline.get("bodies", {}).items() if name in bodies}
+    bodies = result.about.outline.get("bodies", {})
+    found = {name: _outlined(bodies[name]) for name in bodies if name in result.coords["body"]}
     return {name: lines for name, lines in found.items() if lines}
 
 
 def ships_of(result: Result) -> list[str]:
     """Bodies that are drawn as ships."""
-    outline = json.loads(str(result.stats.get("outline", "{}")))
-    return [name for name, about in outline.get("bodies", {}).items() if "ship" in about] or [HULL]
+    bodies = result.about.outline.get("bodies", {})
+    return [name for name, about in bodies.items() if "ship" in about] or [HULL]
 
 
 def _outlined(about: Mapping[str, Any]) -> list[Array]:
@@ -115,7 +113,7 @@ def _outlined(about: Mapping[str, Any]) -> list[Array]:
 
 def _hung(result: Result) -> list[tuple[str, str]]:
     """Bodies that carry a crane's tip, and what hangs there."""
-    cranes = json.loads(str(result.stats.get("cranes", "[]")))
+    cranes = result.about.cranes
     ends = [(crane["tip"]["body"], crane["payload"]) for crane in cranes if crane["tip"] and crane["payload"]]
     return [(jib, payload) for jib, payload in ends if {jib, payload} <= set(result.coords["body"])]
 
@@ -140,10 +138,9 @@ def wire_lines(result: Result, skeleton: Skeleton, index: int) -> list[Array]:
 
 def link_lines(result: Result, index: int) -> list[Array]:
     """Links, wires and springs (2, 3) at one output, between the points that the run noted, inertial axes."""
-    outline = json.loads(str(result.stats.get("outline", "{}")))
     return [
         np.array([_at(result, first, start, index), _at(result, second, end, index)])
-        for first, start, second, end in outline.get("links", [])
+        for first, start, second, end in result.about.outline.get("links", [])
     ]
 
 

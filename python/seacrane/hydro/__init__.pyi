@@ -1,14 +1,9 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
 from seacrane.files.stl import read_stl as read_stl
-from seacrane.hydro.data.below_band import BelowBandWarning as BelowBandWarning
-from seacrane.hydro.data.data_warnings import DampingWarning as DampingWarning
-from seacrane.hydro.data.data_warnings import HeadingGapWarning as HeadingGapWarning
-from seacrane.hydro.data.data_warnings import WaterMismatchWarning as WaterMismatchWarning
 from seacrane.hydro.data.drift import DriftCoefficients as DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices as AdditionalMatrices
 from seacrane.hydro.data.hydro_data import RollDamping as RollDamping
-from seacrane.hydro.data.long_waves import RaoPhaseWarning as RaoPhaseWarning
 from seacrane.hydro.data.memory_model import FitRow as FitRow
 from seacrane.hydro.data.memory_model import MemoryBlock as MemoryBlock
 from seacrane.hydro.data.memory_model import MemoryModel as MemoryModel
@@ -22,11 +17,7 @@ from seacrane.hydro.database.check import CheckRow as CheckRow
 from seacrane.hydro.database.check import memory_rows as memory_rows
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
 from seacrane.hydro.database.shipped import shipped_database as shipped_database
-from seacrane.hydro.database.transform import QuadraticDampingWarning as QuadraticDampingWarning
-from seacrane.hydro.hull.by_strip_theory import SubmergedPartWarning as SubmergedPartWarning
-from seacrane.hydro.hull.convergence import MeshConvergenceWarning as MeshConvergenceWarning
 from seacrane.hydro.hull.hull import Hull as Hull
-from seacrane.hydro.hull.hull_database import FloatingPositionWarning as FloatingPositionWarning
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
 from seacrane.hydro.hull.ikeda import IkedaDamping as IkedaDamping
@@ -37,12 +28,9 @@ from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull
 from seacrane.hydro.hull.righting import RightingArms as RightingArms
 from seacrane.hydro.hull.righting import righting_arms as righting_arms
-from seacrane.hydro.memory.audit import MemoryMismatchWarning as MemoryMismatchWarning
 from seacrane.hydro.memory.certificate import PassivityCertificate as PassivityCertificate
-from seacrane.hydro.memory.certificate import PassivityError as PassivityError
 from seacrane.hydro.memory.certificate import passivity_certificate as passivity_certificate
 from seacrane.hydro.memory.certificate import require_passive as require_passive
-from seacrane.hydro.memory.fit import InfiniteFrequencyWarning as InfiniteFrequencyWarning
 from seacrane.hydro.memory.fit import fit_memory as fit_memory
 from seacrane.hydro.memory.retardation import RetardationModel as RetardationModel
 from seacrane.hydro.memory.retardation import retardation_functions as retardation_functions
@@ -54,22 +42,14 @@ from seacrane.hydro.readers.load import available_speeds as available_speeds
 from seacrane.hydro.readers.load import load_database as load_database
 from seacrane.hydro.readers.nemoh import read_nemoh as read_nemoh
 from seacrane.hydro.readers.orcaflex import read_orcaflex as read_orcaflex
-from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning as AssumedDensityWarning
-from seacrane.hydro.readers.reader_warnings import AssumedInertiaWarning as AssumedInertiaWarning
-from seacrane.hydro.readers.reader_warnings import AssumedSymmetryWarning as AssumedSymmetryWarning
-from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning as EncounterFrequencyWarning
-from seacrane.hydro.readers.reader_warnings import HydrostaticsWarning as HydrostaticsWarning
-from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning as MissingMotionsWarning
-from seacrane.hydro.readers.reader_warnings import PartialSetWarning as PartialSetWarning
-from seacrane.hydro.readers.reader_warnings import RoughDataWarning as RoughDataWarning
-from seacrane.hydro.readers.reader_warnings import SeveralSpeedsWarning as SeveralSpeedsWarning
 from seacrane.hydro.readers.veres import read_veres as read_veres
 from seacrane.hydro.readers.veres_hydrostatics import VeresHydrostatics as VeresHydrostatics
 from seacrane.hydro.readers.veres_hydrostatics import read_veres_hydrostatics as read_veres_hydrostatics
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
-from seacrane.hydro.vessel.lost_passivity import NonPassiveMemoryWarning as NonPassiveMemoryWarning
 from seacrane.hydro.vessel.parameters import RigidPart as RigidPart
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters
-from seacrane.hydro.vessel.time_domain import MemoryFitWarning as MemoryFitWarning
-from seacrane.hydro.vessel.time_domain import RollDampingWarning as RollDampingWarning
 from seacrane.hydro.vessel.time_domain import vessel_parameters as vessel_parameters
+from seacrane._core import RetardationFunctions as RetardationFunctions
+from seacrane._core import StateSpaceBlock as StateSpaceBlock
+from seacrane._core import TwistHistory as TwistHistory
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics as VesselHydrodynamics

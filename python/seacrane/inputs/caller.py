@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import inspect
+import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
+from multiprocessing import parent_process
 from typing import Any
 
 PACKAGE = __name__.partition(".")[0]
+_TOLD: set[str] = set()
 _LISTENING: ContextVar[tuple[dict[str, None], ...]] = ContextVar("listening", default=())
 
 
@@ -22,6 +25,13 @@ def warn_caller(message: str, category: type[Warning]) -> None:
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == PACKAGE:
         level, frame = level + 1, frame.f_back
     warnings.warn(message, category, stacklevel=level)
+
+
+def tell(assumption: str) -> None:
+    """Say on the terminal what was assumed; once in an interpreter, and never in a worker process."""
+    if assumption not in _TOLD and parent_process() is None:
+        _TOLD.add(assumption)
+        sys.stderr.write(f"seacrane: {assumption}\n")
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -57,6 +58,28 @@ def number_of(what: str, value: Any) -> float:
         return float(value)
     except (TypeError, ValueError, OverflowError) as error:
         raise SceneError(f"{what} is {shown(value)}; give a number") from error
+
+
+def finite_of(what: str, value: Any, unit: str = "") -> float:
+    """A number that is neither infinite nor none; the unit is for the error."""
+    return _within(what, value, unit, -math.inf, "give a finite number")
+
+
+def positive_of(what: str, value: Any, unit: str = "") -> float:
+    """A finite number above zero."""
+    return _within(what, value, unit, math.ulp(0.0), "give a finite number above zero")
+
+
+def not_negative_of(what: str, value: Any, unit: str = "") -> float:
+    """A finite number of zero or more."""
+    return _within(what, value, unit, 0.0, "give a finite number, zero or more")
+
+
+def _within(what: str, value: Any, unit: str, least: float, fix: str) -> float:
+    number = number_of(what, value)
+    if not (math.isfinite(number) and number >= least):
+        raise SceneError(f"{what} is {number}{unit and f' {unit}'}; {fix}")
+    return number
 
 
 def vector_of(what: str, value: Any) -> list[float]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.warnings import AngleUnitWarning, CompassDirectionWarning, DepthSignWarning, MassUnitWarning
 
 TURN = 2.0 * np.pi
 ROUND = np.radians(5.0)  # angles in a script are multiples of it
@@ -13,26 +14,7 @@ WHOLE = np.radians(1.0)  # and amplitudes of this
 EXACT = 1e-9
 COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
 LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
-
-
-class AngleUnitWarning(UserWarning):
-    """An angle looks like degrees where radians are due, or the other way round."""
-
-
-class CompassDirectionWarning(UserWarning):
-    """A direction looks like a compass bearing, clockwise and where it comes from."""
-
-
-class MassUnitWarning(UserWarning):
-    """A mass looks like tonnes where kilograms are due."""
-
-
-class UnitWarning(UserWarning):
-    """A value is far beyond what its kind usually has: a slip in its unit, by a factor of 1000 or so."""
-
-
-class DepthSignWarning(UserWarning):
-    """All points asked for are above any wave: depths were given where z, upwards, is due."""
+HEAVIEST = 2.3e4  # kg/m3: osmium
 
 
 def angle_of(what: str, value: float) -> float:
@@ -88,7 +70,13 @@ def warn_of_air(lowest: float, crest: float) -> None:
 
 
 def warn_of_density(what: str, mass: float, volume: float) -> None:
-    """Warn of a box lighter than foam."""
+    """Warn of a box lighter than foam, or heavier than any metal."""
+    if mass > HEAVIEST * volume:
+        warn_caller(
+            f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, heavier than any metal; masses are kilograms "
+            "and sizes metres: correct one of them",
+            MassUnitWarning,
+        )
     if mass < LIGHTEST * volume:
         warn_caller(
             f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, lighter than foam; masses are kilograms: if "

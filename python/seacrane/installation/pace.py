@@ -12,7 +12,6 @@ import numpy as np
 from seacrane import _core, cases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.kept import Kept
-from seacrane.hydro import shipped_database
 from seacrane.reporting.measures import speed
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
 from seacrane.scene.scene import Scene
@@ -86,8 +85,7 @@ def _seeds(scene: Scene, count: int, lanes: int) -> Ensemble:
     return ensemble(
         scene,
         over={"seed": range(1, count + 1)},
-        keep={"track": Kept(channel="position", at={"body": "payload"})},
-        database=shipped_database(),
+        keep={"track": Kept(channel="position", names={"body": "payload"})},
         t_end=SPAN_OF_LANES,
         lanes=lanes,
     )

@@ -11,7 +11,6 @@ from seacrane._core import Curve
 from seacrane.analysis.inverse import Balance
 from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hydro import HydroDatabase
 from seacrane.lift.calls import Caller, Keywords, keywords
 from seacrane.lift.check import Entry, plain
 from seacrane.lift.control import feed_forward_of, gains_of
@@ -37,16 +36,7 @@ def scene_of(document: Document, entries: Sequence[Entry]) -> Scene:
     FileFormatError
         With the line of the table that the scene refuses, or of the key where that is clear.
     """
-    return scene_and_databases(document, entries)[0]
-
-
-def scene_and_databases(
-    document: Document, entries: Sequence[Entry]
-) -> tuple[Scene, dict[str, HydroDatabase]]:
-    """The scene as of `scene_of`, and what its sea loads each vessel by."""
-    build = _Build(document, entries)
-    scene, afloat = build.scene(), build.caller.afloat
-    return scene, {name: one for name, one in afloat.items() if isinstance(one, HydroDatabase)}
+    return _Build(document, entries).scene()
 
 
 def made(document: Document, entries: Sequence[Entry], table: str, make: Callable[..., Made]) -> Made:
@@ -157,7 +147,7 @@ def refused_at(document: Document, entry: Entry) -> Iterator[None]:
     try:
         yield
     except (SceneError, FileFormatError, TypeError) as error:
-        if isinstance(error, FileFormatError) and str(error).startswith(document.source):
+        if isinstance(error, FileFormatError) and error.placed:
             raise
         about = _about(entry.path, entry.table.keys, entry.values, str(error))
         document.fail(entry.path if about is None else about, f"{entry.title}: {error}")

@@ -10,18 +10,19 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, JointedCrane, Payload, load_crane
+from seacrane.description.channels import CHANNELS
+from seacrane.description.databases import source_of
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.check import SHIPPED
 from seacrane.lift.curves import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
-from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import FlowCoefficients
@@ -106,17 +107,17 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
 
 
 def require_unit_of_channel(
-    keys: Iterable[Key], values: Mapping[str, Any], channel: str, where: Mapping[str, str]
+    keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str]
 ) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
     if channel not in CHANNELS:
         return  # the run says so
-    own = unit_of(channel, list(where.values())).split(EITHER)
+    own = unit_of(channel, list(names.values())).split(EITHER)
     for key in keys:
         for spelling, unit in key.spellings.items():
             if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
                 right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
-                fix = f"give {' or '.join(right)}" if right else "name one of its curves by where"
+                fix = f"give {' or '.join(right)}" if right else "name one of its curves in channel"
                 raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
 
 
@@ -125,13 +126,12 @@ class Caller:
 
     def __init__(self) -> None:
         self.read: dict[tuple[str, float | None, float | None], HydroDatabase] = {}
-        self.afloat: dict[str, HydroDatabase | MotionRaos | None] = {}  # what [sea] moves or loads each by
 
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
         """Add to a scene what a table describes; at rest, without what only moves it."""
         given = keywords(table.keys, values, scene)
         if table.name == "limit_state":
-            require_unit_of_channel(table.keys, values, values["channel"], values.get("where", {}))
+            require_unit_of_channel(table.keys, values, values["channel"], values.get("names", {}))
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)
@@ -176,7 +176,6 @@ class Caller:
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(database, **given)
-        self.afloat[given.get("name", "vessel")] = database
 
     def _given_vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
         found = [key for key in MOTIONS if key in given]
@@ -186,8 +185,6 @@ class Caller:
         if found[0] == "database":
             motion = self._database(motion)
         scene.add_given_vessel("rest" if at_rest else motion, **given)
-        moved = motion if isinstance(motion, HydroDatabase | MotionRaos) else None
-        self.afloat[given.get("name", "vessel")] = moved
 
     def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""
@@ -204,11 +201,7 @@ class Caller:
         return self.read[key]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:
-        vessel = given.get("vessel", "vessel")
-        if vessel not in self.afloat:
-            known = ", ".join(map(repr, self.afloat)) or "none"
-            raise SceneError(f"sea: there is no [vessel] named {vessel!r}, the lift has {known}")
-        database = self.afloat[vessel]
+        database = source_of(scene, given.get("vessel", "vessel"))
         systems = given.pop("systems", None)
         if systems is not None:
             of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
@@ -217,7 +210,7 @@ class Caller:
         for key in SEA_OF_SYSTEMS:
             if key in given:
                 raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
-        scene.add_sea(database, **given)
+        scene.add_sea(**given)
 
 
 def _tanks(given: Keywords) -> Keywords:

@@ -80,4 +80,5 @@ _MAKE: Mapping[str, Callable[..., Curve]] = {
     "harmonic": _harmonic,
     "spline": _spline,
     "gust": _gust,
+    "table": Curve.table,
 }

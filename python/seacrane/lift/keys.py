@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import inspect
 import re
+import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from types import SimpleNamespace, UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
+
+from seacrane._core import Curve
 
 MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
@@ -115,7 +119,7 @@ def keys_of(
         left_out = name == "scene" or name in without or (only is not None and name not in only)
         if left_out or parameter.kind is parameter.VAR_KEYWORD:
             continue
-        known = _annotated(str(parameter.annotation)) | _of_field(fields.get(name))
+        known = _annotated(call, parameter.annotation) | _of_field(fields.get(name))
         known["text"] = texts.get(name) or known.get("text", "")
         known |= (more or {}).get(name, {})
         found.append(Key(name=name, required=parameter.default is parameter.empty, **known))
@@ -139,16 +143,19 @@ def _of_field(field: Any) -> dict[str, Any]:
     return {"type": field.type, "unit": field.unit, "shapes": shapes, "text": field.text}
 
 
-TYPES = {"str": "text", "float": "number", "int": "whole", "bool": "flag", "Literal": "text"}
+TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
 
-def _annotated(annotation: str) -> dict[str, Any]:
+def _annotated(call: Any, annotation: Any) -> dict[str, Any]:
     """Type and choices that an annotation tells; nothing for what it leaves open."""
-    if "Curve" in annotation:
+    held = SimpleNamespace(__annotations__={"it": annotation})
+    hint = get_type_hints(held, vars(sys.modules[call.__module__]))["it"]
+    kinds = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    if Curve in kinds:
         return {"type": "curve"}
-    kind = re.match(r"\w*", annotation)
-    choices = tuple(re.findall(r"'([^']+)'", annotation)) if "Literal" in annotation else ()
-    return {"type": TYPES[kind[0]], "choices": choices} if kind and kind[0] in TYPES else {}
+    first = get_origin(kinds[0]) or kinds[0]
+    choices = tuple(text for kind in kinds if get_origin(kind) is Literal for text in get_args(kind))
+    return {"type": TYPES[first], "choices": choices} if first in TYPES else {}
 
 
 def parameter_texts(call: Any) -> dict[str, str]:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
-from seacrane.hydro import HydroDatabase
-from seacrane.lift.build import made, scene_and_databases, scene_of
+from seacrane.lift.build import made, scene_of
 from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.stages import check_stages, stages_of
@@ -34,7 +33,7 @@ LIFTS = ("case1", "case2", "case3", "vessel")
 class Lift:
     """A lift as tables of keys with units: what `seacrane run my_lift.toml` reads. Immutable.
 
-    A table is a call of the API, such as ``[wire]`` of `Scene.add_wire`; a key is a keyword of it with its
+    A table is a call of the API, such as ``[line]`` of `Scene.add_line`; a key is a keyword of it with its
     unit, such as ``link_length_m``; docs/lift-files.md lists them.
 
     Parameters
@@ -123,10 +122,6 @@ class Lift:
         check_stages(self._document, self._entries, scene, self.stages)
         return scene
 
-    def scene_and_databases(self) -> tuple[Scene, dict[str, HydroDatabase]]:
-        """The scene, built anew, and by vessel the database that its sea loads it by."""
-        return scene_and_databases(self._document, self._entries)
-
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
 
@@ -167,7 +162,7 @@ class Lift:
         return f"<Lift: {', '.join(held) or 'empty'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return lift_of, (self._document, self._folder)
+        return lift_of, (replace(self._document, told=True), self._folder)
 
 
 def lift_of(document: Document, folder: Path) -> Lift:

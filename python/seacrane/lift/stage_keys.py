@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from seacrane.description.channels import CHANNELS
 from seacrane.lift.keys import EITHER, Key, keys_of
-from seacrane.result.channels import CHANNELS
 from seacrane.result.units import units_of
 from seacrane.stages.stage import Stage
 
@@ -19,9 +19,9 @@ WAITS = {
 
 _UNTIL = (
     *(Key(name=name, type="text", text=text) for name, text in WAITS.items()),
-    Key(name="above", type="number", unit=CHANNEL_UNITS, text="Met at this value and above."),
-    Key(name="below", type="number", unit=CHANNEL_UNITS, text="Met at this value and below."),
-    Key(name="where", type="names", text="One name for each dimension of the channel."),
+    Key(name="minimum", type="number", unit=CHANNEL_UNITS, text="Met at this value and above."),
+    Key(name="maximum", type="number", unit=CHANNEL_UNITS, text="Met at this value and below."),
+    Key(name="names", type="names", text="One name for each dimension of the channel."),
 )
 _COMMANDS = (
     Key(name="name", type="text", required=True, text='Such as "hoist.rate".'),
@@ -40,7 +40,7 @@ STAGE = keys_of(
     Stage,
     more={
         "duration": {"unit": "s"},
-        "longest": {"unit": "s"},
+        "maximum_duration": {"unit": "s"},
         "until": {"type": "tables", "keys": _UNTIL, "text": "The first that is met ends the stage."},
         "commands": {"type": "tables", "keys": _COMMANDS, "text": "What moves during it."},
         "connect": {"type": "texts"},

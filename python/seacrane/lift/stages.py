@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from seacrane.description.holding import with_holds
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
@@ -55,16 +56,12 @@ def check_stages(document: Document, entries: Sequence[Entry], scene: Scene, sta
     try:
         checked_stages(scene, stages)
     except SceneError as error:
-        told = next((one for one in _tables(entries) if str(error).startswith(_title(one))), None)
+        told = next((one for one in _tables(entries) if one.values["name"] == error.name), None)
         document.fail(("stage",) if told is None else told.path, str(error))
 
 
 def _tables(entries: Iterable[Entry]) -> list[Entry]:
     return [entry for entry in entries if entry.table.name == "stage"]
-
-
-def _title(entry: Entry) -> str:
-    return f"stage {entry.values['name']!r}"
 
 
 def _stage(entry: Entry) -> Stage:
@@ -97,18 +94,18 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     if len(kinds) != 1:
         raise SceneError(f"until: has {' and '.join(kinds) or 'nothing to wait for'}; give one of "
                          f"{', '.join(WAITS)}")  # fmt: skip
-    kind, where = kinds[0], values.get("where", {})
-    if kind != "channel" and "where" in values:
-        raise SceneError(f"until: where goes with channel; leave it out beside {kind}")
-    bounds = {key: values[key] for key in ("above", "below") if key in values}
+    kind, names = kinds[0], values.get("names", {})
+    if kind != "channel" and "names" in values:
+        raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
+    bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
     if kind in ("contact", "release"):
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
         return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
     channel = LIMITED.get(kind, values[kind])
-    require_unit_of_channel(keys, table, channel, where)
+    require_unit_of_channel(keys, table, channel, names)
     if kind == "channel":
-        return Until.channel(values[kind], **bounds, **where)
+        return Until.channel(values[kind], **bounds, **names)
     return (
         Until.tension(values[kind], **bounds) if kind == "tension" else Until.length(values[kind], **bounds)
     )
@@ -164,6 +161,7 @@ def _of_commands(table: Mapping[str, Any]) -> list[tuple[str, str, Key]]:
 
 
 def _unit(scene: Scene, name: str) -> str:
+    scene = with_holds(scene)
     target = targets(scene)[name]
     if target.kind == "load":
         return OF_LOADS[target.attribute]

@@ -28,6 +28,7 @@ from seacrane.description import (
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
@@ -36,7 +37,6 @@ from seacrane.scene import (
     bridles,
     given_vessel,
     heave,
-    heavy_line,
     hydraulics,
     limits,
     lines,
@@ -49,7 +49,6 @@ from seacrane.scene import (
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
@@ -207,7 +206,7 @@ def _sea_keys() -> tuple[Key, ...]:
             "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
             "position": POINT | {"shapes": ((2,),)},
         },
-        without=("database", "sea"),
+        without=("sea",),
     )  # fmt: skip
     beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
     return (*plain, *beside, Key(name="systems", **several))
@@ -217,7 +216,7 @@ def _system_keys() -> tuple[Key, ...]:
     frequency = {"unit": "rad/s"}
     own = keys_of(
         WaveSystem,
-        more=CHOSEN | {"spreading": NUMBER, "omega_min": frequency, "omega_max": frequency},
+        more=CHOSEN | {"spreading": NUMBER, "minimum_omega": frequency, "maximum_omega": frequency},
     )
     shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
     return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
@@ -267,6 +266,7 @@ CRANE = keys_of(
         "crane": {"type": "file"},
         "foot": POINT,
         "payload": {"type": "table", "keys": PAYLOAD},
+        "payload_mass": {"unit": "kg"},
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
@@ -322,6 +322,14 @@ CURVES: Mapping[str, tuple[Key, ...]] = {
             "values": {"type": "array", "shapes": ((-1,),)},
         },
     ),
+    "table": (
+        Key(name="times", type="array", unit="s", shapes=((-1,),), required=True, text="That increase."),
+        Key(name="values", type="array", shapes=((-1,),), required=True, text="At these times."),
+        Key(
+            name="between", type="text", choices=("linear", "cubic"),
+            text="Straight (default), or with continuous rate and acceleration, at rest at both ends.",
+        ),
+    ),
     "gust": keys_of(
         gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}
     ),
@@ -367,7 +375,13 @@ _ALL = (
         "force_table", forces.add_force_table, _core.ForceTable,
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
-    _call("line", lines.add_line, _core.Line, tension_at_start={"unit": "N"}),
+    _call(
+        "line", lines.add_line, _core.Line,
+        tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
+        sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
+        density={"unit": "kg/m3"}, flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        rung={"choices": lines.RUNGS}, segment_rung={"type": "text", "choices": lines.STRETCHING},
+    ),
     _call("winch", lines.add_winch, _core.Line),
     Table(
         name="luffing_rope", text=_summary(luffing.add_luffing_rope), add=luffing.add_luffing_rope,
@@ -383,20 +397,13 @@ _ALL = (
     ),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
-        hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
-    ),
-    _call(
-        "heavy_line", heavy_line.add_heavy_line,
-        length=LENGTH, stiffness={"unit": "N"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
-        points={"type": "array", "unit": "m", "shapes": ((2, 3),)}, bodies={"type": "texts"},
-        density={"unit": "kg/m3"}, settling=TIME,
-        flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
+        rung={"choices": lines.STRETCHING},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
-    _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),
     _call("end_stop", limits.add_end_stop, _core.Limit),
     _call("seat", limits.add_seat, _core.Limit),
     _call("soft_stop", limits.add_soft_stop, _core.SoftStop),
@@ -409,7 +416,7 @@ _ALL = (
     ),
     _call(
         "limit_state", limit_states.add_limit_state,
-        max=NUMBER | LIMITED, min=NUMBER | LIMITED, where={"type": "names"},
+        maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
     ),
     Table(
         name="roles", text=_summary(crane_parts.add_roles),
@@ -465,11 +472,11 @@ _ALL = (
     ),
     Table(
         name="method", several=False, text=_summary(Method),
-        keys=keys_of(Method, more=CHOSEN | {"step": TIME, "max_step": TIME}),
+        keys=keys_of(Method, more=CHOSEN | {"dt": TIME, "maximum_step": TIME}),
     ),
     Table(
         name="outputs", several=False, text=_summary(Outputs),
-        keys=keys_of(Outputs, more={"dt": TIME, "channels": {"type": "texts"}}),
+        keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",

@@ -41,8 +41,8 @@ def _section(title: str, heading: str, table: Mapping[str, Any]) -> Iterator[str
     yield from ("", title)
     below = {}
     for key, value in table.items():
-        line = f"{_key(key)} = {_value(value)}"
-        rows = [f"    {_value(one)}," for one in value] if _is_tables(value) else []
+        line = f"{_key(key)} = {toml_value(value)}"
+        rows = [f"    {toml_value(one)}," for one in value] if _is_tables(value) else []
         if len(line) <= WIDTH or not (rows or isinstance(value, Mapping)):
             yield line
         elif rows and max(map(len, rows)) <= WIDTH:
@@ -65,7 +65,8 @@ def _text(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """A value as TOML writes it; raises SceneError where it has no word."""
     match value:
         case bool():
             return str(value).lower()
@@ -76,8 +77,8 @@ def _value(value: Any) -> str:
         case int() | float():
             return repr(value)
         case list():
-            return f"[{', '.join(map(_value, value))}]"
+            return f"[{', '.join(map(toml_value, value))}]"
         case Mapping():
-            pairs = ", ".join(f"{_key(key)} = {_value(one)}" for key, one in value.items())
+            pairs = ", ".join(f"{_key(key)} = {toml_value(one)}" for key, one in value.items())
             return f"{{ {pairs} }}" if pairs else "{}"
     raise SceneError(f"lift: TOML has no word for {value!r}; leave it out")

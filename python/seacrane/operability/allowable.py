@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.rest_state import equilibrium, held
-from seacrane.ensembles.other_sea import Databases, require_same_sea
+from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase
-from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
@@ -27,6 +26,7 @@ from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.steady_start import steady_start
 from seacrane.operability.table import AllowableHs
 from seacrane.operability.time_domain import Cell, Storms
+from seacrane.renamed import refusing
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -46,6 +46,7 @@ FEWEST_PERIODS = 10.0  # that a record holds
 DELAY = 2.0  # s before a progress bar shows
 
 
+@refusing
 def allowable_hs(
     scene: Scene,
     *,
@@ -53,7 +54,6 @@ def allowable_hs(
     tp: Any,
     direction_deg: Any,
     hs: Any = HEIGHTS,
-    database: Databases,
     domain: Literal["auto", "frequency", "time"] = "auto",
     linear_within: float = LINEAR_WITHIN,
     seeds: Sequence[int] = tuple(range(1, 11)),
@@ -85,8 +85,6 @@ def allowable_hs(
         Directions in which the waves travel, as of `Scene.add_sea`: 0 along x, 180 against it. Ascending.
     hs : array_like
         m, ascending: of the runs, and the last one the largest that is examined in either domain.
-    database : HydroDatabase or mapping
-        With which the sea was added, by vessel where there are several.
     domain : str
         "auto" (default), "frequency": the linear model is not tested, or "time".
     linear_within : float
@@ -130,14 +128,16 @@ def allowable_hs(
     """
     asked = _Asked.of(criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain)
     factor = alpha_of(alpha)
-    period = _positive("hours", hours)
+    period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
-    outputs = Outputs(dt=recorded.dt, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria)))
-    still = _Still.of(scene, database, asked.criteria, number_of("time", time), how, outputs)
-    study = _Study(asked=asked, still=still, method=how, outputs=outputs, databases=database)
+    outputs = Outputs(
+        dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
+    )
+    still = _Still.of(scene, asked.criteria, number_of("time", time), how, outputs)
+    study = _Study(asked=asked, still=still, method=how, outputs=outputs)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
     failures: dict[int, str] = {}
     if domain != "time":
@@ -172,16 +172,14 @@ class _Asked:
     ) -> _Asked:  # fmt: skip
         if domain not in ("auto", "frequency", "time"):
             raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
-        begin = number_of("start_up", start_up)
-        if not 0.0 <= begin < np.inf:
-            raise SceneError(f"start_up is {begin} s; give zero or a positive time")
+        begin = not_negative_of("start_up", start_up, "s")
         within = _ascending("direction_deg", directions)
         if within[-1] - within[0] >= 360.0:
             raise SceneError(
                 f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
                 "once"
             )
-        periods, span = _ascending("tp", tp, above_zero=True), _positive("duration", duration)
+        periods, span = _ascending("tp", tp, above_zero=True), positive_of("duration", duration)
         if span < FEWEST_PERIODS * periods[-1]:
             raise SceneError(
                 f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
@@ -195,7 +193,7 @@ class _Asked:
             seeds=_seeds(seeds),
             duration=span,
             start_up=begin,
-            linear_within=_positive("linear_within", linear_within),
+            linear_within=positive_of("linear_within", linear_within),
         )
 
 
@@ -209,9 +207,8 @@ class _Still:
 
     @classmethod
     def of(
-        cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float, method: Method,
-        outputs: Outputs,
-    ) -> _Still:  # fmt: skip
+        cls, scene: Any, criteria: tuple[Criterion, ...], time: float, method: Method, outputs: Outputs
+    ) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
         if scene.waves is None:
@@ -219,11 +216,11 @@ class _Still:
                 f"scene {scene.name!r} has no sea; add one of any height, whose height, period and direction "
                 "are then replaced"
             )
-        require_same_sea(scene, databases, ("hs", "tp", "direction_deg"))
+        require_same_sea(scene, ("hs", "tp", "direction_deg"))
         state = equilibrium(scene, time=time)
         calm = held(scene, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
-        rest = np.array([result.curve(one.channel, **one.where)[0] for one in criteria])
+        rest = np.array([result.curve(one.channel, **one.names)[0] for one in criteria])
         return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
 
 
@@ -235,12 +232,11 @@ class _Study:
     still: _Still
     method: Method
     outputs: Outputs
-    databases: Databases
 
     def by_frequency(self, cells: Cells, *, strict: bool, progress: bool) -> None:
         """Fill cells by the linear model; where there is none, note why."""
         try:
-            linear = LinearSeas(self.still.scene, self.still.state, self._database(), self.asked.criteria)
+            linear = LinearSeas(self.still.scene, self.still.state, self.asked.criteria)
         except SceneError as error:
             if strict:
                 raise
@@ -259,7 +255,7 @@ class _Study:
         """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
         assert cells.linear is not None
         prober = Prober(
-            scene=self.still.scene, database=self._database(), linear=cells.linear,
+            scene=self.still.scene, linear=cells.linear,
             criteria=self.asked.criteria, start=self.still.state.time, duration=self.asked.duration,
             method=self.method, outputs=self.outputs,
         )  # fmt: skip
@@ -282,7 +278,7 @@ class _Study:
     def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
         """Fill the cells that are wanted by runs; why members failed, by number."""
         storms = Storms(
-            scene=self.still.scene, databases=self.databases, begin=self.still.state.time,
+            scene=self.still.scene, begin=self.still.state.time,
             start=steady_start(self.still.scene, self.still.state),
             start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
             seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
@@ -294,15 +290,6 @@ class _Study:
         for place, by_time in zip(places, storms.allowable(found, of_cells), strict=True):
             cells.take_time(place, by_time)
         return dict(found.failures)
-
-    def _database(self) -> HydroDatabase:
-        assert self.still.scene.waves is not None
-        one = self.databases
-        found = (
-            one if isinstance(one, HydroDatabase) else dict(one or {}).get(self.still.scene.waves.body_of())
-        )
-        assert found is not None  # require_same_sea asks for it
-        return found
 
 
 def _criteria(given: Any) -> tuple[Criterion, ...]:
@@ -335,13 +322,6 @@ def _ascending(name: str, given: Any, *, above_zero: bool = False) -> tuple[floa
     if above_zero and values[0] <= 0.0:
         raise SceneError(f"{name} begins with {values[0]:g}; give numbers above zero")
     return tuple(values.tolist())
-
-
-def _positive(name: str, given: Any) -> float:
-    value = number_of(name, given)
-    if not 0.0 < value < np.inf:
-        raise SceneError(f"{name} is {value}; give a finite number above zero")
-    return value
 
 
 @contextlib.contextmanager

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, number_of
+from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of
 from seacrane.inputs.shown import shown
-from seacrane.result.pick import pick_of
+from seacrane.renamed import refusing
 from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 
@@ -22,6 +23,7 @@ STATISTICS = {
 }
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """What a statistic of a channel may reach.
@@ -33,7 +35,7 @@ class Criterion:
         "position[payload, z]".
     maximum, minimum : float, optional
         One of both, in the SI unit of the channel (rad for angles).
-    where : mapping of str to str
+    names : mapping of str to str
         Names along the channel's dimensions, such as ``{"body": "payload", "axis": "z"}``.
     statistic : str
         "mpm" (default), "mean" or "p90" of the largest value in the exposure time, or "significant": the mean
@@ -55,22 +57,22 @@ class Criterion:
     channel: str
     maximum: float | None = None
     minimum: float | None = None
-    where: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
     statistic: str = "mpm"
     exposure: float = THREE_HOURS
     motion: bool = False
     name: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.where, Mapping):
-            raise SceneError(f"criterion: where is {shown(self.where)}; give names by dimension")
-        pick = pick_of("criterion", self.channel, self.where)
+        if not isinstance(self.names, Mapping):
+            raise SceneError(f"criterion: names is {shown(self.names)}; give names by dimension")
+        pick = pick_of("criterion", self.channel, self.names)
         if pick.after is not None:
             raise SceneError(f"criterion {pick}: after is not a criterion's; what asks for it says start_up")
         channel = pick.channel
         object.__setattr__(self, "channel", channel)
-        object.__setattr__(self, "where", dict(pick.names))
-        usual = " ".join([channel.replace("_", " "), *map(str, self.where.values())])
+        object.__setattr__(self, "names", dict(pick.names))
+        usual = " ".join([channel.replace("_", " "), *map(str, self.names.values())])
         object.__setattr__(self, "name", name_of("criterion", self.name, usual))
         self._require_bound()
         if self.statistic not in STATISTICS:
@@ -78,9 +80,7 @@ class Criterion:
                 f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
                 f"{', '.join(STATISTICS)}"
             )
-        exposure = number_of(f"criterion {self.name!r}: exposure", self.exposure)
-        if not (np.isfinite(exposure) and exposure > 0.0):
-            raise SceneError(f"criterion {self.name!r}: exposure is {exposure} s; give a positive time")
+        positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
 
     def _require_bound(self) -> None:
         if (self.maximum is None) == (self.minimum is None):
@@ -119,5 +119,5 @@ class Criterion:
             asked = asked.replace("maximum", "minimum")
         over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
         sign = "<=" if self.minimum is None else ">="
-        unit = unit_of(self.channel, self.where.values())
+        unit = unit_of(self.channel, self.names.values())
         return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}"

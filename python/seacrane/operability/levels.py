@@ -53,19 +53,19 @@ class RecordNumbers:
     Attributes
     ----------
     channel : str
-    where : mapping of str to str
+    names : mapping of str to str
         Names along its dimensions.
     after : float
         s: earlier outputs are left out.
     """
 
     channel: str
-    where: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
     after: float = 0.0
 
     def __call__(self, result: Result) -> Array:
         """The numbers of a result."""
-        values = result.curve(self.channel, **self.where)
+        values = result.curve(self.channel, **self.names)
         return record_numbers(values[result.time >= self.after])
 
 

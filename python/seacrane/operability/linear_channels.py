@@ -123,4 +123,4 @@ class _Look:
             run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
             run.advance(state.time)
             result = require_finite(run.result())
-        return np.array([result.curve(one.channel, **one.where)[0] for one in self._criteria])
+        return np.array([result.curve(one.channel, **one.names)[0] for one in self._criteria])

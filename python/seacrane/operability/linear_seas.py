@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import linear_model
 from seacrane.analysis.response_statistics import quadrature_frequencies
+from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import gaussian_level
 from seacrane.operability.linear_channels import LinearChannels, linear_channels
@@ -35,8 +35,6 @@ class LinearSeas:
         With a sea of one wave system on one vessel.
     state : State
         At rest.
-    database : HydroDatabase
-        With which its sea was added.
     criteria : sequence of Criterion
 
     Raises
@@ -45,11 +43,9 @@ class LinearSeas:
         Where the scene has no linear model, or its spectrum changes shape with Hs.
     """
 
-    def __init__(
-        self, scene: Scene, state: _core.State, database: HydroDatabase, criteria: Sequence[Criterion]
-    ) -> None:
+    def __init__(self, scene: Scene, state: _core.State, criteria: Sequence[Criterion]) -> None:
         assert scene.waves is not None
-        self._known, self._database, self._criteria = scene.waves.provenance, database, tuple(criteria)
+        self._known, self._criteria = scene.waves.provenance, tuple(criteria)
         if self._known.spectrum not in SCALING:
             raise SceneError(
                 f"spectrum {self._known.spectrum!r} changes its shape with Hs; take one of "
@@ -59,9 +55,10 @@ class LinearSeas:
             raise SceneError(f"the sea is on {len(scene.waves.hulls)} vessels; domain='time' takes several")
         self._vessel = scene.waves.body_of()
         self._heading = scene.waves.hull().heading
+        self._database = database_of(scene, self._vessel, "its linear model in waves")
         model = linear_model(scene, state=state, vessel=self._vessel)
         self.channels: LinearChannels = linear_channels(model, criteria)
-        low, high = float(database.omega[0]), float(database.omega[-1])
+        low, high = float(self._database.omega[0]), float(self._database.omega[-1])
         self._omega = quadrature_frequencies(model, low, high)
         self._transfer = self.channels.transfer(self._omega)
         steps = np.diff(self._omega)
@@ -90,7 +87,7 @@ class LinearSeas:
         """Share of the energy of the waves within the database; the rest is left out."""
         spectrum = self._spectrum(tp)
         return float(
-            spectrum.energy(omega_min=self._omega[0], omega_max=self._omega[-1]) / spectrum.moment(0)
+            spectrum.energy(minimum_omega=self._omega[0], maximum_omega=self._omega[-1]) / spectrum.moment(0)
         )
 
     def allowable(self, gains: Array, tp: float) -> Array:

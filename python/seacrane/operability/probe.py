@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.databases import without_databases
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.errors import SeacraneError
-from seacrane.hydro import HydroDatabase
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import reached, record_numbers
 from seacrane.operability.linear_seas import LinearSeas
-from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
+from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -65,12 +64,12 @@ class Probe:
         try:
             run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
             with Interrupts() as interrupts:
-                drive(run, Calls((), run.start.time), interrupts)
+                run = ended(run, (), interrupts)
             interrupts.take()
             if run.interrupted:
                 raise KeyboardInterrupt
             result = require_finite(run.result())
-            return np.array([record_numbers(result.curve(one.channel, **one.where)) for one in self.criteria])
+            return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in self.criteria])
         except (SeacraneError, ArithmeticError, ValueError) as error:
             return f"{type(error).__name__}: {error}"
 
@@ -83,7 +82,6 @@ class Prober:
     ----------
     scene : Scene
         Its references held.
-    database : HydroDatabase
     linear : LinearSeas
     criteria : tuple of Criterion
     start, duration : float
@@ -93,7 +91,6 @@ class Prober:
     """
 
     scene: Scene
-    database: HydroDatabase
     linear: LinearSeas
     criteria: tuple[Criterion, ...]
     start: float
@@ -116,15 +113,15 @@ class Prober:
 
     def _probe(self, sea: Sea) -> tuple[Probe, Array]:
         words = {"hs": sea.hs, "tp": sea.tp, "direction_deg": sea.direction_deg, "seed": sea.seed}
-        scene = with_sea(self.scene, self.database, words)
+        scene = with_sea(self.scene, words)
         assert scene.waves is not None
         end = self.start + self.duration
-        steps = np.arange(round(self.duration / self.outputs.dt) + 1, dtype=float)
-        times: Array = self.start + steps * self.outputs.dt
+        steps = np.arange(round(self.duration / self.outputs.dt_out) + 1, dtype=float)
+        times: Array = self.start + steps * self.outputs.dt_out
         state, linear = self.linear.in_waves(scene.waves, self.start, times)
         probe = Probe(
-            scene=scene, start=state, t_end=end, criteria=self.criteria, method=self.method,
-            outputs=self.outputs,
+            scene=without_databases(scene), start=state, t_end=end, criteria=self.criteria,
+            method=self.method, outputs=self.outputs,
         )  # fmt: skip
         return probe, np.array([record_numbers(column) for column in linear.T])
 

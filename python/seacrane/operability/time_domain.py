@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
-from seacrane.ensembles.other_sea import Databases
 from seacrane.ensembles.study import Start
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import RecordNumbers, reached, seeds_level
@@ -48,7 +47,6 @@ class Storms:
     ----------
     scene : Scene
         Its references held, with its sea.
-    databases : HydroDatabase or mapping
     begin : float
         Time of the state at rest, s.
     start : State or SteadyStart
@@ -66,7 +64,6 @@ class Storms:
     """
 
     scene: Scene
-    databases: Databases
     begin: float
     start: Start
     start_up: float
@@ -95,12 +92,12 @@ class Storms:
         ]
         after = self.begin + self.start_up
         keep = {
-            f"criterion_{i}": RecordNumbers(channel=one.channel, where=one.where, after=after)
+            f"criterion_{i}": RecordNumbers(channel=one.channel, names=one.names, after=after)
             for i, one in enumerate(self.criteria)
         }
         return ensemble(
             self.scene, over=over, keep=keep, t_end=after + self.duration, method=self.method,
-            outputs=self.outputs, database=self.databases, start=self.start, executor=executor,
+            outputs=self.outputs, start=self.start, executor=executor,
             store=store, progress=progress,
         )  # fmt: skip
 

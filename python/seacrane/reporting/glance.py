@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane.figures.traces import Trace, traces
 from seacrane.reporting.blocks import cards
 from seacrane.reporting.limits import judged_bounds
 from seacrane.reporting.measures import energy_balanced, findings_of, joints_closed
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import Trace, traces
 
 Cards = dict[str, tuple[str, bool | None]]
 

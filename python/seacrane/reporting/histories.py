@@ -1,13 +1,17 @@
-"""Figures: the tensions, everything over time, and where the payload went."""
+"""Figures: the scene, the tensions, everything over time, the payload's track, and the page in 3D."""
 
 from __future__ import annotations
 
 from seacrane.figures.overview import PANELS, overview_sheet, payload_bodies
-from seacrane.figures.plots import draw_track, history_sheet
+from seacrane.figures.plots import draw_track
+from seacrane.figures.pose import outlined_skeleton, plot_scene
 from seacrane.plotting.panel import draw
 from seacrane.reporting.blocks import drawn
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.history import history_sheet
+from seacrane.viewer.motion import POSES
+from seacrane.viewer.view import view
 
 TENSIONS = ("link_tension", "limit_force")
 
@@ -50,3 +54,29 @@ TRACKS: Section[Result] = Section(
     applies=lambda result: "position" in result.channels and bool(payload_bodies(result)),
     html=_track,
 )
+
+
+def _scene(result: Result) -> str:
+    caption = (
+        f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) recorded pose, inertial axes. Bodies "
+        "are lines through their joints; ships have the length and breadth of their radii of gyration, boxes "
+        "the inertia of their bodies."
+    )
+    return drawn(plot_scene(result), "Scene", caption)
+
+
+SCENE_PICTURE: Section[Result] = Section(
+    title="Scene", applies=lambda result: bool(outlined_skeleton(result)), html=_scene
+)
+
+
+def _has_poses(result: Result) -> bool:
+    return result.kept_scene is not None and all(name in result.channels for name in POSES)
+
+
+def _page(result: Result) -> str:
+    note = "Space plays and pauses, the mouse turns and zooms. The caption of the page tells what is drawn."
+    return f'<div class="screen">{view(result)._repr_html_()}<p class="note">{note}</p></div>'
+
+
+THREE_DIMENSIONS: Section[Result] = Section(title="In three dimensions", applies=_has_poses, html=_page)

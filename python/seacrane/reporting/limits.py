@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 import numpy as np
 
-from seacrane.figures.traces import ANGLES, NO_MOTION, shown_unit
 from seacrane.reporting.blocks import note, verdict
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
 
 OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
 
@@ -32,7 +31,7 @@ class Judged:
 
 def judged_bounds(result: Result) -> list[Judged]:
     """Every limit of a scene: wires, stops, seats, ranges, and links that may only pull."""
-    described = json.loads(str(result.stats.get("bounds", "[]")))
+    described = result.about.bounds
     return [_judged(result, bound) for bound in described] + _links(result, described)
 
 
@@ -142,10 +141,10 @@ def _forces(result: Result, name: str) -> str:
     return f"{factor * force.min():.4g} to {factor * force.max():.4g} {unit}"
 
 
-def _links(result: Result, described: list[Mapping[str, Any]]) -> list[Judged]:
+def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judged]:
     """Links that a payload hangs on and that are no wires: they are rods, and must not push."""
     wired = {bound["joint"] for bound in described if bound["kind"] == "wire"}
-    cranes = json.loads(str(result.stats.get("cranes", "[]")))
+    cranes = result.about.cranes
     names = [crane["link"] for crane in cranes if crane["link"] and crane["link"] not in wired]
     found = []
     for name in names:

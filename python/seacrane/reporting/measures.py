@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seacrane.figures.overview import payload_bodies, resultants
-from seacrane.figures.traces import Trace, beyond_rounding, traces
 from seacrane.result import Result
+from seacrane.result.traces import Trace, beyond_rounding, traces
 
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work

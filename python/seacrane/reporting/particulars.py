@@ -34,16 +34,11 @@ VESSEL = {
 METHOD = {
     "rtol": "tolerance",
     "dt": "step [s]",
-    "max_step": "largest step [s]",
+    "maximum_step": "largest step [s]",
     "spectral_radius": "spectral radius",
     "t_end": "end time [s]",
     "dt_out": "output interval [s]",
 }
-
-
-def settings_of(result: Result) -> dict[str, Any]:
-    """The run's settings as the result states them."""
-    return dict(json.loads(str(result.stats["settings"])))
 
 
 def _rows(values: Mapping[str, Any], names: Mapping[str, str]) -> Rows:
@@ -62,7 +57,7 @@ def _plain(value: Any) -> Any:
 def _scene(result: Result, settings: Mapping[str, Any]) -> Rows:
     bodies, joints = result.coords.get("body", ()), result.coords.get("joint", ())
     hung = str(result.stats.get("payload", "")).splitlines()
-    cranes = json.loads(str(result.stats.get("cranes", "[]")))
+    cranes = result.about.cranes
     cylinders = [f"{crane['prefix']}{one['name']}" for crane in cranes for one in crane["cylinders"]]
     found: Rows = [("scene", str(result.stats["scene"]))]
     found += [("bodies", f"{len(bodies)}: {', '.join(bodies)}")] if bodies else []
@@ -88,7 +83,7 @@ def _notes(settings: Mapping[str, Any]) -> Rows:
 
 
 def _html(result: Result) -> str:
-    settings = settings_of(result)
+    settings = result.settings
     groups = {
         "Scene": _scene(result, settings),
         "Sea": _rows(settings, SEA) + _rows(result.stats, STATED_SEA),

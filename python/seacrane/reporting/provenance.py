@@ -11,7 +11,6 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 from seacrane.plotting.html import table
-from seacrane.reporting.particulars import settings_of
 from seacrane.reporting.section import Section
 from seacrane.result import CHANNELS, Result
 
@@ -40,7 +39,7 @@ def digest(result: Result) -> str:
 
 def settings_block(result: Result) -> str:
     """All settings as the result states them."""
-    return f"<pre>{escape(json.dumps(settings_of(result), indent=1, sort_keys=True))}</pre>"
+    return f"<pre>{escape(json.dumps(dict(result.settings), indent=1, sort_keys=True))}</pre>"
 
 
 def versions_block() -> str:

@@ -7,15 +7,12 @@ from __future__ import annotations
 
 from seacrane.reporting.checks import CHECKS, COST, EVENTS, WARNINGS
 from seacrane.reporting.glance import GLANCE
-from seacrane.reporting.histories import HISTORIES, LOADS, TRACKS
+from seacrane.reporting.histories import HISTORIES, LOADS, SCENE_PICTURE, THREE_DIMENSIONS, TRACKS
 from seacrane.reporting.limits import LIMITS
 from seacrane.reporting.particulars import PARTICULARS
 from seacrane.reporting.provenance import PROVENANCE
-from seacrane.reporting.scene_picture import SCENE_PICTURE
 from seacrane.reporting.section import Section
-from seacrane.reporting.statistics import STATISTICS
-from seacrane.reporting.summary import SUMMARY
-from seacrane.reporting.three_dimensions import THREE_DIMENSIONS
+from seacrane.reporting.summary import STATISTICS, SUMMARY
 from seacrane.result import Result
 
 SECTIONS: tuple[Section[Result], ...] = (

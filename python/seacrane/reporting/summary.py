@@ -1,4 +1,4 @@
-"""The summary: static value, mean, standard deviation, extremes and dynamic factor of what matters."""
+"""The summary of what matters, and statistics of everything else that was recorded."""
 
 from __future__ import annotations
 
@@ -6,10 +6,15 @@ from html import escape
 
 from seacrane.answers.curves import reported_curves
 from seacrane.answers.summary import summary
+from seacrane.plotting.html import table
 from seacrane.reporting.blocks import note, verdict
+from seacrane.reporting.measures import stated_traces, statistics_of
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION
 from seacrane.result.utilisation import HEAD
+
+COLUMNS = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")
 
 
 def _html(result: Result) -> str:
@@ -30,4 +35,34 @@ def _used(result: Result) -> str:
 
 SUMMARY: Section[Result] = Section(
     title="Summary", applies=lambda one: bool(reported_curves(one) or one.utilisation), html=_html
+)
+
+
+def _shown(value: float) -> float:
+    """With four digits, no quantity of a lift is known to more; zero where it is so up to rounding."""
+    return 0.0 if abs(value) < NO_MOTION else float(f"{value:.4g}")
+
+
+def _statistics(result: Result) -> str:
+    found, left_out = statistics_of(result)
+    rows = [
+        (
+            one.title,
+            one.unit,
+            *map(_shown, (one.largest, one.largest_at, one.smallest, one.smallest_at)),
+            *map(_shown, (one.mean, one.std)),
+        )
+        for one in found
+    ]
+    start, end = result.time[0], result.time[-1]
+    words = (
+        f"Over the outputs from {start:g} to {end:g} s. Reactions are sizes of the joint's force and moment."
+    )
+    if left_out:
+        words += f" {left_out} curves that are zero up to rounding are left out."
+    return table(COLUMNS, rows) + note(words)
+
+
+STATISTICS: Section[Result] = Section(
+    title="Statistics", applies=lambda result: bool(stated_traces(result)), html=_statistics
 )

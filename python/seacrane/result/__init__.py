@@ -1,9 +1,5 @@
 """What a run recorded: named arrays, their dimensions and units, files and datasets."""
 
-from seacrane.files.atomic import atomic_write
-from seacrane.inputs.frames import MOTIONS
-from seacrane.result.channels import AXES, CHANNELS, Channel
-from seacrane.result.events import Event
-from seacrane.result.result import Result
+from seacrane.lazy import face
 
-__all__ = ["AXES", "CHANNELS", "MOTIONS", "Channel", "Event", "Result", "atomic_write"]
+__all__ = face(__name__, __file__)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -11,15 +10,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.result.about import NAMES
+
 Array = NDArray[np.float64]
 Stat = str | int | float
+
+
+class Stats(dict[str, Stat]):
+    """Numbers and words by name; of what was a text of 0.2, the error says where it is now."""
+
+    def __missing__(self, name: str) -> Stat:
+        raise KeyError(f"{name!r} is not in stats; read result.about.{name}" if name in NAMES else name)
+
 
 ALWAYS_STATED = [
     "seacrane_version",
     "scene",
     "formulation",
     "integrator",
-    "settings",
     "simulated_s",
     "wall_s",
     "evaluations",
@@ -75,16 +83,16 @@ def checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
 
 
 def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
-    """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
+    """Plain strings, integers and floats; what is None is left out."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
+        if name in NAMES:
+            raise ValueError(f"stats hold numbers and words; give {name!r} in about=About({name}=...)")
         if value is None:
             continue
         if type(value) is str or type(value) is int:
             plain[name] = value
             continue
-        if name == "settings" and isinstance(value, Mapping):
-            value = json.dumps(dict(value), sort_keys=True, allow_nan=False)
         if isinstance(value, np.generic):
             value = value.item()
         if isinstance(value, bool):

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.pick import Pick, column_name
 from seacrane.errors import SceneError
-from seacrane.result.pick import Pick, column_name
 from seacrane.result.units import unit_of
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def heavy_line_tension(result: Result, *, line: str) -> Array:
-    """Tension at both ends of a line that `Scene.add_heavy_line` added.
+    """Tension at both ends of a line with mass, of `Scene.add_line`.
 
     Extrapolated from the two segments next to each end, whose tension is that of their middle.
 

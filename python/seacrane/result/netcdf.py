@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.description.channels import NAMED, attributes
 from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
 from seacrane.files.state import state_from_bytes
-from seacrane.result.channels import NAMED, attributes
+from seacrane.result.about import About, parted
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 from seacrane.result.kept_scene import KeptScene
 
@@ -44,6 +45,7 @@ class Contents:
     dims: Mapping[str, tuple[str, ...]]
     coords: Mapping[str, Sequence[str]]
     stats: Mapping[str, Any]
+    about: About
     events: Sequence[Event]
     interrupted: bool
     state: bytes
@@ -68,7 +70,8 @@ def write_netcdf(path: Path, contents: Contents, blocks: Iterable[Mapping[str, A
     import netCDF4
 
     with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
-        file.setncatts({**contents.stats, "interrupted": int(contents.interrupted)})
+        told = {**contents.about.to_attributes(), "interrupted": int(contents.interrupted)}
+        file.setncatts({**contents.stats, **told})
         file.createDimension("time", contents.outputs)
         _add_variable(file, "time", ("time",), contents)
         for dim, names in contents.coords.items():
@@ -119,7 +122,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
     with open_netcdf(path, largest, fix) as file:
         if "time" not in file.variables:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
-        stats = {name: file.getncattr(name) for name in file.ncattrs()}
+        stats, about = parted({name: file.getncattr(name) for name in file.ncattrs()})
         interrupted = bool(stats.pop("interrupted", 0))
         return {
             "time": np.asarray(file["time"][:]),
@@ -142,6 +145,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             if "event" in file.dimensions
             else (),
             "stats": stats,
+            "about": about,
             "interrupted": interrupted,
             "state": _state(path, file),
             "scene": _scene(path, file),

@@ -22,10 +22,11 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, NAMED
 from seacrane.errors import FileFormatError
 from seacrane.files import sole_writer
 from seacrane.files.state import state_from_bytes
-from seacrane.result.channels import CHANNELS, NAMED
+from seacrane.result.about import About, parted
 from seacrane.result.events import Event
 from seacrane.result.kept_scene import KeptScene
 
@@ -47,6 +48,8 @@ class Piece:
         As `Result.coords`.
     stats : mapping
         As `Result.stats`, of all of the run until here.
+    about : About
+        As `Result.about`.
     events : sequence of Event
         Of this piece.
     interrupted : bool
@@ -60,6 +63,7 @@ class Piece:
     arrays: Mapping[str, Array]
     coords: Mapping[str, Sequence[str]]
     stats: Mapping[str, Any]
+    about: About = field(default_factory=About, repr=False)
     events: Sequence[Event] = ()
     interrupted: bool = True
     state: bytes = field(default=b"", repr=False)
@@ -81,7 +85,7 @@ class Piece:
         header = {
             "arrays": [[name, list(array.shape)] for name, array in self.arrays.items()],
             "coords": {dim: list(names) for dim, names in self.coords.items()},
-            "stats": dict(self.stats),
+            "stats": {**self.stats, **self.about.to_attributes()},
             "events": [vars(event) for event in self.events],
             "interrupted": self.interrupted,
             "state": len(self.state),
@@ -102,6 +106,7 @@ class Piece:
                 raise ValueError(f"array {name!r} of shape {shape} does not fit")
             arrays[name] = np.frombuffer(body, "<f8", count, end).reshape(shape).astype(np.float64)
             end += 8 * count
+        stats, about = parted(header["stats"])
         last, scene = end + header["state"], header.get("scene", 0)
         if last + scene != len(body) or min(last - end, scene) < 0:
             raise ValueError("arrays, state and scene do not fill the record")
@@ -110,7 +115,8 @@ class Piece:
         return cls(
             arrays=arrays,
             coords=header["coords"],
-            stats=header["stats"],
+            stats=stats,
+            about=about,
             events=[Event(**event) for event in header["events"]],
             interrupted=bool(header["interrupted"]),
             state=body[end:last],
@@ -190,6 +196,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
         "coords": {dim: last.coords[dim] for dim in NAMED if dim in last.coords},
         "events": events,
         "stats": last.stats,
+        "about": last.about,
         "interrupted": last.interrupted,
         "state": state_from_bytes(state, path) if state else None,
         "scene": KeptScene.from_text(scene, f"{path.name}: its scene") if scene else None,

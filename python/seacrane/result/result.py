@@ -12,26 +12,36 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
+from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import state_to_bytes
-from seacrane.result.channels import CHANNELS, FIXED, MOTIONS, attributes
-from seacrane.result.checked_parts import Stat, checked_array, checked_names, checked_stats, checked_time
+from seacrane.plotting.panel import draw
+from seacrane.result.about import About, StageSpan
+from seacrane.result.checked_parts import (
+    Stat,
+    Stats,
+    checked_array,
+    checked_names,
+    checked_stats,
+    checked_time,
+)
 from seacrane.result.dataframe import dataframe_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
+from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
-from seacrane.result.pick import Pick, pick_of
-from seacrane.result.stages import StageSpan, spans_of
-from seacrane.result.table import as_html
+from seacrane.result.table import as_html, as_text
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.figure import Figure
 
     from seacrane._core import State
     from seacrane.scene.scene import Scene
@@ -62,7 +72,9 @@ class Result(Mapping[str, Array]):
     coords : mapping of str to tuple of str
         Names along every dimension but time, such as `body`, `joint`, `axis`; only those in use.
     stats : mapping of str to str, int or float
-        Version, settings and counters of the run: the attributes of the saved file.
+        Version, method and counters of the run.
+    about : About
+        Its settings, stages and limit states, and what pictures and reports need of its scene.
     interrupted : bool
         True if the run was stopped before its end; it then holds the outputs up to that moment.
     events : tuple of Event
@@ -81,12 +93,13 @@ class Result(Mapping[str, Array]):
     events: tuple[Event, ...] = ()
     state: State | None = None
     kept_scene: KeptScene | None = None
+    about: About = field(default_factory=About)
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
         object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
-        object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
+        object.__setattr__(self, "stats", MappingProxyType(Stats(self.stats)))
         object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
 
     def __repr__(self) -> str:
@@ -95,6 +108,9 @@ class Result(Mapping[str, Array]):
             f"<Result of {self.stats['scene']!r}: {self.time.size} outputs to {self.time[-1]:g} s, "
             f"{len(self.channels)} channels{stopped}>"
         )
+
+    def __str__(self) -> str:
+        return as_text(repr(self)[1:-1], self.channels, self.dims)
 
     def _repr_html_(self) -> str:
         method = f"{self.stats['formulation']}, {self.stats['integrator']}"
@@ -109,6 +125,7 @@ class Result(Mapping[str, Array]):
             self.interrupted,
             self.events,
             self.state,
+            self.about,
         )
         return _rebuild, parts
 
@@ -130,6 +147,7 @@ class Result(Mapping[str, Array]):
         coords: Mapping[str, Sequence[str]],
         events: Sequence[Event] = (),
         stats: Mapping[str, Any],
+        about: About | None = None,
         interrupted: bool = False,
         state: State | None = None,
         scene: Scene | KeptScene | None = None,
@@ -149,8 +167,9 @@ class Result(Mapping[str, Array]):
         events : sequence of Event
             In order of time.
         stats : mapping
-            Attributes, at least `ALWAYS_STATED`; values that are None are left out, `settings` may be a
-            mapping.
+            Numbers and words, at least `ALWAYS_STATED`; values that are None are left out.
+        about : About, optional
+            What is structured.
         interrupted : bool
             True if the run did not reach its end. Only then, in a run of stages, and where the stat
             `not_finite` names them, may channels hold values that are not finite.
@@ -166,7 +185,8 @@ class Result(Mapping[str, Array]):
             given twice, or a missing stat.
         """
         times = checked_time(time)
-        gaps = interrupted or "stages" in stats  # where elements come and go
+        about = about or About()
+        gaps = interrupted or bool(about.stages)  # where elements come and go
         gappy = str(stats.get("not_finite", "")).split(", ")
         for name in arrays:
             if name not in CHANNELS:
@@ -185,6 +205,7 @@ class Result(Mapping[str, Array]):
             channels=channels,
             coords={dim: names[dim] for dim in used},
             stats=checked_stats(stats),
+            about=about,
             interrupted=bool(interrupted),
             events=checked_events(events),
             state=state,
@@ -214,9 +235,14 @@ class Result(Mapping[str, Array]):
         return True
 
     @property
+    def settings(self) -> Mapping[str, Any]:
+        """The settings of the run by the words of `simulate`, with what is known of its vessels and sea."""
+        return self.about.settings
+
+    @property
     def stages(self) -> tuple[StageSpan, ...]:
         """When each stage began and ended, and what ended it; none: it was one run."""
-        return spans_of(self.stats)
+        return self.about.stages
 
     def stage(self, name: str) -> slice:
         """The outputs of a stage, to index time and channels: after its start and up to its end.
@@ -299,6 +325,31 @@ class Result(Mapping[str, Array]):
             self[channel]
         return pick_of("select", channel, names)
 
+    def plot(self, *channels: str | Pick, **names: str) -> Figure:
+        """Draw channels over time, a panel for each channel and unit, with events and extremes marked.
+
+        `seacrane.plot_overview` draws what a run recorded, and more functions of that kind one thing each.
+
+        Parameters
+        ----------
+        *channels : str or Pick
+            As `select` takes them, such as "hook_load", "roll" or ``"position[load, z]"``.
+        **names : str
+            Pick one along a dimension, such as ``body="payload"``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            ``savefig(path)`` writes it; a notebook shows it.
+
+        Raises
+        ------
+        SceneError
+            For a channel or name that the result does not hold.
+        """
+        sheet = history_sheet(self, *channels, **names)
+        return draw(sheet, note=axes_note(self, [pick_of("plot", one).channel for one in channels]))
+
     def to_dataframe(self, *channels: str | Pick) -> pandas.DataFrame:
         """Curves as columns of a table, by time (s); SI units and radians.
 
@@ -349,7 +400,7 @@ class Result(Mapping[str, Array]):
     @property
     def utilisation(self) -> Utilisation:
         """How far every limit state of the scene was used, 1 at the limit; see `Scene.add_limit_state`."""
-        return utilisation_of(self.stats, self.time, self.channels, self.dims, self.coords)
+        return utilisation_of(self.about.limit_states, self.time, self.channels, self.dims, self.coords)
 
     def to_xarray(self) -> xarray.Dataset:
         """The result as a dataset with named coordinates, units and descriptions (copies the arrays)."""
@@ -366,7 +417,8 @@ class Result(Mapping[str, Array]):
         coords.update({dim: list(names) for dim, names in self.coords.items()})
         if self.stages:
             coords["stage"] = ("time", self._stage_names())
-        return xarray.Dataset(variables, coords, {**self.stats, "interrupted": int(self.interrupted)})
+        told = {**self.about.to_attributes(), "interrupted": int(self.interrupted)}
+        return xarray.Dataset(variables, coords, {**self.stats, **told})
 
     def _stage_names(self) -> list[str]:
         """The stage of each output."""
@@ -406,7 +458,8 @@ class Result(Mapping[str, Array]):
         scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
         return Contents(
             outputs=self.time.size, dims=self.dims, coords=self.coords, events=self.events,
-            stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, interrupted=self.interrupted,
+            stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, about=self.about,
+            interrupted=self.interrupted,
             state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
         )  # fmt: skip
 
@@ -466,10 +519,11 @@ def _rebuild(
     interrupted: bool,
     events: tuple[Event, ...],
     state: State | None,
+    about: About,
 ) -> Result:
     for array in (time, *channels.values()):
         array.setflags(write=False)
     return Result(
         time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events,
-        state=state,
+        state=state, about=about,
     )  # fmt: skip

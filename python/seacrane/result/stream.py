@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,11 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write, require_replaceable, space_left
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.files.state import state_to_bytes
-from seacrane.result.channels import CHANNELS
+from seacrane.result.about import About, parted
 from seacrane.result.events import Event
 from seacrane.result.netcdf import Contents, write_netcdf
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
@@ -30,8 +30,7 @@ COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
-NONE_WAS_ZERO = ("dt", "max_step")
-SETTINGS = ("dt_out", "rtol", "dt", "max_step", "spectral_radius", "energy_limit", "baumgarte")
+SETTINGS = ("dt_out", "rtol", "dt", "maximum_step", "spectral_radius", "energy_limit", "baumgarte")
 
 
 def rows_of_piece(width: int) -> int:
@@ -78,6 +77,7 @@ class ResultFile:
         self.outputs = 0
         self.scene = b""  # what is run, as a scene file
         self.stats: dict[str, Any] = {}
+        self.about = About()
         self._partial = PartialFile(partial_path(path))
         self._source: Path | None = None
         self._nothing: Mapping[str, Array] = {}
@@ -115,8 +115,8 @@ class ResultFile:
                 "overwrite=True (--overwrite) drops it"
             )
 
-    def require_same(self, stats: Mapping[str, Any], channels: Sequence[str], unlike: str) -> None:
-        """Raise FileExistsError unless the result of that name may be replaced by one of these stats.
+    def require_same(self, new: Told, unlike: str) -> None:
+        """Raise FileExistsError unless the result of that name may be replaced by one that tells this.
 
         It may where it is of the same scene, method and outputs, and does not end later. `unlike` says why
         that cannot be told; empty: it can.
@@ -124,9 +124,9 @@ class ResultFile:
         if not self.path.exists():
             return
         try:
-            old, old_channels, _ = _described(self.path)
-            reason = unlike or difference(old, old_channels, stats, channels)
-            ends = [json.loads(some["settings"])["t_end"] for some in (old, stats)]
+            old, _ = _told(self.path)
+            reason = unlike or difference(old, new)
+            ends = [some.about.settings["t_end"] for some in (old, new)]
             if not reason and ends[0] > ends[1]:
                 reason = f"has t_end {ends[0]!r}, this run {ends[1]!r}"
         except NETCDF_ERRORS:
@@ -168,9 +168,9 @@ class ResultFile:
 
     def _left_in_result(self) -> Left:
         try:
-            stats, channels, coords = _described(self.path)
+            told, coords = _told(self.path)
             result = Result.load(self.path, channels=[], largest=LARGEST)
-            if DIGEST not in stats:
+            if DIGEST not in told.stats:
                 raise ValueError("it does not tell its scene")
         except NETCDF_ERRORS as error:
             raise FileFormatError(f"{self.path} is not a result that a run left: {error}") from error
@@ -180,7 +180,8 @@ class ResultFile:
             )
         until = result.state.time
         piece = Piece(
-            arrays={name: np.empty(0) for name in ("time", *channels)}, coords=coords, stats=stats,
+            arrays={name: np.empty(0) for name in ("time", *told.channels)}, coords=coords,
+            stats=told.stats, about=told.about,
             events=[event for event in result.events if event.time <= until],
             state=state_to_bytes(result.state),
         )  # fmt: skip
@@ -223,6 +224,7 @@ class ResultFile:
         result: Result | None,
         *,
         stats: Mapping[str, Any],
+        about: About,
         events: Sequence[Event],
         state: bytes,
         interrupted: bool,
@@ -233,7 +235,7 @@ class ResultFile:
         ----------
         result : Result, optional
             None: there are no new outputs.
-        stats, events
+        stats, about, events
             Of the run until now, as a result has them.
         state : bytes
             As `state_to_bytes` gives it.
@@ -257,7 +259,7 @@ class ResultFile:
         new_events = events[self._events_of_run :]
         stats = self._stats(stats, self._events + len(new_events))
         scene = b"" if self._begun else self.scene
-        piece = Piece(arrays=arrays, coords=self._coords, stats=stats, events=new_events,
+        piece = Piece(arrays=arrays, coords=self._coords, stats=stats, about=about, events=new_events,
                       interrupted=interrupted, state=state, scene=scene)  # fmt: skip
         try:
             self._partial.append(piece)
@@ -283,7 +285,7 @@ class ResultFile:
             }
         self._nothing = {name: array[:0] for name, array in piece.arrays.items()}
         self.outputs, self._events = self.outputs + piece.outputs, self._events + len(piece.events)
-        self.stats = dict(piece.stats)
+        self.stats, self.about = dict(piece.stats), piece.about
 
     def finish(self, *, reached_end: bool) -> Path:
         """Make the result's file, and return where the outputs are.
@@ -319,8 +321,8 @@ class ResultFile:
             last, state = piece, piece.state or state
         assert last is not None
         contents = Contents(outputs=outputs, dims=last.dims, coords=last.coords, stats=last.stats,
-                            events=events, interrupted=last.interrupted, state=state,
-                            scene=self.scene)  # fmt: skip
+                            about=last.about, events=events, interrupted=last.interrupted,
+                            state=state, scene=self.scene)  # fmt: skip
         write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
 
     def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
@@ -345,38 +347,45 @@ def _continued(angle: Array, last: Array) -> Array:
     return continued
 
 
-def difference(
-    old: Mapping[str, Any], old_channels: Sequence[str], new: Mapping[str, Any], channels: Sequence[str]
-) -> str:
-    """What tells two runs apart by their stats and channels, in words; empty: they are the same but for
-    their ends."""
-    if old.get(DIGEST) != new[DIGEST]:
-        version, own = old.get("seacrane_version"), new["seacrane_version"]
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """By which runs are told apart."""
+
+    stats: Mapping[str, Any]
+    about: About
+    channels: Sequence[str] = ()
+
+
+def difference(old: Told, new: Told) -> str:
+    """What tells two runs apart, in words; empty: they are the same but for their ends."""
+    if old.stats.get(DIGEST) != new.stats[DIGEST]:
+        version, own = old.stats.get("seacrane_version"), new.stats["seacrane_version"]
         written = f" (or was written by seacrane {version}, this is {own})" if version != own else ""
         return f"is of another scene{written}"
-    settings = [json.loads(some["settings"]) for some in (old, new)]
-    pairs = {name: (old.get(name), new.get(name)) for name in METHOD}
+    settings = [some.about.settings for some in (old, new)]
+    pairs = {name: (old.stats.get(name), new.stats.get(name)) for name in METHOD}
     # Version 0.1 wrote 0 for what was left to its default.
     pairs |= {name: (settings[0].get(name) or None, settings[1].get(name) or None) for name in SETTINGS}
-    pairs["channels"] = (", ".join(sorted(old_channels)), ", ".join(sorted(channels)))
+    pairs["channels"] = (", ".join(sorted(old.channels)), ", ".join(sorted(new.channels)))
     for name, (there, here) in pairs.items():
         if there != here:
             return f"has {name} {there!r}, this run {here!r}"
     return ""
 
 
-def _described(path: Path) -> tuple[dict[str, Any], list[str], dict[str, list[str]]]:
-    """Stats, channels and names along dimensions of a result's file."""
+def _told(path: Path) -> tuple[Told, dict[str, list[str]]]:
+    """What a result's file tells, and names along dimensions."""
     with open_netcdf(path, LARGEST) as file:
-        stats = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
+        attributes = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
+        stats, about = parted(attributes)
         stats = {
             name: value.item() if isinstance(value, np.generic) else value for name, value in stats.items()
         }
-        json.loads(stats["settings"])
         channels = [name for name, variable in file.variables.items()
                     if variable.dimensions[:1] == ("time",) and name != "time"]  # fmt: skip
         dims = {dim for name in channels for dim in file[name].dimensions[1:]}
-        return stats, channels, {dim: [str(name) for name in file[dim][:]] for dim in sorted(dims)}
+        coords = {dim: [str(name) for name in file[dim][:]] for dim in sorted(dims)}
+        return Told(stats=stats, about=about, channels=channels), coords
 
 
 def _blocks(pieces: Iterator[Piece], rows: int) -> Iterator[dict[str, Array]]:

@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from seacrane.result.channels import CHANNELS
+from seacrane.description.channels import CHANNELS
 
 READ: dict[str, tuple[float, str]] = {
     "rad": (float(np.degrees(1.0)), "deg"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.limit_state import LimitState
 from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
@@ -111,7 +111,7 @@ class Utilisation(Sequence[Utilised]):
 
 
 def utilisation_of(
-    stats: Mapping[str, Any],
+    limit_states: Sequence[LimitState],
     time: Array,
     channels: Mapping[str, Array],
     dims: Mapping[str, Sequence[str]],
@@ -119,25 +119,25 @@ def utilisation_of(
 ) -> Utilisation:
     """Of the limit states that a run noted, by its channels; FileFormatError for notes that no run writes."""
     try:
-        noted = json.loads(str(stats.get("limit_states", "[]")))
-        return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in noted))
+        return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in limit_states))
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise FileFormatError(f"the result's limit states are none that a run writes: {error}") from error
 
 
 def _utilised(
-    state: Mapping[str, Any],
+    state: LimitState,
     time: Array,
     channels: Mapping[str, Array],
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilised:
-    channel, where = str(state["channel"]), dict(state["where"])
-    bounds = [(key, float(state[key])) for key in ("maximum", "minimum") if state[key] is not None]
+    channel, where = state.channel, state.names
+    known = (("maximum", state.maximum), ("minimum", state.minimum))
+    bounds = [(key, float(value)) for key, value in known if value is not None]
     if channel not in channels:
         factor, unit = read_as(unit_of(channel, tuple(where.values())))
         return Utilised(
-            name=str(state["name"]), channel=channel, curve="", unit=unit, limit=factor * bounds[0][1],
+            name=state.name, channel=channel, curve="", unit=unit, limit=factor * bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
     free = [dim for dim in dims[channel][1:] if dim not in where]
@@ -154,7 +154,7 @@ def _utilised(
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
     factor, unit = read_as(unit_of(channel, (*where.values(), *names)))
     return Utilised(
-        name=str(state["name"]), channel=channel, curve=" ".join(names), unit=unit, limit=factor * bound,
+        name=state.name, channel=channel, curve=" ".join(names), unit=unit, limit=factor * bound,
         reached=factor * reached, at=float(time[at]), utilisation=used,
     )  # fmt: skip
 

@@ -1,1 +1,5 @@
 """A run: settings, stepping, outputs to memory or to a file."""
+
+from seacrane.lazy import face
+
+__all__ = face(__name__, __file__)

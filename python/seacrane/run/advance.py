@@ -4,21 +4,29 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from seacrane._core import integrator
+from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import fastest_mode
-from seacrane.errors import SimulationError
+from seacrane.errors import LineSlackError, SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
+from seacrane.run.growth import growing
 from seacrane.run.interrupts import Interrupts
+from seacrane.run.modes import Modes
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
-from seacrane.run.slow import slow_findings
-from seacrane.run.step_advice import step_advice
+from seacrane.run.stiffness import stiffness
+from seacrane.run.unsteady_oil import unsteady_oil
 from seacrane.validity.after_run import tried
-from seacrane.validity.range import warn_of
+from seacrane.validity.range import Finding, warn_of
+
+if TYPE_CHECKING:
+    from seacrane.run.run import Run
 
 Look = Callable[[float], None]
+NEAR = 0.8  # of a limit: from there on a run in another sea is looked at by itself
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
@@ -27,15 +35,45 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
     What ends it otherwise is raised as by `simulate`, with the outputs until then as its `result`.
     """
     with Interrupts() as interrupts:
-        try:
-            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
-        except BaseException as error:
-            with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
-                error.result = run.result()  # type: ignore[attr-defined]
-            raise
+        run = ended(run, controllers, interrupts, progress=progress)
         result, found = run.judged_result()
     warn_of(found)
     return result
+
+
+def ended(
+    run: Run, controllers: Sequence[SampledController], interrupts: Interrupts, *, progress: bool = False
+) -> Run:
+    """Advance a run to its end, or to where Ctrl-C stops it, and return it.
+
+    Where a line that rung "auto" made quasi-static went slack or pushed, it is another run that is returned:
+    one from the same start with elastic lines. Errors carry the outputs until then as their `result`.
+    """
+    with _carrying(run):
+        try:
+            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
+            pushing = "" if run.interrupted else run.pushing()
+            if not pushing:
+                return run
+            what = f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment"
+        except LineSlackError as error:
+            if not run.settled:
+                raise
+            what = f"{str(error).partition(';')[0]} at t = {run.core.time:.6g} s"
+    again = run.with_elastic_lines(what)
+    with _carrying(again):
+        drive(again, Calls(controllers, again.start.time), interrupts, progress=progress)
+    return again
+
+
+@contextlib.contextmanager
+def _carrying(run: Run) -> Iterator[None]:
+    try:
+        yield
+    except BaseException as error:
+        with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
+            error.result = run.result()  # type: ignore[attr-defined]
+        raise
 
 
 def drive(
@@ -113,7 +151,49 @@ def _advise(run: Run, error: BaseException) -> None:
     if not isinstance(error, SimulationError) or not integrator(method.integrator).stable_up_to:
         return
     taken = max(int(run.core.statistics()["steps"]), 1)
-    step = method.step or (run.core.time - run.start.time) / taken
+    step = method.dt or (run.core.time - run.start.time) / taken
     advice = step_advice(method.integrator, step, fastest_mode(run.model))
     if advice:
         error.args = (f"{error}. {advice}",)
+
+
+def slow_findings(run: Run) -> list[Finding]:
+    """By the modes where the run began and where it is.
+
+    Of a run made by `Run.in_sea` they are found only where the modes at the common start, found once for all
+    such runs, come near a limit.
+    """
+    if run.start_modes is not None and not _found(run, run.start_modes, near=NEAR):
+        return []
+    last = run.last_state()
+    states = [run.start] if last is None else [run.start, last]
+    found = _found(run, Modes(run.model, list(run.scene.bodies), states))
+    return found + unsteady_oil(run.scene, run.model, states)
+
+
+def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:
+    stats, settings = run.stats(), run.settings
+    remembering = [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
+    found = stiffness(run.scene.loads, modes, stats, settings, near=near)
+    return found + growing(modes, stats, settings, undamped=remembering, near=near)
+
+
+def step_advice(integrator: str, step: float, fastest: float | None) -> str:
+    """A sentence on the step of an explicit fixed-step method; empty where it is not too long.
+
+    Parameters
+    ----------
+    integrator : str
+    step : float
+        s.
+    fastest : float or None
+        Largest |eigenvalue| at the start, 1/s.
+    """
+    limit = integrator_of(integrator).stable_up_to
+    if not limit or not fastest or fastest * step <= limit:
+        return ""
+    return (
+        f"The fastest mode at the start is {fastest:.4g} per s: {integrator} is unstable with steps longer "
+        f"than about {limit / fastest:.3g} s, and took {step:.3g} s; give dt={0.5 * limit / fastest:.1g}, or "
+        "an adaptive integrator"
+    )

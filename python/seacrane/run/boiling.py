@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.warnings import BoilingOilWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -18,10 +19,6 @@ Channels = Mapping[str, NDArray[np.float64]]
 Finding = tuple[type[Warning], str]
 SIDES = {"vapour": "full", "vapour_rod": "rod"}  # by what its event is called
 VOIDS = "hydraulic_void"
-
-
-class BoilingOilWarning(UserWarning):
-    """The oil of a hydraulic cylinder boiled: a void opened, which holds no load and closes with a knock."""
 
 
 def boiled(scene: Description, events: Sequence[Event], channels: Channels) -> Iterator[Finding]:

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED
+from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.errors import SceneError
-from seacrane.result.channels import CHANNELS, DERIVED, FIXED
-from seacrane.run.clearances import clearances
-from seacrane.run.hanging import lead_angles, tip_velocities
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.run.hanging import lead_angles, position_of, tip_velocities
 from seacrane.run.hook_loads import hook_loads, suspensions
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
+NEEDED = ("position", "quaternion")
 
 
 def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
@@ -79,13 +81,7 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
             require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error
-        dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
-        for dim, chosen in state.where.items():
-            if dim not in dims:
-                raise SceneError(
-                    f"limit state {name!r}: channel {state.channel!r} has no dimension {dim!r}; it has "
-                    f"{', '.join(sorted(dims)) or 'none'}"
-                )
+        for dim, chosen in state.names.items():
             if chosen not in axes.get(dim, ()):
                 raise SceneError(
                     f"limit state {name!r}: there is no {dim} {chosen!r}; choose from "
@@ -216,3 +212,23 @@ def _turned(angles: Array | None) -> Array | None:
 
 def _without_axis_of_one(array: Array | None) -> Array | None:
     return array[:, 0] if array is not None and array.shape[1] == 1 else array
+
+
+def clearances(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
+    """Clearances (time, gap), m; None where there is none, or the core recorded too little."""
+    if not scene.clearances or not all(name in arrays for name in NEEDED):
+        return None
+    return np.stack([_clearance(scene, arrays, one) for one in scene.clearances.values()], axis=1)
+
+
+def _clearance(scene: Description, arrays: Mapping[str, Array], gap: Clearance) -> Array:
+    center = position_of(scene, arrays, gap.body, gap.center)
+    turn = np.eye(3)[None]
+    if gap.body in scene.bodies:
+        turn = rotation_matrix(arrays["quaternion"][:, list(scene.bodies).index(gap.body)])
+    found = []
+    for name in gap.points:
+        point = scene.points[name]
+        away = position_of(scene, arrays, point.body, point.point) - center
+        found.append(distance_from_box((away[:, None, :] @ turn)[:, 0], gap.size))
+    return np.asarray(np.min(found, axis=0))

@@ -12,6 +12,7 @@ from seacrane.analysis.linearise import LARGEST
 from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
+from seacrane.warnings import GrowingModeWarning
 
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
@@ -25,10 +26,6 @@ FIX = (
     "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
     "integrator ('verner65' or 'dop853' damp up to longer steps), or give the mode damping"
 )
-
-
-class GrowingModeWarning(UserWarning):
-    """The method made an oscillation with little damping grow over a long run, or kept it ringing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +47,12 @@ class _Growth:
 
 
 def growing(
-    modes: Modes, stats: Mapping[str, Any], *, undamped: Collection[str] = (), near: float = 1.0
+    modes: Modes,
+    stats: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    *,
+    undamped: Collection[str] = (),
+    near: float = 1.0,
 ) -> list[Finding]:
     """The mode that a method feeds, looked for only where there are many steps.
 
@@ -63,8 +65,8 @@ def growing(
     ----------
     modes : Modes
         At rest in the poses of the states; the mode counts that grows most.
-    stats : mapping
-        Of the run: `Result.stats`.
+    stats, settings : mapping
+        Of the run: `Result.stats`, `Result.settings`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
     near : float
@@ -76,7 +78,7 @@ def growing(
     if not polynomial or steps < fewest_steps(states, FEWEST_STEPS) or states > LARGEST:
         return []
     duration = float(stats["simulated_s"])
-    step, tolerance = duration / steps, float(stats["settings"]["rtol"])
+    step, tolerance = duration / steps, float(settings["rtol"])
     judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")

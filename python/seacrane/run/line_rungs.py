@@ -1,4 +1,4 @@
-"""The rung that a line with stretch="auto" takes in a run: quasi-static where its bound holds."""
+"""The rung that a line with rung "auto" takes in a run: quasi-static where its bound holds."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
 from seacrane.description.loads import lines_of
-from seacrane.description.stretch import AUTO, ELASTIC, QUASI_STATIC, automatic, with_stretch
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
+from seacrane.warnings import QuasiStaticLineWarning
 
 Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
@@ -33,36 +34,34 @@ UNSMOOTH = "its winch has no lag, and so may jump"
 OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose frequency nobody knows
 
 
-class LineRungWarning(UserWarning):
-    """A line with stretch="auto" went slack as quasi-static: the run began anew with elastic lines."""
-
-
-class QuasiStaticLineWarning(UserWarning):
-    """What moves a scene is too near the frequency of a line that is given as quasi-static."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class LineRung:
-    """What a line with stretch="auto" is in a run.
+    """What a line with rung "auto" is in a run.
 
     Attributes
     ----------
-    stretch : str
+    name : str
         "elastic" or "quasi-static".
     reason : str
     """
 
-    stretch: str
+    name: str
     reason: str
 
 
-NONE = LineRung(stretch=AUTO, reason="")  # of a line that is given otherwise
+NONE = LineRung(name=AUTO, reason="")  # of a line that is given otherwise
 
 
 def line_rungs(
-    scene: Scene, known: Integrator, *, end: float, start: _core.State | None, in_memory: bool
+    scene: Scene,
+    known: Integrator,
+    *,
+    end: float,
+    start: _core.State | None,
+    in_memory: bool,
+    controlled: bool,
 ) -> dict[str, LineRung]:
-    """The rungs of a run, by line; none where no line has stretch="auto".
+    """The rungs of a run, by line; none where no line has rung "auto".
 
     Parameters
     ----------
@@ -74,55 +73,50 @@ def line_rungs(
     start : State, optional
         Where it begins; default: the assembled start of the scene.
     in_memory : bool
-        Whether its outputs stay in memory, so that it can begin anew.
+        Whether its outputs stay in memory, so that another run can take its place.
+    controlled : bool
+        Whether inputs are set during the run.
     """
     lines = automatic(scene)
     if not lines:
         return {}
     if start is not None and start.time > 0.0:
         return {name: _kept(name, start) for name in lines}
-    reason = _why_elastic(scene, known, in_memory=in_memory)
+    reason = _why_elastic(scene, known, in_memory=in_memory, controlled=controlled)
     if reason:
-        return _all_elastic(lines, reason)
+        return all_elastic(lines, reason)
     found = _by_their_own(scene, lines, end, start)
-    settled = [name for name, rung in found.items() if rung.stretch == QUASI_STATIC]
+    settled = [name for name, rung in found.items() if rung.name == QUASI_STATIC]
     try:
-        compiled(with_stretch(scene, dict.fromkeys(settled, QUASI_STATIC)), merge=True)
+        compiled(with_rungs(scene, dict.fromkeys(settled, QUASI_STATIC)), merge=True)
     except SceneError as error:
-        return _all_elastic(lines, f"the core says of quasi-static: {error}")
+        return all_elastic(lines, f"the core says of quasi-static: {error}")
     return found
-
-
-def as_compiled(scene: Scene, model: _core.Model) -> dict[str, LineRung]:
-    """The rungs of a model that is given."""
-    return _all_elastic(automatic(scene), COMPILED)
-
-
-def begun_anew(rungs: Mapping[str, LineRung], reason: str) -> dict[str, LineRung]:
-    """All elastic, for a reason that showed during the run."""
-    return _all_elastic(rungs, reason)
 
 
 def as_told(rungs: Mapping[str, LineRung]) -> str:
     """One line of text for each."""
-    return "\n".join(f"{name}: {rung.stretch}: {rung.reason}" for name, rung in rungs.items())
+    return "\n".join(f"{name}: {rung.name}: {rung.reason}" for name, rung in rungs.items())
 
 
-def _all_elastic(names: Mapping[str, object], reason: str) -> dict[str, LineRung]:
-    return {name: LineRung(stretch=ELASTIC, reason=reason) for name in names}
+def all_elastic(names: Mapping[str, object], reason: str) -> dict[str, LineRung]:
+    """The elastic rung for all of them, for one reason."""
+    return {name: LineRung(name=ELASTIC, reason=reason) for name in names}
 
 
 def _kept(name: str, start: _core.State) -> LineRung:
-    stretch = QUASI_STATIC if f"{name}.strain_rate" in start.load_states else ELASTIC
-    return LineRung(stretch=stretch, reason=f"as in the state it goes on from, at {start.time:g} s")
+    known = QUASI_STATIC if f"{name}.strain_rate" in start.load_states else ELASTIC
+    return LineRung(name=known, reason=f"as in the state it goes on from, at {start.time:g} s")
 
 
-def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool) -> str:
+def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool, controlled: bool) -> str:
     """What keeps every line elastic; empty: nothing."""
     if known.residual_form:
         return f"integrator {known.name!r} has no accelerations for lines"
     if not in_memory:
-        return "outputs leave memory during the run, which could not begin anew if a line went slack"
+        return "outputs leave memory during the run, and no other could take its place if a line went slack"
+    if controlled:
+        return "inputs are set during the run, and their jumps may make it ring"
     if scene.orientation != "quaternion":
         return f"the orientation is {scene.orientation!r}"
     for load in scene.all_loads():
@@ -137,14 +131,14 @@ def _by_their_own(
     """Each by its own bound."""
     model = compiled(scene, merge=False)
     if model.states > LARGEST:
-        return _all_elastic(lines, f"the scene has {model.states} states, more than {LARGEST}")
+        return all_elastic(lines, f"the scene has {model.states} states, more than {LARGEST}")
     values = np.array(model.initial_state if start is None else start.values)
     begin = 0.0 if start is None else start.time
     if values.size != len(model.initial_state):
-        return _all_elastic(lines, "the state that the run starts from holds other states")
+        return all_elastic(lines, "the state that the run starts from holds other states")
     kinks = [time for time in model.breakpoints if begin < time < end]
     if len(kinks) > MOST_KINKS:
-        return _all_elastic(lines, f"curves have {len(kinks)} kinks, each of which may shake it")
+        return all_elastic(lines, f"curves have {len(kinks)} kinks, each of which may shake it")
     accelerations = _core.Evaluator(model).accelerations
     jumps = [_jump(lambda t: np.asarray(accelerations(t, values)), time) for time in kinks]
     sources = list(excitations(scene, start=begin, end=end))
@@ -162,10 +156,10 @@ def _beside_elastic(
     """Elastic too where the ringing of an elastic line that moves what a line moves errs by too much."""
     out = dict(rungs)
     lines = lines_of(scene.loads)
-    ringing = [name for name, line in lines.items() if ELASTIC in (line.stretch, out.get(name, NONE).stretch)]
+    ringing = [name for name, line in lines.items() if ELASTIC in (line.rung, out.get(name, NONE).name)]
     while ringing:
         other = ringing.pop()
-        for name in [name for name, rung in out.items() if rung.stretch == QUASI_STATIC]:
+        for name in [name for name, rung in out.items() if rung.name == QUASI_STATIC]:
             fast, own = np.array([now[other].fastest]), now[name]
             error = _error(lines[name].settling, own, fast, np.ones(1))
             if other in own.coupled and error > LARGEST_ERROR:
@@ -178,7 +172,7 @@ def _beside_elastic(
 
 
 def _elastic(reason: str) -> LineRung:
-    return LineRung(stretch=ELASTIC, reason=reason)
+    return LineRung(name=ELASTIC, reason=reason)
 
 
 def _jump(of: Callable[[float], Array], time: float) -> tuple[Array, Array]:
@@ -227,7 +221,7 @@ def _bounded(
     )
     if error > LARGEST_ERROR:
         return _elastic(f"{text}: more than {100.0 * LARGEST_ERROR:g} %")
-    return LineRung(stretch=QUASI_STATIC, reason=text)
+    return LineRung(name=QUASI_STATIC, reason=text)
 
 
 def _worst_error(
@@ -276,10 +270,10 @@ def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.
 
 def warn_of_quasi_static(scene: Scene, model: _core.Model, *, end: float) -> None:
     """Warn of lines that are given as quasi-static where what moves the scene is too near their frequency."""
-    lines = {name: line for name, line in lines_of(scene.loads).items() if line.stretch == QUASI_STATIC}
+    lines = {name: line for name, line in lines_of(scene.loads).items() if line.rung == QUASI_STATIC}
     if not lines or scene.orientation != "quaternion" or model.states > LARGEST:
         return
-    elastic = compiled(with_stretch(scene, dict.fromkeys(lines, ELASTIC)), merge=False)
+    elastic = compiled(with_rungs(scene, dict.fromkeys(lines, ELASTIC)), merge=False)
     now = line_dynamics(scene, elastic, np.array(elastic.initial_state), 0.0)
     sources = list(excitations(scene, start=0.0, end=end))
     for name, line in lines.items():
@@ -288,6 +282,6 @@ def warn_of_quasi_static(scene: Scene, model: _core.Model, *, end: float) -> Non
             warn_caller(
                 f"line {name!r}: its stretch is quasi-static, and its tension errs by about "
                 f"{100.0 * error:.2g} % of what {worst} makes of it, its own frequency being "
-                f"{now[name].omega:.4g} rad/s. Give it stretch 'elastic', or 'auto', or a smaller settling",
+                f"{now[name].omega:.4g} rad/s. Give it rung 'elastic', or 'auto', or a smaller settling",
                 QuasiStaticLineWarning,
             )

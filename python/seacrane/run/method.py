@@ -9,12 +9,14 @@ from typing import Any
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.renamed import refusing
 
 DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE = "dopri5", 1e-6
 LARGEST_TOLERANCE = 0.1
 FORMULATIONS = ("auto", "recursive", "redundant")
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class Method:
     """How a scene is stepped: integrator, tolerance or step, formulation. What is None is the default.
@@ -23,18 +25,18 @@ class Method:
     ----------
     integrator : str
         One of `seacrane.integrator_names()`; docs/integrators.md says what each is for.
-    tolerance : float, optional
+    rtol : float, optional
         Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
         times `scene.length_scale`): absolute, so that results do not depend on where the origin is. Methods
         of fixed step take it where they iterate, and to tell which kinks of curves end a step. Default 1e-6.
-    step : float, optional
+    dt : float, optional
         Step of fixed-step methods, s; default: the method's own.
     formulation : str
         "redundant": six velocities per body and multipliers, the paper's. "recursive": the same motion in
         the coordinates of a tree of bodies, cylinder loops in closed form, other loops by a small block of
         constraints; several times faster. "auto" (default) takes it where it leaves no constraints, or where
         the redundant one would be solved densely at far more cost, and the integrator allows.
-    max_step : float, optional
+    maximum_step : float, optional
         Longest step, s; default: no limit.
     spectral_radius : float, optional
         What is left after a step of "generalized-alpha" of a motion far too fast for it: 1 damps nothing, 0
@@ -50,10 +52,10 @@ class Method:
     """
 
     integrator: str = DEFAULT_INTEGRATOR
-    tolerance: float | None = None
-    step: float | None = None
+    rtol: float | None = None
+    dt: float | None = None
     formulation: str = "auto"
-    max_step: float | None = None
+    maximum_step: float | None = None
     spectral_radius: float | None = None
     energy_limit: float | None = None
 
@@ -68,14 +70,14 @@ class Method:
             object.__setattr__(self, name, None if value is None else check(name, value))
 
     @property
-    def used_tolerance(self) -> float:
+    def used_rtol(self) -> float:
         """The tolerance, or the default one."""
-        return DEFAULT_TOLERANCE if self.tolerance is None else self.tolerance
+        return DEFAULT_TOLERANCE if self.rtol is None else self.rtol
 
     @property
     def setting(self) -> str:
         """The step and the tolerance that were given, in words."""
-        given = (("dt", self.step), ("rtol", self.tolerance))
+        given = (("dt", self.dt), ("rtol", self.rtol))
         return " ".join(f"{word}={value:g}" for word, value in given if value is not None)
 
     @property
@@ -109,9 +111,9 @@ def energy_limit_of(name: str, value: Any) -> float:
 
 
 CHECKS = {
-    "tolerance": tolerance_of,
-    "step": step_of,
-    "max_step": step_of,
+    "rtol": tolerance_of,
+    "dt": step_of,
+    "maximum_step": step_of,
     "spectral_radius": number_of,
     "energy_limit": energy_limit_of,
 }

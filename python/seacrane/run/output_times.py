@@ -7,16 +7,12 @@ import os
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.errors import SceneError
+from seacrane.errors import OutputMemoryError, SceneError
 
 Array = NDArray[np.float64]
 MOST_OUTPUTS = 1e8
 FARTHEST_TIME = 1e12  # s; doubles tell 1e-4 s apart there
 COPIES = 2  # of the outputs: the rows of the loop, and the arrays of the result
-
-
-class OutputMemoryError(SceneError, MemoryError):
-    """The outputs asked for would not fit into this computer's memory; nothing has been allocated."""
 
 
 def output_times(t_start: float, t_end: float, dt_out: float, *, first: float, values: int) -> Array:

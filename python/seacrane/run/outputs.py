@@ -7,17 +7,19 @@ from dataclasses import dataclass
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.renamed import refusing
 
 DEFAULT_INTERVAL = 0.1  # s
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class Outputs:
     """What a run records, and how often.
 
     Attributes
     ----------
-    dt : float
+    dt_out : float
         Output interval, s. Outputs are interpolated, projected, then evaluated; they never shorten steps.
     channels : sequence of str, optional
         What to record, kept as a tuple; default: all default channels of the scene.
@@ -29,11 +31,11 @@ class Outputs:
         channels is known when it is run.
     """
 
-    dt: float = DEFAULT_INTERVAL
+    dt_out: float = DEFAULT_INTERVAL
     channels: Iterable[str] | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "dt", number_of("dt_out", self.dt))
+        object.__setattr__(self, "dt_out", number_of("dt_out", self.dt_out))
         if self.channels is None:
             return
         if isinstance(self.channels, str) or not isinstance(self.channels, Iterable):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,16 +12,18 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.compilation import compiled, compiled_in_sea
+from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
-from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
+from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
-from seacrane.errors import SceneError, SeacraneError, SimulationError
+from seacrane.errors import SceneError, SeacraneError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
-from seacrane.result.channels import CHANNELS, DERIVED
+from seacrane.result.about import About
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -37,11 +39,10 @@ from seacrane.run.channel_names import (
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
+    COMPILED,
     LineRung,
-    LineRungWarning,
-    as_compiled,
+    all_elastic,
     as_told,
-    begun_anew,
     line_rungs,
     warn_of_quasi_static,
 )
@@ -51,13 +52,14 @@ from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
+from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
 from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
+from seacrane.warnings import LineRungWarning
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -86,6 +88,8 @@ class Run:
         Outputs to take memory for at first; default: all.
     model : Model, optional
         The compiled scene, to save compiling it again.
+    controlled : bool
+        Whether inputs will be set during the run, see `set_inputs`: lines with rung "auto" are then elastic.
     **shorthand
         As `simulate`.
 
@@ -100,7 +104,7 @@ class Run:
     start_modes : Modes or None
         At the start that runs made by `in_sea` have in common; None for a run by itself.
     rungs : mapping of str to LineRung
-        What lines with stretch="auto" are in this run, and why.
+        What lines with rung "auto" are in this run, and why.
     core : Simulation
         The run in the core: time, counters, recorded channels by the core's names.
     interrupted : bool
@@ -118,12 +122,14 @@ class Run:
         outputs_from: float | None = None,
         capacity: int | None = None,
         model: _core.Model | None = None,
+        controlled: bool = False,
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = number_of("t_end", t_end)
-        self._given = scene.copy() if automatic(scene) else scene  # to begin anew with it
-        self._given_start, self._capacity = _checked_state(start), capacity
+        scene = with_holds(scene)
+        self._given = scene.copy() if automatic(scene) else scene
+        self._given_start, self._capacity, self._controlled = _checked_state(start), capacity, controlled
         self.rungs = self._chosen_rungs(model)
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
@@ -166,7 +172,7 @@ class Run:
         if self.rungs:  # which depend on the sea
             return Run(
                 given, self.t_end, method=self.method, outputs=self.outputs, start=self._given_start,
-                outputs_from=self.first, capacity=self._capacity,
+                outputs_from=self.first, capacity=self._capacity, controlled=self._controlled,
             )  # fmt: skip
         out = copy(self)
         out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
@@ -186,7 +192,7 @@ class Run:
         self.interrupted = False
         self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
-        self.slack: list[Finding] = []  # what made it begin anew
+        self.slack: list[Finding] = []  # why it stands in the place of another run
         self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
     def _simulation(self) -> _core.Simulation:
@@ -194,16 +200,15 @@ class Run:
 
     def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
         if model is not None:
-            return as_compiled(self._given, model)
+            return all_elastic(automatic(self._given), COMPILED)
         return line_rungs(
             self._given, integrator(self.method.integrator), end=self.t_end, start=self._given_start,
-            in_memory=self._capacity is None,
+            in_memory=self._capacity is None, controlled=self._controlled,
         )  # fmt: skip
 
     def _step(self, model: _core.Model | None) -> None:
         """What is stepped, from where, with the rungs that its lines have."""
-        stretches = {name: rung.stretch for name, rung in self.rungs.items()}
-        scene = with_stretch(self._given, stretches)
+        scene = with_rungs(self._given, {name: rung.name for name, rung in self.rungs.items()})
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
         self.start = self._started()
 
@@ -223,53 +228,57 @@ class Run:
         return bool(there ^ start.load_states.keys()) and there ^ start.load_states.keys() <= own
 
     @property
-    def _may_begin_anew(self) -> bool:
-        return any(rung.stretch == QUASI_STATIC for rung in self.rungs.values())
+    def settled(self) -> list[str]:
+        """Lines that rung "auto" made quasi-static."""
+        return [name for name, rung in self.rungs.items() if rung.name == QUASI_STATIC]
 
-    def _begin_anew(self, reason: str) -> None:
-        """From the start, with elastic lines in the place of those whose stretch is automatic."""
-        self.rungs = begun_anew(self.rungs, reason)
-        self._step(None)
-        self._lasting = _Lasting.of(self)
-        self.core = self._simulation()
+    def pushing(self) -> str:
+        """One of these whose recorded tension is negative somewhere; or none."""
+        arrays = self.core.channels() if self.settled else {}
+        if "line_tension" not in arrays:
+            return ""
+        least = arrays["line_tension"].min(axis=0, initial=0.0)
+        pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
+        return next((name for name in pushed if name in self.rungs), "")
+
+    def with_elastic_lines(self, what: str) -> Run:
+        """This run at its start, with elastic lines in the place of those that "auto" settled.
+
+        Parameters
+        ----------
+        what : str
+            What showed that a line cannot be quasi-static; the result of the new run tells it.
+        """
+        out = copy(self)
+        out.rungs = all_elastic(self.rungs, f"a first run was not: {what}")
+        out._step(None)
+        out._lasting = _Lasting.of(out)
+        out.core = out._simulation()
+        out.interrupted, out.slow = False, []
+        text = (
+            f"{what}. 'auto' had chosen its rung; this is a second run from the same start, with elastic "
+            "lines. Give rung='elastic' to save the first one"
+        )
+        out.slack = [(LineRungWarning, text)]
+        return out
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
         return f"<Run of {self.scene.name!r}: {method}, at {self.core.time:g} s>"
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
-        """Step to t_end (s); False when Ctrl-C stopped it."""
-        try:
-            reached = self.core.advance(float(t_end), progress)
-        except SimulationError as error:
-            if not self._may_begin_anew or "its stretch is quasi-static" not in str(error):
-                raise
-            self._went_slack(f"{str(error).partition(';')[0]} at t = {self.core.time:.6g} s")
-            reached = self.core.advance(float(t_end), progress)
-        if reached and self.core.time >= self.t_end and (pushing := self._pushing()):
-            self._went_slack(f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment")
-            reached = self.core.advance(float(t_end), progress)
+        """Step to t_end (s); False when Ctrl-C stopped it.
+
+        Raises
+        ------
+        LineSlackError
+            Where a line of rung "quasi-static", also one that "auto" made so, cannot go on; `simulate` then
+            makes a second run, `with_elastic_lines`, where "auto" had chosen.
+        """
+        reached = self.core.advance(float(t_end), progress)
         if not reached:
             self.interrupted = True
         return not self.interrupted
-
-    def _pushing(self) -> str:
-        """A line that 'auto' made quasi-static and whose recorded tension is negative somewhere; or none."""
-        if not self._may_begin_anew:
-            return ""
-        arrays = self.core.channels()
-        least = arrays["line_tension"].min(axis=0, initial=0.0) if "line_tension" in arrays else []
-        pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
-        return next((name for name in pushed if name in self.rungs), "")
-
-    def _went_slack(self, what: str) -> None:
-        """Begin anew where a line that was settled to be quasi-static cannot be."""
-        self._begin_anew(f"the run began anew: {what}")
-        text = (
-            f"{what}. 'auto' had chosen its stretch; the run began anew from its start with elastic lines. "
-            "Give stretch='elastic' to save the first one"
-        )
-        self.slack = [(LineRungWarning, text)]
 
     @property
     def state(self) -> _core.State:
@@ -310,23 +319,17 @@ class Run:
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
-        if self._may_begin_anew:
-            self._steer_elastic()
+        if self.settled:
+            lines = ", ".join(self.settled)
+            raise SceneError(
+                f"inputs: set at t = {self.core.time:.6g} s in a run whose lines {lines} 'auto' made "
+                "quasi-static, and inputs that jump make a line ring; give the Run controlled=True, or the "
+                "lines rung 'elastic' (or 'quasi-static', where the inputs are smooth)"
+            )
         with self.core:
             slots = changed_inputs(self.scene, self.model, np.array(self.core.state.inputs), values)
             self.core.set_inputs(slots)
             self.steered |= steered(self.scene, self.model, slots)
-
-    def _steer_elastic(self) -> None:
-        """Inputs jump and make a line ring: as long as nothing has been stepped, lines can be elastic."""
-        if self.core.time > self.start.time:
-            lines = ", ".join(name for name, rung in self.rungs.items() if rung.stretch == QUASI_STATIC)
-            raise SceneError(
-                f"inputs: set at t = {self.core.time:.6g} s in a run whose lines {lines} 'auto' made "
-                "quasi-static, and inputs that jump make a line ring; set inputs at the start, or give the "
-                "lines stretch 'elastic' (or 'quasi-static', where the inputs are smooth)"
-            )
-        self._begin_anew("inputs are set during the run, and their jumps may make it ring")
 
     def events(self) -> list[Event]:
         """What limits did so far, and which hoses burst."""
@@ -338,12 +341,17 @@ class Run:
         return sorted([*met, *burst], key=lambda event: event.time)
 
     def stats(self) -> dict[str, Any]:
-        """Version, settings, counters so far, and warnings of the description: `Result.stats`."""
+        """Version, method, counters so far, and warnings of the description: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         waves = self.scene.waves
-        counted = stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
+        counted = stats_of(self._lasting.stats, waves, self.core, self.start.time)
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
         return told | counted | warned | self.lanes
+
+    @property
+    def about(self) -> About:
+        """What is structured: `Result.about`."""
+        return replace(self._lasting.about, settings=self.settings)
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -384,6 +392,7 @@ class Run:
                 coords=self._lasting.coords,
                 events=met,
                 stats=stats,
+                about=self.about,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,
                 scene=scene.copy(notes={}),
@@ -398,6 +407,7 @@ class Run:
         """What a result could not hold is refused now, not when the run is over."""
         try:
             checked_stats(self.stats())
+            self.about.to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
@@ -422,12 +432,15 @@ class _Lasting:
         Actuators whose inputs are not zero at the start.
     stats : mapping
         Of `lasting_stats`.
+    about : About
+        Of the scene; the settings differ by sea.
     """
 
     options: _core.RunOptions
     coords: Mapping[str, list[str]]
     steered: frozenset[str]
     stats: Mapping[str, Any]
+    about: About
 
     @classmethod
     def of(cls, run: Run) -> _Lasting:
@@ -437,6 +450,7 @@ class _Lasting:
             coords={**model.axes, **derived_coords(scene)},
             steered=frozenset(steered(scene, model, run.start.inputs)),
             stats=lasting_stats(scene, model, run.formulation, run.method),
+            about=about_of(scene),
         )
 
 
@@ -447,11 +461,11 @@ def _options(run: Run) -> _core.RunOptions:
     asked = usual if outputs.channels is None else list(outputs.channels)
     channels = core_channels(asked, model.channel_names(defaults_only=False))
     times = output_times(
-        run.start.time, run.t_end, outputs.dt, first=run.first,
+        run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
     return _core.RunOptions(
-        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
-        fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
+        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
+        fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip

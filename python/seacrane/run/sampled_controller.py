@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError, SimulationError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
@@ -36,8 +36,7 @@ class SampledController:
     function: Callable[[float, Snapshot], Mapping[str, Any]]
 
     def __post_init__(self) -> None:
-        if not number_of("controller: period", self.period) > 0.0 or not np.isfinite(self.period):
-            raise SceneError(f"controller: period is {self.period} s; make it positive and finite")
+        positive_of("controller: period", self.period, "s")
         if not callable(self.function):
             raise SceneError(f"controller: function is {self.function!r}; give a function(time, measured)")
 

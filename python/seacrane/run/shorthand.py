@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypedDict
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
-from seacrane.run.method import Method, energy_limit_of, step_of, tolerance_of
+from seacrane.renamed import SETTINGS, instead
+from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 
 
@@ -19,31 +19,15 @@ class Shorthand(TypedDict, total=False):
     rtol: float | None
     dt: float | None
     formulation: str | None
-    max_step: float | None
+    maximum_step: float | None
     spectral_radius: float | None
     energy_limit: float | None
     dt_out: float | None
     channels: Sequence[str] | None
 
 
-def _as_it_is(_: str, value: Any) -> Any:
-    return value
-
-
-# The attribute that a word stands for, and its check, so that an error has the user's word for it.
-METHOD_WORDS: dict[str, tuple[str, Callable[[str, Any], Any]]] = {
-    "integrator": ("integrator", _as_it_is),
-    "rtol": ("tolerance", tolerance_of),
-    "dt": ("step", step_of),
-    "formulation": ("formulation", _as_it_is),
-    "max_step": ("max_step", step_of),
-    "spectral_radius": ("spectral_radius", number_of),
-    "energy_limit": ("energy_limit", energy_limit_of),
-}
-OUTPUT_WORDS: dict[str, tuple[str, Callable[[str, Any], Any]]] = {
-    "dt_out": ("dt", number_of),
-    "channels": ("channels", _as_it_is),
-}
+METHOD_WORDS = tuple(Method.__dataclass_fields__)
+OUTPUT_WORDS = tuple(Outputs.__dataclass_fields__)
 
 
 def settled(
@@ -59,10 +43,12 @@ def settled(
     TypeError
         For a word that is none.
     """
-    unknown = [word for word in shorthand if word not in METHOD_WORDS and word not in OUTPUT_WORDS]
-    if unknown:
-        known = ", ".join([*METHOD_WORDS, *OUTPUT_WORDS])
-        raise TypeError(f"unexpected keyword argument {unknown[0]!r}; settings are method, outputs, {known}")
+    for word in shorthand:
+        if word in SETTINGS:
+            raise TypeError(f"there is no keyword {word!r} since 0.3; {instead(SETTINGS[word])}")
+        if word not in METHOD_WORDS and word not in OUTPUT_WORDS:
+            known = ", ".join([*METHOD_WORDS, *OUTPUT_WORDS])
+            raise TypeError(f"unexpected keyword argument {word!r}; settings are method, outputs, {known}")
     return (
         _settled("method", Method, method, METHOD_WORDS, shorthand),
         _settled("outputs", Outputs, outputs, OUTPUT_WORDS, shorthand),
@@ -79,33 +65,20 @@ def overridden(
     )
 
 
-def _settled(
-    name: str,
-    kind: Any,
-    given: Any,
-    words: Mapping[str, tuple[str, Callable[[str, Any], Any]]],
-    shorthand: Mapping[str, Any],
-) -> Any:
+def _settled(name: str, kind: Any, given: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
     if given is not None and not isinstance(given, kind):
         raise SceneError(f"{name} is {given!r}; give a seacrane.{kind.__name__}")
     made = _changed(kind() if given is None else given, words, shorthand)
     if given is not None and made != given:
-        word = next(w for w in words if getattr(made, words[w][0]) != getattr(given, words[w][0]))
-        attribute = words[word][0]
+        word = next(word for word in words if getattr(made, word) != getattr(given, word))
         raise SceneError(
-            f"{word}={shorthand[word]!r} contradicts {name}, whose {attribute} is "
-            f"{getattr(given, attribute)!r}: leave {word} out, or change {name}"
+            f"{word}={shorthand[word]!r} contradicts {name}, whose {word} is {getattr(given, word)!r}: "
+            f"leave {word} out, or change {name}"
         )
     return made
 
 
-def _changed(
-    whole: Any, words: Mapping[str, tuple[str, Callable[[str, Any], Any]]], shorthand: Mapping[str, Any]
-) -> Any:
+def _changed(whole: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
     """The object with the attributes that the words given stand for."""
-    values = {
-        words[word][0]: words[word][1](word, value)
-        for word, value in shorthand.items()
-        if word in words and value is not None
-    }
+    values = {word: shorthand[word] for word in words if shorthand.get(word) is not None}
     return replace(whole, **values)

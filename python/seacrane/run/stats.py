@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
 from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
-from seacrane.description.limit_states import limit_states_to_data
 from seacrane.description.line_weights import line_weights
 from seacrane.description.origin import origin_settings, sea_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.description.provenance import SEA_SETTINGS
 from seacrane.description.waves import Waves
 from seacrane.files.plain_data import plain_notes
+from seacrane.result.about import About
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -25,16 +24,16 @@ from seacrane.version import __version__
 def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) -> dict[str, Any]:
     """The settings of a run by the words of `simulate`; a word that is absent was left to its default."""
     given = {
-        "dt": method.step,
-        "max_step": method.max_step,
+        "dt": method.dt,
+        "maximum_step": method.maximum_step,
         "spectral_radius": method.spectral_radius,
         "energy_limit": method.energy_limit,
     }
     notes = plain_notes(scene.name, scene.notes)
     return {
         "t_end": t_end,
-        "dt_out": outputs.dt,
-        "rtol": method.used_tolerance,
+        "dt_out": outputs.dt_out,
+        "rtol": method.used_rtol,
         **{word: value for word, value in given.items() if value is not None},
         "orientation": scene.orientation,
         "baumgarte": scene.baumgarte,
@@ -49,24 +48,27 @@ def settings_in_sea(settings: Mapping[str, Any], scene: Scene) -> dict[str, Any]
     return others | sea_settings(scene)
 
 
+def about_of(scene: Scene) -> About:
+    """What a result notes of a scene; of its settings nothing."""
+    return About(
+        limit_states=tuple(scene.limit_states.values()),
+        cranes=[roles_to_data(roles) for roles in scene.roles.values()],
+        outline=outline_of(scene),
+        bounds=bounds_of(scene),
+        hanging_weight=hanging_weights(scene),
+        line_weight=line_weights(scene),
+    )
+
+
 def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> dict[str, Any]:
     """What `Result.stats` say of a run before it begins, whatever its sea; what is missing stands as None."""
     recursive = formulation == "recursive"
-    cranes = [roles_to_data(roles) for roles in scene.roles.values()]
-    bounds, weights, on_lines = bounds_of(scene), hanging_weights(scene), line_weights(scene)
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
         "payload": "\n".join(hanging_bodies(scene)) or None,
-        "hanging_weight": json.dumps(weights) if weights else None,
-        "line_weight": json.dumps(on_lines) if on_lines else None,
-        "cranes": json.dumps(cranes) if cranes else None,
-        "outline": json.dumps(outline_of(scene)),
-        "limit_states": json.dumps(limit_states_to_data(scene)) if scene.limit_states else None,
-        "bounds": json.dumps(bounds) if bounds else None,
         "formulation": formulation,
         "integrator": method.integrator,
-        "settings": None,
         "simulated_s": None,
         "coordinates": model.coordinates,
         "constraints": model.constraints,
@@ -81,14 +83,12 @@ def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Me
 def stats_of(
     lasting: Mapping[str, Any],
     waves: Waves | None,
-    settings: Mapping[str, Any],
     core: _core.Simulation,
     start: float,
 ) -> dict[str, Any]:
     """`Result.stats` of a run so far, from its lasting ones; `start` is its start time, s."""
     return {
         **lasting,
-        "settings": settings,
         "simulated_s": core.time - start,
         **core.statistics(),
         **({} if waves is None else waves.provenance.stats()),

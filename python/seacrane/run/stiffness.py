@@ -10,6 +10,7 @@ from seacrane.analysis.linearise import LARGEST
 from seacrane.description.loads import any_stiff, lines_of, whole_of
 from seacrane.run.modes import Modes
 from seacrane.validity.range import Finding
+from seacrane.warnings import StiffWarning
 
 MANY_STEPS = 10_000  # fewer are no matter
 STATES_SQUARED_PER_STEP = 5.0  # so many steps cost ten times the eigenvalues of so many states
@@ -18,17 +19,18 @@ SETTLES = 3.0  # |eigenvalue| times settling time: a quasi-static stretch is slo
 UNSEEN = 20.0  # |eigenvalue| times output interval: three periods between two outputs
 
 
-class StiffWarning(UserWarning):
-    """One mode is so fast that an explicit method takes short steps for it alone."""
-
-
 def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
     """Of a run that is worth the eigenvalues of so many states."""
     return max(least, int(states**2 / STATES_SQUARED_PER_STEP))
 
 
 def stiffness(
-    loads: Mapping[str, Any], modes: Modes, stats: Mapping[str, Any], *, near: float = 1.0
+    loads: Mapping[str, Any],
+    modes: Modes,
+    stats: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    *,
+    near: float = 1.0,
 ) -> list[Finding]:
     """The mode that sets the steps of a slow run, looked for only where there are many steps.
 
@@ -38,8 +40,8 @@ def stiffness(
         Of the scene, by name.
     modes : Modes
         The fastest of them counts.
-    stats : mapping
-        Of the run: `Result.stats`.
+    stats, settings : mapping
+        Of the run: `Result.stats`, `Result.settings`.
     near : float
         Share of the limits from which on it is told.
     """
@@ -51,7 +53,7 @@ def stiffness(
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = modes.fastest.mode, modes.fastest.body, modes.fastest.time
-    shown = mode * float(stats["settings"]["dt_out"]) < near * UNSEEN
+    shown = mode * float(settings["dt_out"]) < near * UNSEEN
     if mode * step < near * NEAR_THE_LIMIT or shown:
         return []
     return [
@@ -77,13 +79,13 @@ def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
     fast = {
         whole_of(name, line)
         for name, line in lines_of(loads).items()
-        if line.stretch == "elastic" and body in line.bodies and mode * line.settling > SETTLES
+        if line.rung == "elastic" and body in line.bodies and mode * line.settling > SETTLES
     }
     names = [repr(name) for name in sorted(fast)]
     if not names:
         return ""
     return (
         f". If it is the stretch of line {' or '.join(names)} and the line stays taut, give it "
-        "stretch='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
+        "rung='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
         f"omega rad/s the tension errs by less than (omega / {mode:.4g})^2 of what omega makes of it"
     )

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from seacrane.result.events import Event
+from seacrane.warnings import ThroughSeatWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
 Finding = tuple[type[Warning], str]
-
-
-class ThroughSeatWarning(UserWarning):
-    """What had left a seat went below its plane again: nothing stops it there, where a deck would."""
 
 
 def fallen_through(scene: Description, events: Sequence[Event]) -> list[Finding]:

@@ -6,7 +6,7 @@ import contextlib
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,10 +16,11 @@ from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.state import state_from_bytes, state_to_bytes
 from seacrane.inputs.checked import number_of
+from seacrane.result.about import About
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.result import Result
-from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
+from seacrane.result.stream import DIGEST, Left, ResultFile, Told, difference, rows_of_piece
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
@@ -52,6 +53,8 @@ class StreamedResult:
         Outputs in the file.
     stats : mapping
         As `Result.stats`; counters are those of all calls that wrote the file.
+    about : About
+        As `Result.about`.
     interrupted : bool
         True if Ctrl-C stopped the run.
     """
@@ -59,6 +62,7 @@ class StreamedResult:
     path: Path
     outputs: int
     stats: Mapping[str, Any]
+    about: About
     interrupted: bool
 
     def load(self, channels: Sequence[str] | None = None) -> Result:
@@ -156,7 +160,9 @@ def simulate_to_file(
         finally:
             file.release()
     warn_of(writer.found)
-    return StreamedResult(path=where, outputs=file.outputs, stats=file.stats, interrupted=run.interrupted)
+    return StreamedResult(
+        path=where, outputs=file.outputs, stats=file.stats, about=file.about, interrupted=run.interrupted
+    )
 
 
 def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
@@ -174,9 +180,10 @@ def _begun(
     """The run, from its start or from where one that was stopped left it."""
     if left is None:
         return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY)
-    own = {DIGEST: digest, "seacrane_version": __version__}
-    if left.piece.stats.get(DIGEST) != digest:
-        _refuse(left, difference(left.piece.stats, (), {**left.piece.stats, **own}, ()))
+    old = Told(stats=left.piece.stats, about=left.piece.about)
+    if old.stats.get(DIGEST) != digest:
+        own = {DIGEST: digest, "seacrane_version": __version__}
+        _refuse(left, difference(old, replace(old, stats={**old.stats, **own})))
     state = state_from_bytes(left.piece.state, left.source)
     return Run(
         scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=state, outputs_from=left.first
@@ -212,12 +219,13 @@ class _Writer:
 
     def begin(self, left: Left | None, *, overwrite: bool, unlike: str) -> None:
         """Begin the file, or continue it; FileFormatError or FileExistsError where it is of another run."""
-        channels, stats = list(self._widths), checked_stats(self._stats())
+        new = Told(stats=checked_stats(self._stats()), about=self._run.about, channels=list(self._widths))
         if left is not None:
-            old_channels = [name for name in left.piece.arrays if name != "time"]
-            _refuse(left, difference(left.piece.stats, old_channels, stats, channels))
+            channels = [name for name in left.piece.arrays if name != "time"]
+            old = Told(stats=left.piece.stats, about=left.piece.about, channels=channels)
+            _refuse(left, difference(old, new))
         if not (overwrite or (left is not None and not left.end)):
-            self._file.require_same(stats, channels, unlike)
+            self._file.require_same(new, unlike)
         if left is None:
             self._file.begin()
             self._keep()
@@ -248,8 +256,8 @@ class _Writer:
             self._find(found)
             state = run.last_state()
             self._file.append(
-                result, stats=checked_stats(self._stats()), events=run.events(), interrupted=interrupted,
-                state=b"" if state is None else state_to_bytes(state),
+                result, stats=checked_stats(self._stats()), about=run.about, events=run.events(),
+                interrupted=interrupted, state=b"" if state is None else state_to_bytes(state),
             )  # fmt: skip
             run.core.drop(count)
         self._due = run.core.time + self._every

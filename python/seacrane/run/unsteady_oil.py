@@ -13,6 +13,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.scene import Description
 from seacrane.one_thread import one_thread
 from seacrane.validity.range import Finding
+from seacrane.warnings import UnsteadyOilWarning
 
 Array = NDArray[np.float64]
 OPEN = 1e-3  # of the spool's travel, to both sides of the overlap
@@ -21,10 +22,6 @@ SLOWEST = 0.1  # rad/s: slower modes are those of drifting vessels
 HALVINGS = 8  # of the gain, until it is steady
 MARGIN = 0.5  # of that gain, which is told
 RESTLESS = 0.5  # m/s2: what would set out faster is not at rest
-
-
-class UnsteadyOilWarning(UserWarning):
-    """The gain of a hydraulic cylinder is so high that its load swings with a growing amplitude."""
 
 
 @one_thread

@@ -6,13 +6,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.description.forces import add_load
 from seacrane.description.line_path import described_poses
+from seacrane.description.rungs import StretchingRung
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, rows_of, shaped_of, text_of, vector_of
-from seacrane.scene.lines import add_line
+from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
+from seacrane.scene.lines import STRETCHING
 
 
+@refusing
 def add_bridle(
     scene: Description,
     *,
@@ -20,16 +25,16 @@ def add_bridle(
     hook: str,
     load: str,
     points: ArrayLike,
-    stiffnesses: ArrayLike,
+    EA: ArrayLike,
     hook_point: ArrayLike = (0.0, 0.0, 0.0),
     lengths: ArrayLike = (),
     damping_ratio: float = 0.02,
-    stretch: str = "elastic",
+    rung: StretchingRung = "elastic",
     settling: float = 0.2,
 ) -> list[_core.Line]:
     """Slings from one point of a hook to points of a load: a line for each, "<name> 1", "<name> 2" and so on.
 
-    Four or more share a load by their stiffnesses and lengths: the scene need not be determined by statics.
+    Four or more share a load by their EA and lengths: the scene need not be determined by statics.
 
     Parameters
     ----------
@@ -38,13 +43,13 @@ def add_bridle(
         Bodies that are there; the hook may be "ground".
     points : array_like, shape (n, 3)
         On the load, in its coordinates, m.
-    stiffnesses : array_like, shape (n,) or ()
-        EA of each sling, N; one number for all.
+    EA : array_like, shape (n,) or ()
+        Axial stiffness of each sling, N; one number for all.
     hook_point : array_like, shape (3,)
         On the hook, in its coordinates, m.
     lengths : array_like, shape (n,), optional
         Unstretched, m; by default the distances between the bodies as they are described.
-    damping_ratio, stretch, settling
+    damping_ratio, rung, settling
         Of each, as in `add_line`; the mass on each is its share of the load's.
 
     Returns
@@ -54,7 +59,7 @@ def add_bridle(
     Raises
     ------
     SceneError
-        For fewer than two points, bodies that are not there, and what `add_line` refuses.
+        For fewer than two points, bodies that are not there, another rung, and what `add_line` refuses.
     """
     what = f"bridle {name_of('bridle', name)!r}"
     ends = rows_of(f"{what}: points", points, 3)
@@ -63,19 +68,21 @@ def add_bridle(
     for role, body in (("hook", text_of(f"{what}: hook", hook)), ("load", text_of(f"{what}: load", load))):
         if body not in scene.bodies and (role == "load" or body != "ground"):
             raise SceneError(f"{what}: {role} {body!r} is no body of the scene; add it first")
+    if rung not in STRETCHING:
+        raise SceneError(f"{what}: rung is {shown(rung)}; choose one of {', '.join(map(repr, STRETCHING))}")
     poses = described_poses(scene)
     top = shaped_of(f"{what}: hook_point", hook_point, (3,))
     origin, rotation = poses(hook)
     foot, turned = poses(load)
     apart = np.linalg.norm(foot + ends @ turned.T - origin - rotation @ top, axis=1)
     given = _for_each(f"{what}: lengths", lengths, len(ends)) if np.size(lengths) else apart.tolist()
-    stiff = _for_each(f"{what}: stiffnesses", stiffnesses, len(ends))
+    axial = _for_each(f"{what}: EA", EA, len(ends))
     return [
-        add_line(
-            scene, name=f"{name} {i + 1}", bodies=[hook, load], points=[top, end], stiffness=stiff[i],
+        add_load(scene, _core.Line(
+            name=f"{name} {i + 1}", bodies=[hook, load], points=[top, end], EA=axial[i],
             length=given[i], damping_ratio=damping_ratio, mass=scene.bodies[load].mass / len(ends),
-            stretch=stretch, settling=settling,
-        )
+            rung=rung, settling=settling,
+        ))
         for i, end in enumerate(ends)
     ]  # fmt: skip
 

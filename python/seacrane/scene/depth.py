@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.sea.dispersion import wavenumber
 
 LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
-def require_depth(waves: Waves, database: HydroDatabase | MotionRaos, vessel: str) -> None:
+def require_depth(waves: Waves, database: Source, vessel: str) -> None:
     """Refuse a database computed at a depth where the waves of a sea have another length than in that sea."""
     there, computed = (
         wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)

@@ -7,35 +7,35 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.databases import database_of
 from seacrane.description.scene import Description
 from seacrane.description.waves import ByHeading, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.scene.depth import require_depth
+from seacrane.renamed import refusing
 
 Array = NDArray[np.float64]
 
 
+@refusing
 def add_drift(
     scene: Description,
-    database: HydroDatabase,
     *,
     vessel: str | None = None,
     outside: Literal["error", "hold"] = "error",
-) -> None:
+) -> Waves:
     """Add the slowly varying wave drift load from mean drift coefficients, by Newman's approximation.
 
     F(t) = sum_ik a_i a_k (D_i + D_k) / 2 cos(theta_i - theta_k) with the coefficients D of the database at
     each component's frequency and heading: difference frequencies only, mean sum a^2 D. Good for the slow
     motions of a moored vessel; it leaves out the second-order potential (which matters in shallow water) and
-    the change of drift with the vessel's speed (wave drift damping). Call it after `add_sea`.
+    the change of drift with the vessel's speed (wave drift damping). Call it after `add_sea`, for a vessel
+    whose database has `drift`.
 
     Parameters
     ----------
-    database : HydroDatabase
-        With `drift`.
     vessel : str, optional
         Body of the vessel; default: the only one in the sea.
     outside : str
@@ -44,17 +44,17 @@ def add_drift(
     Raises
     ------
     SceneError
-        Without a sea or without drift coefficients, for a vessel that is not in the sea, for a database of
-        another depth, or for components outside the coefficients' frequencies or in a gap of more than 45 deg
-        between headings.
+        Without a sea or without drift coefficients, for a vessel that is not in the sea, or for components
+        outside the coefficients' frequencies or in a gap of more than 45 deg between headings.
     """
     waves = sea_of(scene, "drift")
     hull, by_heading = waves.hull(vessel), None
+    database = database_of(scene, waves.body_of(vessel), "its slow drift")
     if hull.force_by_heading is not None:
         by_heading = drift_by_heading(database, waves.omega, outside)
     drift = _drift_at(database, waves.omega, waves.direction - hull.heading, outside)
-    require_depth(waves, database, waves.body_of(vessel))
     scene.waves = waves.changed(vessel, drift=drift, drift_by_heading=by_heading)
+    return scene.waves
 
 
 def sea_of(scene: Description, what: str) -> Waves:

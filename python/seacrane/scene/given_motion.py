@@ -10,18 +10,15 @@ from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
+from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.inputs.caller import warn_caller
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.vessel import add_vessel
 from seacrane.scene.wave_force import force_of_components
+from seacrane.warnings import OutsideRaosWarning
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 MOST_OUTSIDE = 0.02  # of the energy of the waves
-
-
-class OutsideRaosWarning(UserWarning):
-    """Waves are longer or shorter than those of a table of RAOs, which says nothing of them."""
 
 
 def raos_of(database: HydroDatabase) -> MotionRaos:

@@ -10,19 +10,20 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, hold_vessel
 from seacrane.description.bodies import add_body
+from seacrane.description.databases import source_of
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
 from seacrane.description.sum_of_cosines import curves_of_sum
+from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
-from seacrane.inputs.checked import name_of, number_of, shaped_of
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.given_motion import motion_of_components
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.motion_raos import MotionRaos
 
 LIGHT = 1.0  # kg and kg m2 of the body that stands for the ship: what drives it carries what is on board
 RAMP = 20.0  # s
@@ -39,7 +40,7 @@ def add_given_vessel(
     ramp: float = RAMP,
     duration: float = DURATION,
     size: Any = None,
-) -> _core.VesselHydrodynamics:
+) -> VesselHydrodynamics:
     """Add a ship whose motion is given: by its displacement RAOs in the sea, by a history, or at rest.
 
     It takes the place of a vessel from a database, and carries a crane as that does, but nothing acts back on
@@ -50,7 +51,8 @@ def add_given_vessel(
     ----------
     motion : HydroDatabase, MotionRaos, MotionHistory or "rest"
         HydroDatabase: its own displacement RAOs where its file holds them, else those of its linear model.
-        With RAOs the ship rests until `Scene.add_sea` gives it the sea to move in. "rest": it never moves.
+        With RAOs the ship rests until `Scene.add_sea` gives it the sea to move in; the scene keeps them, in
+        `scene.vessels[name].database`. "rest": it never moves.
     name : str
         Of the body and of the vessel.
     position : array_like, shape (3,)
@@ -83,8 +85,8 @@ def add_given_vessel(
     """
     what = f"vessel {name_of('vessel', name)!r}"
     kind = _kind_of(what, motion)
-    grown = _not_negative(f"{what}: ramp", ramp)
-    lasting = _positive(f"{what}: duration", duration)
+    grown = not_negative_of(f"{what}: ramp", ramp, "s")
+    lasting = positive_of(f"{what}: duration", duration, "s")
     outline = _size_of(what, motion, size)
     place = shaped_of(f"{what}: position", position, (3,))
     heading = direction_of(f"{what}: heading_deg", heading_deg)
@@ -95,7 +97,8 @@ def add_given_vessel(
         scene, name=name, mass=LIGHT, inertia=(LIGHT, LIGHT, LIGHT), position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )  # fmt: skip
-    added = add_hydrodynamics(scene, body=name)
+    source = motion if isinstance(motion, Source) else None
+    added = add_hydrodynamics(scene, body=name, database=source)
     still = _core.Curve.constant(value=0.0)
     curves = motion.curves(grown) if isinstance(motion, MotionHistory) else (still,) * 6
     hold_vessel(scene, name, dict(zip(SIX, curves, strict=True)))
@@ -113,7 +116,6 @@ def add_given_vessel(
 
 def put_into_sea(
     scene: Description,
-    source: HydroDatabase | MotionRaos | None,
     waves: Waves,
     *,
     vessel: str,
@@ -121,8 +123,13 @@ def put_into_sea(
     heading: float,
 ) -> Waves:
     """The sea with a given ship in it, which it does not load; one that follows RAOs is set moving."""
-    known = scene.provenance[vessel]
-    if known.motion == "raos" and source is not None:
+    known, source = scene.provenance[vessel], source_of(scene, vessel)
+    if known.motion == "raos":
+        if source is None:
+            raise SceneError(
+                f"sea: vessel {vessel!r} is from an older file, which holds no RAOs; give it those that it "
+                f"was added with: scene.replace({vessel!r}, kind='vessel', database=raos)"
+            )
         amplitude = motion_of_components(source, waves, place=place, heading=heading, gravity=scene.gravity)
         curves = curves_of_sum(
             np.asarray(waves.omega, dtype=float), amplitude, ramp=known.ramp or 0.0,
@@ -140,7 +147,7 @@ def put_into_sea(
 
 
 def _kind_of(what: str, motion: Any) -> str:
-    if isinstance(motion, HydroDatabase | MotionRaos):
+    if isinstance(motion, Source):
         return "raos"
     if isinstance(motion, MotionHistory):
         return "history"
@@ -160,17 +167,3 @@ def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | 
     if not (np.isfinite([length, breadth, draught]).all() and min(length, breadth, draught) > 0.0):
         raise SceneError(f"{what}: size is {shown(size)}; give positive length, breadth and draught, m")
     return length, breadth, draught
-
-
-def _not_negative(what: str, value: Any) -> float:
-    number = number_of(what, value)
-    if not (np.isfinite(number) and number >= 0.0):
-        raise SceneError(f"{what} is {number} s; give a finite number, zero or more")
-    return number
-
-
-def _positive(what: str, value: Any) -> float:
-    number = number_of(what, value)
-    if not (np.isfinite(number) and number > 0.0):
-        raise SceneError(f"{what} is {number} s; give a finite number above zero")
-    return number

@@ -7,8 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.curves import spline_curve
-from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import positive_of
 
 Array = NDArray[np.float64]
 SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
@@ -70,9 +69,7 @@ def gust_curve(
     """
     given = {"mean_speed": mean_speed, "duration": duration, "height": height, "count": count}
     for key, value in given.items():
-        number = number_of(f"gust: {key}", value)
-        if not (np.isfinite(number) and number > 0.0):
-            raise SceneError(f"gust: {key} is {value!r}; give a number above zero")
+        positive_of(f"gust: {key}", value)
     edges = np.geomspace(SLOWEST, FASTEST, count + 1)
     jitter, phase = (
         np.array([_core.philox_uniform(seed=seed, stream=stream, index=i) for i in range(count)])

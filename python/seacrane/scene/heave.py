@@ -11,10 +11,10 @@ from seacrane.analysis.tip_motion import falls_of, tip_rate
 from seacrane.description.forces import add_load
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import lines_of
+from seacrane.description.places import placed
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.checked import number_of, positive_of, text_of
 
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
 UP = (0.0, 0.0, 1.0)
@@ -24,8 +24,8 @@ STOP_STIFFNESS = 1e8  # N/m
 
 def add_heave_compensation(
     scene: Description,
-    *,
     name: str,
+    *,
     body: str,
     point: Any = (0.0, 0.0, 0.0),
     winch: str | None = None,
@@ -138,8 +138,8 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
 
 def add_gas_spring(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     area: float,
@@ -230,10 +230,7 @@ def _gas(
         raise SceneError(
             f"{what}: give pressure and volume, or force and stiffness, both of one pair; it has {has}"
         )
-    values = {key: number_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
-    for key, value in values.items():
-        if not (value > 0.0 and np.isfinite(value)):
-            raise SceneError(f"{what}: {key} is {value}; make it positive and finite")
+    values = {key: positive_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
     if "pressure" in values:
         return values["pressure"], values["volume"]
     piston, kappa = number_of(f"{what}: area", area), number_of(f"{what}: exponent", exponent)
@@ -247,9 +244,5 @@ def _distance(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
     for name, point in ends:
         if name != "ground" and name not in scene.bodies:
             raise SceneError(f"{what}: there is no body {name!r}; add it first")
-        at = np.asarray(point, dtype=float)
-        if name != "ground":
-            body = scene.bodies[name]
-            at = np.asarray(body.position) + rotation_matrix(np.asarray(body.quaternion)) @ at
-        places.append(at)
+        places.append(placed(scene, name, point))
     return float(np.linalg.norm(places[1] - places[0]))

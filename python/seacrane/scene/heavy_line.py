@@ -1,26 +1,23 @@
-"""Lines with mass: point masses between elastic segments, from one call."""
+"""Lines with mass: point masses between elastic segments."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
-from seacrane.description.damping import AIR
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of
+from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
-from seacrane.scene.lines import add_line
 
 Array = NDArray[np.float64]
 CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
@@ -39,78 +36,41 @@ class _End:
     velocity: Array
 
 
-def add_heavy_line(
+def chain_of_segments(
     scene: Description,
-    *,
     name: str,
-    bodies: Sequence[str],
-    points: ArrayLike,
-    stiffness: float,
-    length: float,
+    bodies: Any,
+    points: Any,
+    *,
+    EA: float | None,
+    length: Any,
     mass_per_length: float,
-    segments: int = 20,
-    damping_ratio: float = 0.02,
-    stretch: str = "elastic",
-    settling: float = 0.2,
-    diameter: float = 0.0,
-    drag_coefficient: float = CYLINDER_DRAG,
-    density: float = AIR,
-    flow: Any = (0.0, 0.0, 0.0),
+    segments: int,
+    damping_ratio: float,
+    rung: str,
+    settling: float,
+    diameter: float,
+    drag_coefficient: float,
+    density: float,
+    flow: ArrayLike,
 ) -> list[_core.Line]:
     """A line with mass between two points: equal elastic segments with point masses between them.
 
     Adds the lines and bodies "<name>.1", "<name>.2", ... from the first end on, segments and one body less;
     half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
-    what is not the ground. It starts in its rest shape. See docs/lines.md.
-
-    Parameters
-    ----------
-    name : str
-    bodies : sequence of str, length 2
-        Of the ends; "ground" is one too.
-    points : array_like, shape (2, 3)
-        In coordinates of these bodies, m.
-    stiffness : float
-        EA, N.
-    length : float
-        Unstretched, m.
-    mass_per_length : float
-        kg/m.
-    segments : int
-        From 1 to 1000. The fastest mode is 2 segments / length sqrt(EA / mass_per_length), 1/s.
-    damping_ratio : float
-        Of critical damping of one mass on one segment. Default 0.02: an estimate.
-    stretch, settling : {"elastic", "quasi-static"}, float
-        Of every segment, as in `add_line`. Quasi-static: waves along the line settle within `settling` (s),
-        and no fast mode is left; the line must stay taut.
-    diameter : float
-        m, for drag across the line; 0 (default): no drag.
-    drag_coefficient : float
-        Across the line; there is none along it. Default 1.2, a cylinder (DNV-RP-C205).
-    density : float
-        kg/m3, of the fluid; default: air. Buoyancy and added mass are left out.
-    flow : array_like, shape (3,)
-        Velocity of the fluid, m/s, inertial axes.
-
-    Returns
-    -------
-    list of Line
-        The segments.
-
-    Raises
-    ------
-    SceneError
-        For ends that are not there, values out of range, or a slack line without a rest shape.
+    what is not the ground. It starts in its rest shape. Keywords as of `Scene.add_line`; `rung` is that of
+    every segment.
     """
-    what = f"heavy line {name_of('heavy line', name)!r}"
+    what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
     count = _count(what, segments)
-    whole = _positive(what, "length", length)
-    step, mass = whole / count, _positive(what, "mass_per_length", mass_per_length) * whole / count
+    span = float(np.linalg.norm(last.place - first.place))
+    whole = positive_of(f"{what}: length", span if length is None else length)
+    step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
     chain = Chain(
         span=last.place - first.place,
         segment=step,
-        stiffness=_positive(what, "stiffness", stiffness),
+        stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
     )
     places = first.place + _shape(what, chain)
@@ -123,13 +83,11 @@ def add_heavy_line(
     path.append(_tied(scene, f"{name}.last", last, 0.5 * mass, 0.5 * inertia))
     lines = []
     for i, (one, two) in enumerate(pairwise(path), start=1):
-        lines.append(
-            add_line(
-                scene, name=f"{name}.{i}", bodies=[one[0], two[0]], points=[one[1], two[1]],
-                stiffness=stiffness, length=step, damping_ratio=damping_ratio, mass=mass,
-                stretch=stretch, settling=settling,
-            )
+        segment = _core.Line(
+            name=f"{name}.{i}", bodies=[one[0], two[0]], points=[one[1], two[1]], EA=cast(float, EA),
+            length=step, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
         )  # fmt: skip
+        lines.append(add_load(scene, segment))
         if number_of(f"{what}: diameter", diameter) == 0.0:
             continue
         add_load(
@@ -203,10 +161,3 @@ def _count(what: str, segments: Any) -> int:
     if not 1 <= segments <= MOST_SEGMENTS:
         raise SceneError(f"{what}: segments is {segments}; give 1 to {MOST_SEGMENTS}")
     return int(segments)
-
-
-def _positive(what: str, key: str, value: Any) -> float:
-    number = number_of(f"{what}: {key}", value)
-    if not (np.isfinite(number) and number > 0.0):
-        raise SceneError(f"{what}: {key} is {number!r}; it must be finite and greater than zero")
-    return number

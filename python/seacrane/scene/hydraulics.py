@@ -17,8 +17,8 @@ NEVER = 1e7  # s
 
 def add_hydraulic_cylinder(
     scene: Description,
-    *,
     name: str,
+    *,
     first: str,
     second: str,
     full_area: float,

@@ -29,47 +29,22 @@ def _limit(
 
 
 def add_wire(
-    scene: Description,
-    *,
-    joint: str,
-    restitution: float = 0.0,
-    sticking_speed: float = STICKING_SPEED,
-    name: str | None = None,
+    scene: Description, joint: str, restitution: float, sticking_speed: float, name: str | None
 ) -> _core.Limit:
     """Let a distance joint pull only: it goes slack when its tension would turn negative, and snatches.
 
     Slack, its ends move freely within its length. Stretched again, an impact keeps momentum, in the mass
     metric, over all joints: M (v+ - v-) = D^T Lambda; the rate of its length turns to -restitution times what
-    it was.
-
-    Parameters
-    ----------
-    joint : str
-        A joint of kind "distance", such as the crane's "link". It starts slack if its points are described
-        closer than its length, by more than 1e-6 of it, or approach each other.
-    restitution : float
-        0 (default: it stays stretched after a snatch) to 1 (no energy is lost).
-    sticking_speed : float
-        m/s; slower snatches do not rebound, so that rebounds come to an end.
-    name : str, optional
-        Default: the joint's.
-
-    Returns
-    -------
-    Limit
-
-    Raises
-    ------
-    SceneError
-        For a joint that is not there; what only the whole scene shows comes with `Scene.compile`.
+    it was. It starts slack if its points are described closer than its length, by more than 1e-6 of it, or
+    approach each other.
     """
     return _limit(scene, "wire", joint, name, restitution=restitution, sticking_speed=sticking_speed)
 
 
 def add_end_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
     maximum: float = NO_STOP,
@@ -79,8 +54,8 @@ def add_end_stop(
 ) -> _core.Limit:
     """Keep a joint coordinate within rigid bounds.
 
-    A bound that is hit is an impact as in `add_wire`. It holds, as a constraint, while it has to push, and
-    lets go when it would have to pull. For a stop that gives, see `add_soft_stop`.
+    A bound that is hit is an impact, as of a rigid line (`add_line`). It holds, as a constraint, while it has
+    to push, and lets go when it would have to pull. For a stop that gives, see `add_soft_stop`.
 
     Parameters
     ----------
@@ -90,8 +65,12 @@ def add_end_stop(
         its second body stands on, without friction, at the joint's point.
     minimum, maximum : float
         m or rad; leave out the one that is not there. An angle needs both, between -pi and pi.
-    restitution, sticking_speed, name
-        As `add_wire`.
+    restitution : float
+        0 (default: it stays at the bound) to 1 (no energy is lost).
+    sticking_speed : float
+        m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end.
+    name : str, optional
+        Default: the joint's.
 
     Returns
     -------
@@ -110,7 +89,7 @@ def add_end_stop(
     )  # fmt: skip
 
 
-def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _core.Limit:
+def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _core.Limit:
     """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
 
     The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
@@ -139,8 +118,8 @@ def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _cor
 
 def add_soft_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     stiffness: float,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
@@ -193,8 +172,8 @@ def add_soft_stop(
 
 def add_friction(
     scene: Description,
-    *,
     joint: str,
+    *,
     load: float,
     speed: float,
     coordinate: str | None = None,

@@ -1,37 +1,72 @@
-"""Elastic lines over points of bodies, and the winches that pay them out and haul them in."""
+"""Lines, from a rigid wire to one with mass, and the winches that pay them out and haul them in."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import inspect
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.description.damping import AIR
 from seacrane.description.forces import add_load
-from seacrane.description.loads import lines_of, refuse_heavy_winch
+from seacrane.description.joints import add_joint
+from seacrane.description.loads import changed, lines_of, refuse_heavy_winch, whole_of
+from seacrane.description.places import place_of
+from seacrane.description.rungs import (
+    AUTO,
+    ELASTIC,
+    QUASI_STATIC,
+    RIGID,
+    WITH_MASS,
+    Rung,
+    StretchingRung,
+)
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import text_of, vector_of
-from seacrane.scene.line_start import starting_line
+from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
+from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
+from seacrane.scene.heavy_line import CYLINDER_DRAG, chain_of_segments
+from seacrane.scene.limits import STICKING_SPEED, add_wire
+from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
 STRONGEST = 1e12  # N or W: likewise
+STRETCHING = (QUASI_STATIC, ELASTIC, AUTO)
+RUNGS = (RIGID, *STRETCHING, WITH_MASS)
+TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung takes
+    **dict.fromkeys(("joint", "restitution", "sticking_speed"), (RIGID,)),
+    **dict.fromkeys(("EA", "damping_ratio", "settling"), (*STRETCHING, WITH_MASS)),
+    **dict.fromkeys(
+        ("tension_at_start", "mass", "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed",
+         "strains", "tensions"), STRETCHING),
+    **dict.fromkeys(
+        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient", "density", "flow"),
+        (WITH_MASS,)),
+}  # fmt: skip
 
 
+@refusing
 def add_line(
     scene: Description,
+    name: str | None = None,
+    first: str | None = None,
+    second: str | None = None,
     *,
-    name: str,
-    bodies: Sequence[str],
-    points: ArrayLike,
-    stiffness: float | None = None,
+    first_point: ArrayLike | None = None,
+    second_point: ArrayLike | None = None,
+    bodies: Sequence[str] | None = None,
+    points: ArrayLike | None = None,
+    joint: str | None = None,
+    EA: float | None = None,
     length: _core.Curve | float | None = None,
     tension_at_start: float | None = None,
+    rung: Rung = "elastic",
+    settling: float = 0.2,
     damping_ratio: float = 0.02,
     mass: float = 0.0,
-    stretch: str = "elastic",
-    settling: float = 0.2,
     radii: ArrayLike = (),
     axes: ArrayLike = (),
     turns: ArrayLike = (),
@@ -40,40 +75,56 @@ def add_line(
     slip_speed: float = 0.01,
     strains: ArrayLike = (),
     tensions: ArrayLike = (),
-) -> _core.Line:
-    """An elastic line without mass over points, through which it runs without friction, and sheaves.
+    restitution: float = 0.0,
+    sticking_speed: float = STICKING_SPEED,
+    mass_per_length: float = 0.0,
+    segments: int = 20,
+    segment_rung: StretchingRung = "elastic",
+    diameter: float = 0.0,
+    drag_coefficient: float = CYLINDER_DRAG,
+    density: float = AIR,
+    flow: ArrayLike = (0.0, 0.0, 0.0),
+) -> _core.Line | _core.Limit | list[_core.Line]:
+    """A line, which pulls and never pushes: between two bodies, or over points and sheaves of several.
 
-    Its tension is EA e + c l0 e' with the strain e = l / l0 - 1, and never below zero: it goes slack. It is
-    the same along all of the line, or with friction its mean. A path that passes between two blocks n times
-    makes n falls. See docs/lines.md.
+    What it is made of is its rung. "rigid": a length that is never exceeded; it snatches. "elastic": it
+    stretches by its EA. "quasi-static": the stretch follows the tension, and a stiff line costs no more than
+    a soft one; it must stay taut. "auto": a run takes one of these two, and says why. "with mass": elastic
+    segments with masses between them. See docs/lines.md. A rod, which pushes too, is a joint of kind
+    "distance".
 
     Parameters
     ----------
     name : str
+    first, second : str
+        Bodies at its two ends; "ground" is one too.
+    first_point, second_point : array_like, shape (3,), optional
+        Where it is tied to them, in their coordinates, m. Default: the top centre of a body that has a size,
+        else the origin.
     bodies : sequence of str, length n
-        Of the points, in the order of the path; "ground" is one too.
+        In place of first and second: those of all points of a path, in its order.
     points : array_like, shape (n, 3)
-        In coordinates of these bodies, m.
-    stiffness : float
-        EA, the tension over the strain, N; left out with a table.
+        Of that path, in coordinates of these bodies, m.
+    joint : str, optional
+        Rigid, in place of first and second: a joint of kind "distance", such as a crane's "link", that from
+        now on pulls only. The line then has its name by default.
+    EA : float
+        Axial stiffness, the tension over the strain, N; left out with a table, and rigid.
     length : Curve or float, optional
-        Unstretched, m; for a line on a winch, that at the start. Default: the one with `tension_at_start`.
+        Unstretched, m; for a line on a winch, that at the start. Default: the one with `tension_at_start`,
+        or that of the path as described. Rigid, and with mass, a number.
     tension_at_start : float, optional
-        N, that the line carries along its path as described, in place of a length; default (0): the length
-        is that of the path.
+        N, that the line carries along its path as described, in place of a length; default: 0.
+    rung : {"rigid", "quasi-static", "elastic", "auto", "with mass"}
+    settling : float
+        s, in which the stretch of a quasi-static line follows: no mode of it is faster than 1 / settling.
     damping_ratio : float
         Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0), with a table EA
-        being the secant to its last row.
+        being the secant to its last row. With mass: for one mass on one segment.
     mass : float
         kg; default (0): that with which the line bounces at the start, as bodies are joined and whichever way
         its path is written: of a load on n falls its mass over n^2. `Scene.report` tells it, and the ratio
         that the bounce reaches.
-    stretch : {"elastic", "quasi-static", "auto"}
-        Quasi-static: the stretch follows the tension within `settling`, so that a stiff line costs no more
-        than a soft one. It must stay taut. Auto: a run takes it where its bound holds, else the elastic line;
-        `stats` say which, and why. See docs/lines.md.
-    settling : float
-        s, of a quasi-static stretch: no mode of the line is faster than 1 / settling.
     radii : array_like, shape (n,), optional
         Of the sheaves of which the points are the centres, m; 0: a point. Lines begin and end at points.
     axes : array_like, shape (n, 3), optional
@@ -90,46 +141,134 @@ def add_line(
     strains, tensions : array_like, shape (m,), optional
         Of a shock cord, in place of EA, N: a monotone cubic spline runs through them; both start at 0 and
         increase. Beyond the last it goes on along its tangent.
+    restitution : float
+        Rigid: 0 (default: it stays stretched after a snatch) to 1 (no energy is lost).
+    sticking_speed : float
+        Rigid, m/s; slower snatches do not rebound, so that rebounds come to an end.
+    mass_per_length : float
+        With mass, kg/m.
+    segments : int
+        With mass, from 1 to 1000. The fastest mode is 2 segments / length sqrt(EA / mass_per_length), 1/s.
+    segment_rung : {"elastic", "quasi-static", "auto"}
+        With mass, of each segment. Quasi-static: waves along the line settle within `settling`.
+    diameter : float
+        With mass, m, for drag across the line; 0 (default): no drag.
+    drag_coefficient : float
+        With mass, across the line; there is none along it. Default 1.2, a cylinder (DNV-RP-C205).
+    density : float
+        With mass, kg/m3, of the fluid; default: air. Buoyancy and added mass are left out.
+    flow : array_like, shape (3,)
+        With mass, velocity of the fluid, m/s, inertial axes.
 
     Returns
     -------
-    Line
+    Line, Limit or list of Line
+        What the scene holds by its name: a line, of rung "rigid" a limit, of rung "with mass" its segments.
 
     Raises
     ------
     SceneError
-        For a path of fewer than two points or two bodies, or one that visits a point twice in a row; and for
-        values that are no numbers, or not positive where they must be; for a length beside a tension, or
-        neither where a body of the path is not there yet.
+        For a keyword that its rung does not take; for a path of fewer than two points or two bodies, or one
+        that visits a point twice in a row; for values that are no numbers, or out of range; for a length
+        beside a tension, or neither where a body of the path is not there yet.
     """
-    given: dict[str, Any] = {
-        "name": name, "bodies": bodies, "points": points,
-        "stiffness": _stiffness_of(name, stiffness, strains, tensions), "damping_ratio": damping_ratio,
-        "mass": mass, "stretch": stretch, "settling": settling, "radii": radii, "axes": axes, "turns": turns,
-        "efficiencies": efficiencies, "frictions": frictions, "slip_speed": slip_speed, "strains": strains,
-        "tensions": tensions,
-    }  # fmt: skip
-    if length is not None and tension_at_start is not None:
-        raise SceneError(f"line {name!r}: has a length and a tension_at_start; give one of them")
-    if length is None:
-        line = starting_line(scene, tension_at_start, given)
+    told = locals().copy()
+    name = name_of("line", joint if name is None and joint is not None else name)
+    what = f"line {name!r}"
+    _check_rung(what, rung, {key: told[key] for key in TAKEN_BY})
+    ends = first, second, first_point, second_point
+    if joint is not None:
+        _refuse_second(what, "a joint", *ends, bodies, points, length)
+        return add_wire(scene, joint, restitution, sticking_speed, name)
+    if bodies is not None or points is not None:
+        _refuse_second(what, "bodies and points", *ends)
+        over: tuple[Any, Any] = (bodies, points)
     else:
-        line = _core.Line(**given, length=length)
+        over = path_between(scene, what, (first, second), (first_point, second_point))
+    if rung == RIGID:
+        return _wire(scene, what, name, *over, length, restitution, sticking_speed)
+    if rung == WITH_MASS:
+        return chain_of_segments(
+            scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
+            segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
+            diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow,
+        )  # fmt: skip
+    if length is not None and tension_at_start is not None:
+        raise SceneError(f"{what}: has a length and a tension_at_start; give one of them")
+    line = _core.Line(
+        name=name, bodies=over[0], points=over[1], EA=_axial_stiffness(what, EA, strains, tensions),
+        length=UNKNOWN_LENGTH if length is None else length, damping_ratio=damping_ratio, mass=mass,
+        rung=rung, settling=settling, radii=radii, axes=axes, turns=turns, efficiencies=efficiencies,
+        frictions=frictions, slip_speed=slip_speed, strains=strains, tensions=tensions,
+    )  # fmt: skip
+    if length is None:
+        line = changed(line, length=starting_length(scene, line, tension_at_start))
     added: _core.Line = add_load(scene, line)
     return added
 
 
-def _stiffness_of(name: str, stiffness: float | None, strains: ArrayLike, tensions: ArrayLike) -> float:
+def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:
+    """Refuse a rung that there is not, and what it does not take."""
+    if rung not in RUNGS:
+        raise SceneError(f"{what}: rung is {shown(rung)}; choose one of {', '.join(map(repr, RUNGS))}")
+    usual = inspect.signature(add_line).parameters
+    for keyword, value in given.items():
+        if rung in TAKEN_BY[keyword] or _alike(value, usual[keyword].default):
+            continue
+        others = " or ".join(map(repr, TAKEN_BY[keyword]))
+        raise SceneError(f"{what}: rung {rung!r} takes no {keyword}; leave it out, or choose rung {others}")
+
+
+def _alike(value: Any, usual: Any) -> bool:
+    return value is usual or (isinstance(value, type(usual)) and bool(value == usual))
+
+
+def _refuse_second(what: str, has: str, *given: Any) -> None:
+    """Refuse a second description of where a line runs."""
+    if any(value is not None for value in given):
+        raise SceneError(
+            f"{what}: has {has} beside other words for its path; give first and second with their points, or "
+            "bodies and points, or a joint of rung 'rigid'"
+        )
+
+
+def _wire(
+    scene: Description, what: str, name: str, bodies: Any, points: Any, length: Any,
+    restitution: float, sticking_speed: float,
+) -> _core.Limit:  # fmt: skip
+    """A distance joint that pulls only; its length as described where none is given."""
+    names = texts_of(f"{what}: bodies", bodies)
+    if len(names) != 2:
+        raise SceneError(
+            f"{what}: rung 'rigid' runs between two bodies, and bodies has {len(names)} names; choose rung "
+            "'elastic' for a path over sheaves"
+        )
+    start, end = (
+        place_of(scene, body=body, point=point)
+        for body, point in zip(names, shaped_of(f"{what}: points", points, (2, 3)), strict=True)
+    )
+    add_joint(
+        scene, kind="distance", name=name, first=names[0], second=names[1], point=start, second_point=end,
+        length=None if length is None else number_of(f"{what}: length", length),
+    )  # fmt: skip
+    try:
+        return add_wire(scene, name, restitution, sticking_speed, None)
+    except SceneError:
+        del scene.joints[name]
+        raise
+
+
+def _axial_stiffness(what: str, given: float | None, strains: ArrayLike, tensions: ArrayLike) -> float:
     """EA as given, or the last secant of a table, N."""
-    rows = [vector_of(f"line {name!r}: table", column) for column in (strains, tensions)]
+    rows = [vector_of(f"{what}: table", column) for column in (strains, tensions)]
     table = all(rows)
-    if table and stiffness is not None:
-        raise SceneError(f"line {name!r}: has a stiffness and a table; give one of them")
+    if table and given is not None:
+        raise SceneError(f"{what}: has EA and a table; give one of them")
     if table:
         return rows[1][-1] / rows[0][-1] if rows[0][-1] > 0.0 else 1.0
-    if stiffness is None:
-        raise SceneError(f"line {name!r}: has no stiffness; give EA in N, or strains and tensions")
-    return stiffness
+    if given is None:
+        raise SceneError(f"{what}: has no EA; give it in N, or strains and tensions")
+    return given
 
 
 def add_winch(
@@ -207,8 +346,10 @@ def add_winch(
     """
     name = text_of("winch: line", line)
     known = lines_of(scene.loads)
-    old = known.get(name)
-    if old is None:
+    old = known.get(name, known.get(f"{name}.1"))
+    if isinstance(scene.loads.get(name), _core.Limit):
+        raise SceneError(f"line {name!r}: rung 'rigid' takes no winch; choose rung 'elastic'")
+    if old is None or (old.name != name and whole_of(old.name, old) != name):
         has = ", ".join(known) or "none"
         raise SceneError(f"winch: there is no line {name!r}; the scene has {has}: add it first")
     if old.winch:
@@ -222,6 +363,6 @@ def add_winch(
         "maximum_power": maximum_power, "brake": brake, "brake_capacity": brake_capacity,
         "brake_give": brake_give,
     }  # fmt: skip
-    wound = _core.Line(**old.__getstate__() | winch)
+    wound = changed(old, **winch)
     scene.loads[name] = wound
     return wound

@@ -68,7 +68,7 @@ def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: An
         name=rope.name,
         bodies=[body for body, _ in ends],
         points=[point for _, point in ends],
-        stiffness=rope.stiffness,
+        EA=rope.EA,
         tension_at_start=_tension(scene, what, joint, rope),
     )
     return add_winch(scene, line=rope.name, **winch)

@@ -25,16 +25,13 @@ from seacrane.scene.mooring_parts import (
     check_mooring,
     parts_of,
 )
+from seacrane.warnings import OwnMooringWarning
 
 Array = NDArray[np.float64]
 
 FAR = 1e6  # m, of the ends of springs: so far that they keep their directions
 IN_PLANE = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
 USUAL = "the usual period of 200 s"
-
-
-class OwnMooringWarning(UserWarning):
-    """The database's restoring holds a mooring, which is used."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,7 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import rows_of, vector_of
 from seacrane.inputs.frames import MOTIONS
-from seacrane.inputs.plausible import AngleUnitWarning, UnitWarning
+from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
 Array = NDArray[np.float64]
 FEWEST = 6
@@ -27,10 +27,6 @@ FASTEST = 2.0 * np.pi / 1.5  # rad/s: ships do not move faster
 LARGEST_NOISE = 0.3  # m/s2 and, at an arm of 30 m, rad/s2: rms of what is faster
 LEAST_SHARE = 0.1  # of the acceleration's energy, of what is faster
 ARM = 30.0  # m
-
-
-class NoisyMotionWarning(UserWarning):
-    """A measured motion holds accelerations that no ship has: noise, or a time in another unit."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

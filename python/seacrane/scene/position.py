@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.databases import database_of
 from seacrane.description.scene import Description
 from seacrane.description.waves import ByHeading, Waves
 from seacrane.errors import SceneError
@@ -12,7 +13,7 @@ from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.excitation import with_limits
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.inputs.checked import number_of
-from seacrane.scene.depth import require_depth
+from seacrane.renamed import refusing
 from seacrane.scene.drift import drift_by_heading, sea_of
 from seacrane.validity.hull_range import peak_frequency
 
@@ -20,7 +21,8 @@ Array = NDArray[np.float64]
 SLOW_SHARE = 0.2  # of the peak frequency: motions below are slow
 
 
-def use_actual_position(scene: Description, database: HydroDatabase, *, vessel: str | None = None) -> None:
+@refusing
+def use_actual_position(scene: Description, *, vessel: str | None = None) -> None:
     """Take wave loads at the vessel's position and heading of the moment instead of the mean ones.
 
     Phases follow the vessel (a moving one meets the encounter frequency), and force RAOs its heading
@@ -29,22 +31,20 @@ def use_actual_position(scene: Description, database: HydroDatabase, *, vessel: 
 
     Parameters
     ----------
-    database : HydroDatabase
     vessel : str, optional
         Body of the vessel; default: the only one in the sea.
 
     Raises
     ------
     SceneError
-        Without a sea, for a vessel that is not in it, for a database of another depth, or if its headings do
-        not cover the circle.
+        Without a sea, for a vessel that is not in it, or if the headings of its database do not cover the
+        circle.
     """
-    scene.waves = _with_headings(sea_of(scene, "loads at the actual position"), database, vessel, cutoff=0.0)
+    scene.waves = _with_headings(scene, sea_of(scene, "loads at the actual position"), vessel, cutoff=0.0)
 
 
-def use_slow_position(
-    scene: Description, database: HydroDatabase, *, vessel: str | None = None, cutoff: float | None = None
-) -> None:
+@refusing
+def use_slow_position(scene: Description, *, vessel: str | None = None, cutoff: float | None = None) -> None:
     """Take wave loads at the slow part of the vessel's position and heading.
 
     First-order loads belong to the position about which a hull oscillates: at that of the moment its motion
@@ -56,7 +56,6 @@ def use_slow_position(
 
     Parameters
     ----------
-    database : HydroDatabase
     vessel : str, optional
         Body of the vessel; default: the only one in the sea.
     cutoff : float
@@ -71,15 +70,15 @@ def use_slow_position(
     cutoff = SLOW_SHARE * peak_frequency(waves) if cutoff is None else number_of("sea: cutoff", cutoff)
     if not (np.isfinite(cutoff) and cutoff > 0.0):
         raise SceneError(f"sea: cutoff is {cutoff} rad/s; give a frequency between slow drift and waves")
-    scene.waves = _with_headings(waves, database, vessel, cutoff=cutoff)
+    scene.waves = _with_headings(scene, waves, vessel, cutoff=cutoff)
 
 
-def _with_headings(waves: Waves, database: HydroDatabase, vessel: str | None, *, cutoff: float) -> Waves:
+def _with_headings(scene: Description, waves: Waves, vessel: str | None, *, cutoff: float) -> Waves:
     """The sea with loads of all headings on a vessel."""
+    database = database_of(scene, waves.body_of(vessel), "its wave loads at all headings")
     force, drift = force_by_heading(database, waves.omega), None
     if waves.hull(vessel).drift is not None:
         drift = drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
-    require_depth(waves, database, waves.body_of(vessel))
     return waves.changed(vessel, force_by_heading=force, drift_by_heading=drift, cutoff=cutoff)
 
 

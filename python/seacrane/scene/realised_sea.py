@@ -13,8 +13,8 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.plausible import UnitWarning
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
+from seacrane.warnings import UnitWarning
 
 DEFAULTS: dict[str, Any] = {
     "hs": 2.0,

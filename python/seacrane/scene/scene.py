@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.scene_report import scene_report
@@ -25,13 +25,13 @@ from seacrane.description import (
 )
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import heard
+from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
     compiling,
     drift,
     given_vessel,
     heave,
-    heavy_line,
     hydraulics,
     limits,
     lines,
@@ -66,7 +66,9 @@ class Scene(Description):
     ----------
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
-        Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
+        Elements by name, immutable; `loads` are all that puts forces on
+        bodies, by kind: wind, lines, springs, oil, friction and the rest.
+        `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
     recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
@@ -92,12 +94,10 @@ class Scene(Description):
     add_pendulum_damping = damping.add_pendulum_damping
     add_air_drag = damping.add_air_drag
 
-    add_wire = limits.add_wire
     add_end_stop = limits.add_end_stop
     add_seat = limits.add_seat
     add_soft_stop = limits.add_soft_stop
     add_line = lines.add_line
-    add_heavy_line = heavy_line.add_heavy_line
     add_winch = lines.add_winch
     add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
@@ -133,6 +133,12 @@ class Scene(Description):
             return NotImplemented
         alike = file.described(self) == file.described(other)
         return alike and self.function_forces == other.function_forces
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            gone = f" since 0.3; {METHODS[name]}" if name in METHODS else ""
+            raise AttributeError(f"{type(self).__name__} has no {name!r}{gone}", name=name, obj=self)
 
     __hash__ = None  # type: ignore[assignment]  # what changes has no hash
 

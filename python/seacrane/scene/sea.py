@@ -7,40 +7,38 @@ from typing import Any, Literal
 
 import numpy as np
 
+from seacrane.description.databases import database_of, source_of
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.scene import Description
+from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.beyond_band import without_load
 from seacrane.hydro.data.long_waves import warn_of_long_waves
-from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.caller import tell, warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
-from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.scene.depth import require_depth
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
-from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.position import use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import SeaState, Spreading
+from seacrane.warnings import WavesWithoutLoadWarning
 
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
 
 
-class WavesWithoutLoadWarning(UserWarning):
-    """Waves above the frequencies of a database carry no load that matters: motions come out too small."""
-
-
+@refusing
 def add_sea(
     scene: Description,
-    database: HydroDatabase | MotionRaos | None = None,
     *,
     vessel: str = "vessel",
     hs: float | None = None,
@@ -58,18 +56,16 @@ def add_sea(
     evaluation: str | None = None,
     phase: Literal["mean", "slow", "actual"] = "mean",
     drift: bool = False,
-) -> None:
+) -> Waves | None:
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
 
     A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
-    again, with the same sea or without any argument of it.
+    again, with the same sea or without any argument of it. The forces are those of the vessel's database, at
+    the direction of every component. A ship of `Scene.add_given_vessel` takes no load: one that follows RAOs
+    begins to move by them.
 
     Parameters
     ----------
-    database : HydroDatabase, or MotionRaos of a ship whose motion is given
-        Whose force transfer is used, at the direction of every component. A ship added by
-        `Scene.add_given_vessel` takes no load: one that follows RAOs begins to move by those of this
-        database or table, and the others need none.
     vessel : str
         Body of the vessel.
     hs, tp : float
@@ -93,7 +89,7 @@ def add_sea(
     relative_bound : float
         Error bound of the load table over the sum of component magnitudes (1e-9).
     evaluation : str
-        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
+        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `Waves`.
     phase : str
         "mean": loads at that position and heading. "slow": at the slow part of those of the moment, see
         `use_slow_position`. "actual": at those of the moment, see `use_actual_position`.
@@ -103,6 +99,11 @@ def add_sea(
 
     The sea is as deep as the database, or as `sea` says. It keeps all its components: loads at frequencies
     that the database does not hold follow from `HydroDatabase.force_at` with ``outside="limits"``.
+
+    Returns
+    -------
+    Waves or None
+        `scene.waves`; None for an hs of 0. A direction or gamma that is not given is told on the terminal.
 
     Raises
     ------
@@ -133,13 +134,15 @@ def add_sea(
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
         scene.waves = None
-        return
+        return None
     _require_vessel(scene, vessel)
+    if scene.waves is None and sea is None:
+        _tell_assumed(given)
+    database = source_of(scene, vessel)
     waves = _evaluated(
         _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
     )
     given_motion = given_vessels(scene).get(vessel)
-    _require_source(vessel, given_motion, database)
     if database is not None:
         require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
@@ -148,25 +151,39 @@ def add_sea(
             raise SceneError(
                 f"sea: vessel {vessel!r} has a given motion, no loads; leave out drift and phase"
             )
-        scene.waves = put_into_sea(scene, database, waves, vessel=vessel, place=place, heading=heading)
-        return
-    assert isinstance(database, HydroDatabase)
+        scene.waves = put_into_sea(scene, waves, vessel=vessel, place=place, heading=heading)
+        return scene.waves
+    database = database_of(scene, vessel, "a sea")
     warn_of_long_waves(database)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
     provenance = _with_shares(waves, database, vessel, hull)
     scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
     if drift:
-        add_drift(scene, database, vessel=vessel, outside="hold")
+        add_drift(scene, vessel=vessel, outside="hold")
     if phase == "actual":
-        use_actual_position(scene, database, vessel=vessel)
+        use_actual_position(scene, vessel=vessel)
     if phase == "slow":
-        use_slow_position(scene, database, vessel=vessel)
+        use_slow_position(scene, vessel=vessel)
+    return scene.waves
+
+
+def _tell_assumed(given: dict[str, Any]) -> None:
+    """The direction and the peakedness of a sea that was given without them."""
+    peaked = given.get("spectrum", "jonswap") == "jonswap"
+    assumed = {"direction_deg": "135"} | ({"gamma": "3.3"} if peaked else {})
+    told = [f"{name}={value}" for name, value in assumed.items() if name not in given]
+    if told:
+        tell(
+            f"sea: {' and '.join(told)} assumed (135 deg: from the starboard bow)"
+            if "direction_deg" not in given
+            else f"sea: {' and '.join(told)} assumed"
+        )
 
 
 def _sea_of(
     scene: Description,
-    database: HydroDatabase | MotionRaos | None,
+    database: Source | None,
     vessel: str,
     sea: SeaState | None,
     given: dict[str, Any],
@@ -205,20 +222,6 @@ def _require_vessel(scene: Description, vessel: str) -> None:
     if vessel not in scene.bodies:
         known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
         raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
-
-
-def _require_source(vessel: str, motion: str | None, database: Any) -> None:
-    """Refuse what does not tell how the sea loads or moves a vessel of that kind of given motion."""
-    if database is None and motion in ("rest", "history"):
-        return
-    if motion is None and not isinstance(database, HydroDatabase):
-        raise SceneError(
-            f"sea: database is {shown(database)}, and vessel {vessel!r} floats; give its HydroDatabase"
-        )
-    if not isinstance(database, HydroDatabase | MotionRaos):
-        raise SceneError(
-            f"sea: database is {shown(database)}; give the HydroDatabase or MotionRaos of vessel {vessel!r}"
-        )
 
 
 def _evaluated(waves: Waves, **given: Any) -> Waves:

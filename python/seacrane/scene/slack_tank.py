@@ -6,18 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.scene.vessel_memory import database_of, remember
 
 
 def add_slack_tank(
     scene: Description, *, moment: float, trim_moment: float = 0.0, body: str | None = None
-) -> _core.VesselHydrodynamics:
+) -> VesselHydrodynamics:
     """Take the free surface of a slack tank from a vessel's stability, by its moment.
 
     C44 becomes less by g moment, and GM by moment over the displacement. The tank's weight is not added: it
@@ -62,11 +61,8 @@ def add_slack_tank(
                 f"{restoring[motion, motion] / scene.gravity:.6g} kg m; give a moment from 0 to below that"
             )
     restoring[[3, 4], [3, 4]] -= taken
-    database = database_of(vessel)
-    changed = _core.VesselHydrodynamics(**{**vessel.__getstate__(), "restoring": restoring})
+    changed = VesselHydrodynamics(**{**vessel.__getstate__(), "restoring": restoring})
     scene.vessels[name] = changed
-    if database is not None:
-        remember(changed, database)
     source = scene.provenance.get(name, VesselProvenance())
     before = source.slack_tanks or (0.0, 0.0)
     scene.provenance[name] = replace(source, slack_tanks=(before[0] + taken[0], before[1] + taken[1]))

@@ -7,11 +7,11 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.description.bodies import add_body
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
@@ -22,9 +22,9 @@ from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring, without_rounding
 from seacrane.scene.mooring_parts import Mooring
-from seacrane.scene.vessel_memory import core_memory, memory_of, remember
+from seacrane.scene.vessel_memory import core_memory, memory_of
 
-MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
+MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
 MEMORY = ("by-motion", "per-pair", "passive", "convolution", "none")
 
@@ -42,13 +42,13 @@ def add_vessel(
     mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
-) -> _core.VesselHydrodynamics: ...
+) -> VesselHydrodynamics: ...
 
 
 @overload
 def add_vessel(
     scene: Description, *, body: str, name: str | None = None, **hydrodynamics: Any
-) -> _core.VesselHydrodynamics: ...
+) -> VesselHydrodynamics: ...
 
 
 def add_vessel(
@@ -58,7 +58,7 @@ def add_vessel(
     name: str | None = None,
     body: str | None = None,
     **hydrodynamics: Any,
-) -> _core.VesselHydrodynamics:
+) -> VesselHydrodynamics:
     """Add a vessel: from a database, or the hydrodynamics of a body that is there by their matrices.
 
     From a database it floats upright, and its body frame has its origin at the database's reference point.
@@ -66,7 +66,9 @@ def add_vessel(
     Parameters
     ----------
     database : HydroDatabase, optional
-        Hydrodynamics of the vessel without the bodies that the scene models itself.
+        Hydrodynamics of the vessel without the bodies that the scene models itself. The scene keeps it: what
+        needs it later, as `add_sea`, takes it from `scene.vessels[name].database`. With `body` and matrices:
+        the one whose wave loads act on that body.
     name : str
         Of the hydrodynamics. With a database also of the new body, and "vessel" by default; else the body's.
     body : str
@@ -99,7 +101,7 @@ def add_vessel(
     mooring_damping : float
         Its damping as a fraction of critical; default 0.1. Without a database: (3,), N s/m and N m s/rad.
     added_mass, linear_damping, quadratic_damping, restoring, mooring_stiffness
-        Without a database: see `seacrane.VesselHydrodynamics`.
+        Without a database: see `seacrane.hydro.VesselHydrodynamics`.
     floats : bool
         Without a database: whether the restoring carries the body's weight, as that of a ship does; else it
         weighs as any body, and its buoyancy is a point force of yours. Default: whether heave is restored.
@@ -131,6 +133,8 @@ def add_vessel(
         raise SceneError(
             f"vessel: database is {shown(database)}; give a HydroDatabase, as load_database reads"
         )
+    if body is not None and hydrodynamics:
+        return add_hydrodynamics(scene, body=body, name=name, database=database, **_buoyant(hydrodynamics))
     if body is not None:
         raise SceneError(f"vessel: body {body!r} is given beside a database, which brings its own; use name=")
     return _from_database(scene, database, name="vessel" if name is None else name, **hydrodynamics)
@@ -155,7 +159,7 @@ def _from_database(
     mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
-) -> _core.VesselHydrodynamics:
+) -> VesselHydrodynamics:
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
@@ -195,8 +199,8 @@ def _from_database(
         mooring_damping=damping,
         memory=[] if memory == "none" else core_memory(parameters.memory),
         kinematics=kinematics,
+        database=database,
     )
-    remember(added, database)
     band = (float(database.omega[0]), float(database.omega[-1]))
     scene.provenance[name] = VesselProvenance(
         database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),

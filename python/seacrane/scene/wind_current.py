@@ -17,15 +17,12 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.warnings import DoubleCountedDampingWarning
 
 Array = NDArray[np.float64]
 SEA_WATER = 1025.0  # kg/m3
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
-
-
-class DoubleCountedDampingWarning(UserWarning):
-    """Current coefficients and damping of the vessel both slow its drift: its motions come out too small."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

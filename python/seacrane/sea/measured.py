@@ -13,6 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.renamed import refusing
 from seacrane.sea.spectra import tabulated_spectrum
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ HIGHEST = 1e6  # m: no sea, and its squares do not overflow
 UNIFORM = 1e-3  # largest departure of a time from the uniform grid, over the step
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeasuredWaves:
     """Surface elevation measured at one point: a wave system whose waves reproduce the record there.
@@ -41,7 +43,7 @@ class MeasuredWaves:
         Each component then has a direction of its own; the record at the point stays the same.
     position : tuple of float
         x, y of the measuring point, m, inertial frame.
-    omega_min, omega_max : float, optional
+    minimum_omega, maximum_omega : float, optional
         Low and high cut, rad/s; default: all harmonics up to the Nyquist frequency.
     taper : float
         Share of the record, 0 to 1, over which a cosine window takes both ends to zero together (Tukey);
@@ -60,8 +62,8 @@ class MeasuredWaves:
     direction_deg: float
     spreading: Spreading | None = None
     position: tuple[float, float] = (0.0, 0.0)
-    omega_min: float | None = None
-    omega_max: float | None = None
+    minimum_omega: float | None = None
+    maximum_omega: float | None = None
     taper: float = 0.0
     name: str = "measured"
 
@@ -104,7 +106,7 @@ class MeasuredWaves:
         if not self._kept.any():
             raise SceneError(
                 f"{self._object}: no harmonic of {2.0 * np.pi / self.duration:.4g} rad/s lies between "
-                f"omega_min {self.omega_min} and omega_max {self.omega_max}; widen the band"
+                f"minimum_omega {self.minimum_omega} and maximum_omega {self.maximum_omega}; widen the band"
             )
 
     @property
@@ -142,8 +144,16 @@ class MeasuredWaves:
     @property
     def _kept(self) -> NDArray[np.bool_]:
         omega = self._harmonics
-        low = 0.0 if self.omega_min is None else number_of(f"{self._object}: omega_min", self.omega_min)
-        high = np.inf if self.omega_max is None else number_of(f"{self._object}: omega_max", self.omega_max)
+        low = (
+            0.0
+            if self.minimum_omega is None
+            else number_of(f"{self._object}: minimum_omega", self.minimum_omega)
+        )
+        high = (
+            np.inf
+            if self.maximum_omega is None
+            else number_of(f"{self._object}: maximum_omega", self.maximum_omega)
+        )
         return np.asarray((omega > 0.0) & (omega >= low) & (omega <= high))
 
     def band_passed(self) -> Array:

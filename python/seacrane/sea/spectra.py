@@ -11,15 +11,12 @@ from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.checked import number_of, numbers_of, positive_of
+from seacrane.warnings import SteepSeaWarning
 
 # Peak period over mean periods of x^-5 exp(-5/4 x^-4), from its moments in closed form.
 PEAK_OVER_TZ = (1.25 * math.pi) ** 0.25
 PEAK_OVER_T1 = 1.25**0.25 * math.gamma(0.75)
-
-
-class SteepSeaWarning(UserWarning):
-    """A sea is steeper than any that stands: its waves break, and linear waves overstate crests and loads."""
 
 
 def jonswap(*, hs: float, tp: float, gamma: float | Literal["dnv"] = 3.3) -> _core.Spectrum:
@@ -76,10 +73,9 @@ def bretschneider(
             f"Bretschneider spectrum: periods given are {sorted(periods)}; give one of tp, tz, t1"
         )
     ((name, period),) = periods.items()
-    if not (math.isfinite(period) and period > 0.0):
-        raise SceneError(f"Bretschneider spectrum: {name} is {period}; give a finite value above zero in s")
     factor = {"tp": 1.0, "tz": PEAK_OVER_TZ, "t1": PEAK_OVER_T1}[name]
-    return _core.pierson_moskowitz(hs=hs, tp=factor * period)
+    tp = factor * positive_of(f"Bretschneider spectrum: {name}", period, "s")
+    return _core.pierson_moskowitz(hs=hs, tp=tp)
 
 
 def tabulated_spectrum(

@@ -15,6 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
@@ -25,6 +26,7 @@ MOST_COMPONENTS = 1_000_000
 DIRECTION_STREAM = 2  # of the three Philox streams of each system
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class WaveSystem:
     """Waves of one spectrum about one direction.
@@ -38,7 +40,7 @@ class WaveSystem:
         Short-crested waves: `cos_2s` or `cos_n`. Default: long-crested.
     count : int
         Number of components, 1 to 1,000,000.
-    omega_min, omega_max : float, optional
+    minimum_omega, maximum_omega : float, optional
         Range of frequencies, rad/s; default: `Spectrum.default_range`.
     name : str
 
@@ -59,8 +61,8 @@ class WaveSystem:
     direction_deg: float
     spreading: Spreading | None = None
     count: int = 200
-    omega_min: float | None = None
-    omega_max: float | None = None
+    minimum_omega: float | None = None
+    maximum_omega: float | None = None
     name: str = "waves"
 
     def __post_init__(self) -> None:
@@ -87,8 +89,8 @@ class WaveSystem:
             system=system,
             direction=float(np.radians(self.direction_deg)),
             count=self.count,
-            omega_min=self.omega_min,
-            omega_max=self.omega_max,
+            minimum_omega=self.minimum_omega,
+            maximum_omega=self.maximum_omega,
             depth=depth,
             placement=placement,
         )

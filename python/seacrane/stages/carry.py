@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.assembled import AssemblyWarning
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Some
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.scene.scene import Scene
+from seacrane.warnings import AssemblyWarning
 
 Array = NDArray[np.float64]
 

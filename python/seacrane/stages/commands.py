@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from seacrane import _core
 from seacrane.description.edit import replace_element
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Some
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import finite_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
 from seacrane.stages.move import Move
@@ -68,9 +66,7 @@ def check_command(what: str, name: str, value: object, known: Mapping[str, Targe
         if known[name].attribute == HOLE:
             raise SceneError(f"{what}: command {name!r} is {shown(value)}; a hose bursts at once: give m2")
         return
-    number = number_of(f"{what}: command {name!r}", value)
-    if not np.isfinite(number):
-        raise SceneError(f"{what}: command {name!r} is {number}; give a finite number")
+    number = finite_of(f"{what}: command {name!r}", value)
     if known[name].attribute == HOLE and not number > 0.0:
         raise SceneError(f"{what}: command {name!r} is {number:g} m2; give the area of the hole, above zero")
     if known[name].place:

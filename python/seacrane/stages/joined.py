@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.result.channels import CHANNELS, NAMED
+from seacrane.description.channels import CHANNELS, NAMED
+from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
-from seacrane.result.stages import StageSpan, spans_as_text
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
@@ -25,7 +24,6 @@ SUMS = (
     "projections", "restarts", "dense_solves", "events",
 )  # fmt: skip
 LOST = "impact_energy_lost_J"
-WEIGHTS = ("hanging_weight", "line_weight")  # of what hangs in any stage
 NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 
 
@@ -113,8 +111,9 @@ def joined(
     events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
     return Result.from_arrays(
         time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
-        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, spans),
-        interrupted=interrupted, state=pieces[-1].counting_on(), scene=scene.copy(notes={}),
+        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces),
+        about=_about(pieces, spans), interrupted=interrupted, state=pieces[-1].counting_on(),
+        scene=scene.copy(notes={}),
     )  # fmt: skip
 
 
@@ -188,7 +187,21 @@ def _lost_in_impacts(piece: Piece) -> float:
     return float(piece.result.stats.get(LOST, before)) - before + float(met)
 
 
-def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any]:
+def _about(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> About:
+    """As of the last stage, with the weights of what hangs in any."""
+    every = [piece.result.about for piece in pieces]
+    weights: dict[str, float] = {}
+    on_lines: dict[str, Sequence[float]] = {}
+    for one in every:
+        weights |= one.hanging_weight
+        on_lines |= one.line_weight
+    settings = {**every[-1].settings, "t_end": float(pieces[-1].result.time[-1])}
+    return replace(
+        every[-1], settings=settings, stages=tuple(spans), hanging_weight=weights, line_weight=on_lines
+    )
+
+
+def _stats(pieces: Sequence[Piece]) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
     out: dict[str, Any] = dict(every[-1])
     out |= {
@@ -201,13 +214,4 @@ def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any
         told = dict.fromkeys(line for one in every for line in str(one.get(key, "")).splitlines())
         if told:
             out[key] = "\n".join(told)
-    for key in WEIGHTS:
-        known: dict[str, Any] = {}
-        for one in every:
-            known |= json.loads(str(one.get(key, "{}")))
-        if known:
-            out[key] = json.dumps(known)
-    settings = json.loads(str(out["settings"]))
-    out["settings"] = settings | {"t_end": float(pieces[-1].result.time[-1])}
-    out["stages"] = spans_as_text(spans)
     return out

@@ -93,14 +93,14 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
     Raises
     ------
     SimulationError
-        For a stage whose conditions are not met within its `longest`.
+        For a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
         course.calls.begin(replayed=False)
         run = course.taken(start, start.time + stage.duration)
         return "" if run.interrupted else "duration"
-    assert stage.longest is not None
-    end, state = start.time + stage.longest, start
+    assert stage.maximum_duration is not None
+    end, state = start.time + stage.maximum_duration, start
     met = _met_now(course.run(state, end, capacity=1), stage.conditions)
     while met is None:
         course.calls.begin(replayed=True)
@@ -120,9 +120,9 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
             return ""
         if stop >= end:
             raise SimulationError(
-                f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {end:.6g} s: "
-                f"it waits for {_waits_for(stage, run)}. Command what leads there, correct the condition, or "
-                "allow longer"
+                f"{stage.title}: is not over after its maximum_duration of {stage.maximum_duration:g} s, "
+                f"at t = {end:.6g} s: it waits for {_waits_for(stage, run)}. "
+                "Command what leads there, correct the condition, or allow longer"
             )
         state = run.state
     return met.text
@@ -130,7 +130,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
 
 def _next_look(course: Course, now: float) -> float:
     """The output that is so many outputs away, s."""
-    dt = course.outputs.dt
+    dt = course.outputs.dt_out
     return float(course.first + dt * (np.floor((now - course.first) / dt + 1e-6) + LOOK))
 
 

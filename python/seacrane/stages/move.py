@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from seacrane._core import Curve
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import finite_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,9 +40,7 @@ class Move:
             value = getattr(self, name)
             if value is None:
                 continue
-            number = number_of(f"move: {name}", value)
-            if not np.isfinite(number):
-                raise SceneError(f"move: {name} is {number}; give a finite number")
+            number = finite_of(f"move: {name}", value)
             object.__setattr__(self, name, number)
         if not self.over > 0.0:
             raise SceneError(f"move: over is {self.over:g} s; give the positive time that it takes")

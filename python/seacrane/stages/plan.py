@@ -37,27 +37,34 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
     if not stages:
         raise SceneError("stages: there are none; give at least one seacrane.Stage")
     seen: set[str] = set()
+    absent, burst = waiting(stages), dict[str, str]()
     for stage in stages:
-        if stage.name in seen:
-            raise SceneError(f"{stage.title}: the name is used twice; names of stages must differ")
-        seen.add(stage.name)
-    absent = waiting(stages)
-    burst: dict[str, str] = {}
-    for stage in stages:
-        _change(scene, stage, absent)
-        there = without(scene, absent)
-        known = targets(there)
-        for name, value in stage.commands.items():
-            check_command(stage.title, name, value, known)
-            if known[name].attribute == HOLE and burst.setdefault(name, stage.name) != stage.name:
-                raise SceneError(
-                    f"{stage.title}: commands {name!r}, and that hose bursts in stage {burst[name]!r}; leave "
-                    "one of them out"
-                )
-        check_limits(stage, there)
-        check_bounds(stage, there)
-        _check_names(stage, there)
+        try:
+            if stage.name in seen:
+                raise SceneError(f"{stage.title}: the name is used twice; names of stages must differ")
+            seen.add(stage.name)
+            _check(scene, stage, absent, burst)
+        except SceneError as error:
+            error.name = stage.name
+            raise
     return stages
+
+
+def _check(scene: Scene, stage: Stage, absent: set[str], burst: dict[str, str]) -> None:
+    """A stage after those before it, which changes what is absent, and which hoses burst in which stage."""
+    _change(scene, stage, absent)
+    there = without(scene, absent)
+    known = targets(there)
+    for name, value in stage.commands.items():
+        check_command(stage.title, name, value, known)
+        if known[name].attribute == HOLE and burst.setdefault(name, stage.name) != stage.name:
+            raise SceneError(
+                f"{stage.title}: commands {name!r}, and that hose bursts in stage {burst[name]!r}; leave "
+                "one of them out"
+            )
+    check_limits(stage, there)
+    check_bounds(stage, there)
+    _check_names(stage, there)
 
 
 def waiting(stages: Sequence[Stage]) -> set[str]:

@@ -69,7 +69,7 @@ def _check_rate(stage: Stage, name: str, line: _core.Line, command: Command) -> 
     if isinstance(command, Move):
         fastest = 0.0 if command.to is None else abs(command.to)
     elif isinstance(command, _core.Curve):
-        longest = stage.duration if stage.duration is not None else stage.longest
+        longest = stage.duration if stage.duration is not None else stage.maximum_duration
         assert longest is not None
         fastest = float(np.abs(command.evaluate(np.linspace(0.0, longest, SAMPLES))[:, 0]).max())
     else:
@@ -100,15 +100,15 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
             continue  # another condition may end it; a line that is not there is told by its channel
         if lines[name].tension_gain > 0.0 or lines[name].drum_inertia > 0.0:
             continue  # its tension, motor or brake may lead it there
-        assert stage.longest is not None
-        least, most = _reached(lines[name], lengths[name], begin, stage.longest)
+        assert stage.maximum_duration is not None
+        least, most = _reached(lines[name], lengths[name], begin, stage.maximum_duration)
         if float(condition.excess(np.array([least, most])).max()) >= -1e-9 * lengths[name]:
             continue
         what = f"{name}.rate" if lines[name].winch else f"{name}.length"
         raise SceneError(
             f"{stage.title}: would never end: it waits for {condition.text}, and line {name!r} goes from "
             f"{lengths[name]:.6g} m to {least:.6g} m at the least and {most:.6g} m at the most within its "
-            f"longest of {stage.longest:g} s. Command {what!r} towards it, or give it longer"
+            f"maximum_duration of {stage.maximum_duration:g} s. Command {what!r} towards it, or give more"
         )
 
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, texts_of
+from seacrane.inputs.checked import name_of, positive_of, texts_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.stages.commands import Command
 from seacrane.stages.until import Condition, Contact, Level
 
 
+@refusing
 @dataclass(frozen=True, kw_only=True)
 class Stage:
     """One part of a lift: what is connected and released as it begins, commanded during it, and ends it.
@@ -25,10 +25,10 @@ class Stage:
     name : str
         Differs from those of other stages.
     duration : float, optional
-        s; or else `until` and `longest`.
+        s; or else `until` and `maximum_duration`.
     until : condition or sequence of them, optional
         Made by `Until`; the first that is met ends the stage.
-    longest : float, optional
+    maximum_duration : float, optional
         s; a stage whose conditions are not met by then ends the run with an error that names it.
     commands : mapping of str to Move, Curve or float
         By what is commanded: "<line>.rate" of a winch, "<line>.length" of a line without one,
@@ -49,7 +49,7 @@ class Stage:
     name: str
     duration: float | None = None
     until: Condition | Sequence[Condition] = ()
-    longest: float | None = None
+    maximum_duration: float | None = None
     commands: Mapping[str, Command] = field(default_factory=dict)
     connect: Sequence[str] = ()
     release: Sequence[str] = ()
@@ -57,9 +57,9 @@ class Stage:
     def __post_init__(self) -> None:
         name_of("stage", self.name)
         self._set("until", _conditions(self.title, self.until))
-        for key in ("duration", "longest"):
+        for key in ("duration", "maximum_duration"):
             value = getattr(self, key)
-            self._set(key, None if value is None else _seconds(f"{self.title}: {key}", value))
+            self._set(key, None if value is None else positive_of(f"{self.title}: {key}", value, "s"))
         if not isinstance(self.commands, Mapping):
             raise SceneError(f"{self.title}: commands is {shown(self.commands)}; give {{name: command}}")
         self._set("commands", MappingProxyType(dict(self.commands)))
@@ -83,35 +83,31 @@ class Stage:
 
     def _check_end(self) -> None:
         if self.duration is None and not self.until:
-            raise SceneError(f"{self.title}: nothing ends it; give its duration, or until and longest")
+            raise SceneError(
+                f"{self.title}: nothing ends it; give its duration, or until and maximum_duration"
+            )
         if self.duration is not None and self.until:
             raise SceneError(f"{self.title}: has a duration and until; leave one out")
-        if self.until and self.longest is None:
+        if self.until and self.maximum_duration is None:
             met = " or ".join(condition.text for condition in self.until)  # type: ignore[union-attr]
             raise SceneError(
-                f"{self.title}: ends when {met}, and would never end where that is not met; give longest, "
-                "the seconds that it may take at most"
+                f"{self.title}: ends when {met}, and would never end where that is not met; give "
+                "maximum_duration, the seconds that it may take at most"
             )
-        if self.longest is not None and not self.until:
-            raise SceneError(f"{self.title}: longest goes with until; leave it out")
+        if self.maximum_duration is not None and not self.until:
+            raise SceneError(f"{self.title}: maximum_duration goes with until; leave it out")
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled itself
         parts = {
-            "name": self.name, "duration": self.duration, "until": self.until, "longest": self.longest,
-            "commands": dict(self.commands), "connect": self.connect, "release": self.release,
+            "name": self.name, "duration": self.duration, "until": self.until,
+            "maximum_duration": self.maximum_duration, "commands": dict(self.commands),
+            "connect": self.connect, "release": self.release,
         }  # fmt: skip
         return _made, (parts,)
 
 
 def _made(parts: dict[str, Any]) -> Stage:
     return Stage(**parts)
-
-
-def _seconds(what: str, value: Any) -> float:
-    seconds = number_of(what, value)
-    if not (np.isfinite(seconds) and seconds > 0.0):
-        raise SceneError(f"{what} is {seconds:g} s; give a finite, positive time")
-    return seconds
 
 
 def _conditions(what: str, given: Any) -> tuple[Condition, ...]:

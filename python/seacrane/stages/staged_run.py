@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium
+from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import LOADS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
-from seacrane.result.stages import StageSpan
 from seacrane.run.carried_state import carried
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
@@ -96,6 +97,7 @@ class StagedRun:
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
+        scene = decided(scene)
         every = checked_stages(scene, stages)
         self.stages, self._whole, time = planned_scene(scene, every, first)
         self._given, self._absent = scene, waiting(self.stages)
@@ -134,8 +136,8 @@ class StagedRun:
         SceneError
             For a connection, command or condition that does not fit; the message names the stage.
         SimulationError
-            As `simulate`, and for a stage that is not over within its `longest`. Either has as its `result`
-            what was recorded until then.
+            As `simulate`, and for a stage that is not over within its `maximum_duration`. Either has
+            as its `result` what was recorded until then.
         """
         if self.interrupted or len(self._spans) == len(self.stages):
             return False
@@ -276,7 +278,7 @@ class StagedRun:
         if wanted is not None:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
-        outputs = Outputs(dt=self.outputs.dt, channels=wanted)
+        outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
         return Course(
             scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
@@ -362,8 +364,8 @@ def simulate_stages(
     SceneError
         For stages that do not fit the scene or one another, by their names.
     SimulationError
-        As `simulate`, and for a stage that is not over within its `longest`. Its `result` holds the outputs
-        until then.
+        As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
+        holds the outputs until then.
 
     Warns
     -----

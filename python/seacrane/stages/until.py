@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
-from seacrane.result.channels import CHANNELS, FIXED
-from seacrane.result.pick import pick_of
+from seacrane.renamed import refusing
 from seacrane.run.channel_names import derived_coords
 from seacrane.run.run import Run
 
@@ -111,8 +112,9 @@ class Until:
     """
 
     @staticmethod
+    @refusing
     def channel(
-        channel: str, *, above: float | None = None, below: float | None = None, **names: str
+        channel: str, *, minimum: float | None = None, maximum: float | None = None, **names: str
     ) -> Level:
         """Any channel at or above, or at or below, a value in its unit.
 
@@ -120,7 +122,7 @@ class Until:
         ----------
         channel : str
             Such as "position".
-        above, below : float
+        minimum, maximum : float
             One of them.
         **names : str
             One name for each dimension but time, such as ``body="load", axis="z"``.
@@ -136,25 +138,31 @@ class Until:
         missing = [dim for dim in CHANNELS[channel].dims[1:] if dim not in names]
         if missing:
             raise SceneError(f"until {channel}: says not which {missing[0]}; give {missing[0]}=...")
-        if (above is None) == (below is None):
-            raise SceneError(f"until {channel}: above is {above} and below is {below}; give one of them")
-        value = number_of(f"until {channel}", below if above is None else above)
+        if (minimum is None) == (maximum is None):
+            raise SceneError(
+                f"until {channel}: minimum is {minimum} and maximum is {maximum}; give one of them"
+            )
+        value = number_of(f"until {channel}", maximum if minimum is None else minimum)
         if not np.isfinite(value):
             raise SceneError(
                 f"until {channel}: is to pass {value}, which it never does; give a finite number"
             )
-        return Level(channel, tuple(sorted(names.items())), value, above is not None)
+        return Level(channel, tuple(sorted(names.items())), value, minimum is not None)
 
     @staticmethod
-    def tension(line: str, *, above: float | None = None, below: float | None = None) -> Level:
+    @refusing
+    def tension(line: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
         """The tension of an elastic line, N. For a rigid link: ``Until.channel("tension", link=...)``."""
-        return Until.channel("line_tension", above=above, below=below, line=name_of("until: line", line))
+        return Until.channel(
+            "line_tension", minimum=minimum, maximum=maximum, line=name_of("until: line", line)
+        )
 
     @staticmethod
-    def length(line: str, *, above: float | None = None, below: float | None = None) -> Level:
+    @refusing
+    def length(line: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
         """The unstretched length of an elastic line, m: what its winch has paid out."""
         return Until.channel(
-            "line_unstretched_length", above=above, below=below, line=name_of("until: line", line)
+            "line_unstretched_length", minimum=minimum, maximum=maximum, line=name_of("until: line", line)
         )
 
     @staticmethod

@@ -5,30 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.waves import RepeatingSeaWarning
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import RepeatingSeaWarning, StartTransientWarning
 
 Array = NDArray[np.float64]
 PARTS = 20  # of a record, of which the first fifth is compared with the rest
 CYCLES = 5.0  # that a part must hold at least
 UNLIKELY = 0.002  # probability, for each of mean and variance, of a warning without cause
 CLEAR_MEAN, CLEAR_SPREAD = 0.25, 0.1  # of the standard deviation: smaller changes are let pass
-
-
-class FewSeedsWarning(UserWarning):
-    """Too few seeds for the number asked: its interval is wider than asked, or nobody can tell."""
-
-
-class FailedSeedsWarning(UserWarning):
-    """Seeds failed: what they would have given is not known, and an interval must allow for it."""
-
-
-class StartTransientWarning(UserWarning):
-    """The first fifth of a record differs from the rest: the start is part of the statistics."""
-
-
-class PoorFitWarning(UserWarning):
-    """The distribution fitted to peaks or maxima does not describe them."""
 
 
 def start_differs(values: Array, cycles: float) -> bool | None:

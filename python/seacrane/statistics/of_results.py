@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
+from seacrane.renamed import refusing
 from seacrane.result import Result
-from seacrane.result.pick import pick_of
 from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -24,12 +25,13 @@ Array = NDArray[np.float64]
 EVEN = 1e-6  # of a step by which output times may be uneven
 
 
+@refusing
 def extremes(
     result: Result | Iterable[Result],
     *,
     channel: str,
     exposure: float = THREE_HOURS,
-    start: float = 0.0,
+    after: float = 0.0,
     smallest: bool = False,
     tail: str = "pareto",
     threshold: float | None = None,
@@ -48,7 +50,7 @@ def extremes(
         With outputs at even times; a selector with names in brackets does as well, "position[load, z]".
     exposure : float
         s; default 3 h.
-    start : float
+    after : float
         Time before which outputs are left out, s.
     smallest : bool
         Ask for the smallest value: every number is then that of the channel with its sign changed.
@@ -76,11 +78,9 @@ def extremes(
     FewSeedsWarning, StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
     """
     sign = -1.0 if flag_of("smallest", smallest) else 1.0
-    begin = number_of("start", start)
     results = [result] if isinstance(result, Result) else _several(result)
     pick = pick_of("extremes", channel, names, held=results[0].channels)
-    if pick.after is not None:
-        raise SceneError(f"extremes {pick}: say from when on by start=")
+    begin = number_of("after", after) if pick.after is None else pick.after
     channel, names = pick.channel, dict(pick.names)
     records = [_record(one, channel, begin, sign, names) for one in results]
     words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
@@ -125,14 +125,14 @@ def _several(results: Iterable[Result]) -> list[Result]:
 
 
 def _record(
-    result: Result, channel: str, start: float, sign: float, names: dict[str, str]
+    result: Result, channel: str, after: float, sign: float, names: dict[str, str]
 ) -> tuple[Array, float]:
-    """One curve from `start` on, and the time between two of its values, s."""
+    """One curve from `after` on, and the time between two of its values, s."""
     curve = result.curve(channel, **names)
-    late = result.time >= start
+    late = result.time >= after
     time, values = result.time[late], sign * curve[late]
     if time.size < FEWEST_VALUES:
-        raise SceneError(f"{time.size} outputs from {start:g} s on: at least {FEWEST_VALUES} are needed")
+        raise SceneError(f"{time.size} outputs from {after:g} s on: at least {FEWEST_VALUES} are needed")
     if not np.isfinite(values).all():
         raise SceneError(f"channel {channel!r} has gaps: ask for a part of the run, or another channel")
     steps = np.diff(time)

@@ -15,10 +15,11 @@ from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
-from seacrane.statistics.judged import PoorFitWarning, warn_of_repeat, warn_of_start
+from seacrane.statistics.judged import warn_of_repeat, warn_of_start
 from seacrane.statistics.record import crests, positive, record_of, up_crossings
 from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
 from seacrane.statistics.tail import Tail, peaks_over_threshold
+from seacrane.warnings import PoorFitWarning
 
 Array = NDArray[np.float64]
 

@@ -15,8 +15,8 @@ from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 from seacrane.statistics.estimate import CONFIDENCE, EULER, HEAD, P90_REDUCED, Estimate, Maximum
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
-from seacrane.statistics.judged import FewSeedsWarning, PoorFitWarning
 from seacrane.statistics.record import positive
+from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
 Array = NDArray[np.float64]
 FEWEST = 3

@@ -12,7 +12,7 @@ TIME = {"unit": "s"}
 FROM_LIFTS = ("run", "method", "outputs")  # tables that a study may have in place of its lift's
 KEEP = (
     Key(name="name", type="text", required=True, text="What it is called in tables, and in until."),
-    *keys_of(Kept, more={"at": {"type": "names"}, "after": TIME, "step": TIME}),
+    *keys_of(Kept, more={"names": {"type": "names"}, "after": TIME, "interval": TIME}),
 )
 RANGE = (
     Key(name="first", type="number", required=True, text="The first value."),

@@ -12,7 +12,6 @@ from typing import Any
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, with_sea
 from seacrane.ensembles.paths import with_values
-from seacrane.hydro import HydroDatabase
 from seacrane.lift.keys import Key
 from seacrane.lift.lift import Lift
 from seacrane.lift.tables import TABLES
@@ -104,11 +103,11 @@ class LiftScenes:
         keys = {name: value for name, value in values.items() if name in self.places}
         sea = {name: value for name, value in values.items() if name in WORDS}
         paths = {name: value for name, value in values.items() if name not in keys and name not in sea}
-        scene, databases = _built(json.dumps(with_keys(self.tables, self.places, keys)))
+        scene = _built(json.dumps(with_keys(self.tables, self.places, keys)))
         made = with_values(scene, paths)
-        return with_sea(made, databases, sea) if sea else made
+        return with_sea(made, sea) if sea else made
 
 
 @lru_cache(maxsize=MOST_HELD)
-def _built(tables: str) -> tuple[Scene, dict[str, HydroDatabase]]:
-    return Lift(json.loads(tables)).scene_and_databases()
+def _built(tables: str) -> Scene:
+    return Lift(json.loads(tables)).scene()

@@ -250,7 +250,7 @@ def _told(name: str, file: StudyFile, done: Ensemble, length: float) -> Told:
         )
     )
     about = str(variable.attrs.get("long_name", what.channel))
-    at = ", ".join(what.at.values())
+    at = ", ".join(what.names.values())
     return Told(
         name=name, unit=str(variable.attrs.get("units", "-")), what=f"{about}{f' ({at})' if at else ''}",
         over_seeds=seeds, exposure=exposure, cells=cells,

@@ -26,6 +26,8 @@ from seacrane.lift.document import LIFT, VERSION, Document, read_document
 from seacrane.lift.keys import Key
 from seacrane.lift.lift import LIFTS, Lift, lift_of
 from seacrane.lift.lines import Place
+from seacrane.lift.tables import TABLES
+from seacrane.renamed import LIFT_KEYS, STUDY_KEYS
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -70,9 +72,13 @@ class StudyFile:
         document = read_document(Path(path), STUDY)
         folder = Path(path).absolute().parent
         _require_tables(document)
-        reader = _Reader(document, Checker(document, folder))
+        reader = _Reader(document, Checker(document, folder, STUDY_KEYS))
         over = reader.over()
         members, keep = reader.members(over), reader.keep()
+        beside = Checker(document, folder, LIFT_KEYS, older=reader.checker.older)
+        for name in (name for name in FROM_LIFTS if name in document.data):
+            beside.table((name,), TABLES[name].keys, document.data[name])
+        reader.checker.tell()
         return cls(
             members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
             accuracy=reader.accuracy(), _over=over, _document=document, _folder=folder,
@@ -97,7 +103,8 @@ class StudyFile:
         """End time (s), method and outputs: those of the study where it has its own, else the lift's."""
         data = self._document.data
         tables = {name: data[name] for name in FROM_LIFTS if name in data}
-        document = replace(self._document, data={"format": LIFT.format, "version": VERSION, **tables})
+        head = {"format": LIFT.format, "version": data["version"]}
+        document = replace(self._document, data={**head, **tables}, told=True)
         own = lift_of(document, self._folder)
         return (
             own.t_end if "run" in tables else lift.t_end,
@@ -137,7 +144,7 @@ class StudyFile:
         if isinstance(given, Mapping):
             lines = {place[1:]: line for place, line in self._document.lines.items() if place[0] == "lift"}
             lines.pop((), None)
-            data = {"format": LIFT.format, "version": VERSION, **given}
+            data = {"format": LIFT.format, "version": self._document.data["version"], **given}
             return Document(self._document.source, data, lines), self._folder
         if given in LIFTS:
             tables = Lift.shipped(given).tables
@@ -150,10 +157,7 @@ class StudyFile:
 
 def _require_tables(document: Document) -> None:
     """Refuse tables that no study has, and a study without lift, keep or anything that varies."""
-    version = document.data.get("version")
-    if version != VERSION or isinstance(version, bool):
-        told = "has no version" if version is None else f"version is {shown(version)}"
-        document.fail(("version",), f"{told}; this seacrane reads version = {VERSION}")
+    document.require_version()
     known = (*TEXTS, *FROM_LIFTS)
     for name in document.data:
         if name not in (*known, "version"):

@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
-from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea
+from seacrane.ensembles.other_sea import WORDS, require_same_sea
 from seacrane.ensembles.paths import require_paths
 from seacrane.ensembles.study import Source
 from seacrane.errors import FileFormatError, SceneError
@@ -57,21 +57,21 @@ def run_study(
             f"{Path(path).name}: its lift has stages, and a study runs one run: leave them out"
         )
     t_end, method, outputs = study.settings(lift)
-    source, databases = _source(study, lift)
+    source = _source(study, lift)
     text = read_whole(Path(path), LARGEST_FILE, "no study file is")
     _claim(target, text)
     done = ensemble(
         source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy, t_end=t_end,
-        method=method, outputs=outputs, database=databases, executor=executor, store=target / MEMBERS,
+        method=method, outputs=outputs, executor=executor, store=target / MEMBERS,
         progress=progress,
     )  # fmt: skip
     _write(target / FILE, text)
     return done
 
 
-def _source(study: StudyFile, lift: Lift) -> tuple[Source, Databases]:
-    """The scene of the lift and its databases, or what makes scenes where keys of the lift vary."""
-    scene, databases = lift.scene_and_databases()
+def _source(study: StudyFile, lift: Lift) -> Source:
+    """The scene of the lift, or what makes scenes where keys of the lift vary."""
+    scene = lift.scene()
     study.require_accuracy(scene)
     tables, axes = lift.tables, study.members.axes
     keys = keys_in(tables)
@@ -84,14 +84,14 @@ def _source(study: StudyFile, lift: Lift) -> tuple[Source, Databases]:
             study.fail_at(name, str(error))
     varied: dict[str, KeyPlace] = {name: keys[name] for name in axes if name in keys}
     if not varied:
-        return scene, databases
+        return scene
     words = [name for name in axes if name in WORDS]
     if words:
         try:
-            require_same_sea(scene, databases, words)
+            require_same_sea(scene, words)
         except SceneError as error:
             study.fail_at(words[0], str(error))
-    return LiftScenes(tables, varied), None
+    return LiftScenes(tables, varied)
 
 
 def _claim(folder: Path, text: bytes) -> None:

@@ -6,16 +6,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.description.loads import lines_of, path_of
-from seacrane.description.stretch import AUTO, ELASTIC, QUASI_STATIC, with_stretch
+from seacrane.description.places import place_of
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, with_rungs
 from seacrane.errors import SceneError
-from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 RIGID_LINES = "lines rigid"
 LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
 
@@ -23,13 +20,13 @@ LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
 def line_variants(scene: Scene) -> Iterator[tuple[str, Callable[[], Scene]]]:
     """The rungs that the lines of a scene do not have already, each with what makes the scene."""
     lines = lines_of(scene.loads)
-    own = {ELASTIC if line.stretch == AUTO else line.stretch for line in lines.values()}
+    own = {ELASTIC if line.rung == AUTO else line.rung for line in lines.values()}
     if not lines:
         return
     yield RIGID_LINES, partial(with_rigid_lines, scene)
-    for stretch, rung in ((QUASI_STATIC, LINE_RUNGS[1]), (ELASTIC, LINE_RUNGS[2])):
-        if own != {stretch}:
-            yield rung, partial(with_stretch, scene, dict.fromkeys(lines, stretch))
+    for rung, title in ((QUASI_STATIC, LINE_RUNGS[1]), (ELASTIC, LINE_RUNGS[2])):
+        if own != {rung}:
+            yield title, partial(with_rungs, scene, dict.fromkeys(lines, rung))
 
 
 def with_rigid_lines(scene: Scene) -> Scene:
@@ -50,15 +47,8 @@ def with_rigid_lines(scene: Scene) -> Scene:
         (first, start), (second, end) = path_of(line)
         out.remove(name)
         out.add_joint(
-            kind="distance", name=name, first=first, second=second, point=_place(scene, first, start),
-            second_point=_place(scene, second, end),
+            kind="distance", name=name, first=first, second=second,
+            point=place_of(scene, body=first, point=start),
+            second_point=place_of(scene, body=second, point=end),
         )  # fmt: skip
     return out
-
-
-def _place(scene: Scene, body: str, point: Array) -> Array:
-    """A point of a body in the inertial frame, as it is described."""
-    if body not in scene.bodies:
-        return np.asarray(point)
-    found: _core.Body = scene.bodies[body]
-    return np.asarray(found.position + rotation_matrix(np.asarray(found.quaternion)) @ np.asarray(point))

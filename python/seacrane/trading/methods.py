@@ -17,20 +17,18 @@ STEPS_IMPLICIT = (0.1, 0.05, 0.02)  # s
 QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
 
 TIGHT = (
-    Method(formulation="recursive", integrator="dop853", tolerance=1e-12),
-    Method(formulation="recursive", integrator="verner76", tolerance=1e-12),
-    Method(formulation="redundant", integrator="dop853", tolerance=1e-12),
-    Method(formulation="redundant", integrator="verner76", tolerance=1e-12),
+    Method(formulation="recursive", integrator="dop853", rtol=1e-12),
+    Method(formulation="recursive", integrator="verner76", rtol=1e-12),
+    Method(formulation="redundant", integrator="dop853", rtol=1e-12),
+    Method(formulation="redundant", integrator="verner76", rtol=1e-12),
 )
 """The reference's runs; they differ in equations and in method, so that their difference is its error."""
 
-PHYSICS = Method(formulation="auto", integrator="dop853", tolerance=1e-8)
+PHYSICS = Method(formulation="auto", integrator="dop853", rtol=1e-8)
 """How the physics rungs are run: an error far below what leaving physics out brings."""
 
 
-LINES = tuple(
-    Method(integrator="dopri5", tolerance=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-)
+LINES = tuple(Method(integrator="dopri5", rtol=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
 """How the rungs of lines are run: they differ in cost more than in error, so that each is a line."""
 
 

@@ -72,10 +72,10 @@ def waves_name(scene: Scene) -> str:
     return scene.waves.evaluation
 
 
-def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> Iterator[Variant]:
+def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
     """Scenes with one thing changed: memory models, wave evaluations, rungs of lines and of coupling."""
     memory, waves = memory_name(scene), waves_name(scene)
-    for name, build in _memory_variants(scene, database, quick=quick):
+    for name, build in _memory_variants(scene, quick=quick):
         yield Variant(memory=name, waves=waves, rung=FULL, build=build)
     for name, build in _wave_variants(scene, quick=quick):
         yield Variant(memory=memory, waves=name, rung=FULL, build=build)
@@ -91,21 +91,20 @@ def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> It
         yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
 
 
-def _memory_variants(
-    scene: Scene, database: HydroDatabase | None, *, quick: bool
-) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
     """None, convolution, and fits of each kind at several R2 or limits."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
         return
+    database = _database(scene)
     for kind in ("none", "convolution"):
         if kind == memory or (kind != "none" and (quick or database is None)):
             continue
-        yield kind, partial(with_memory, scene, kind, database)
+        yield kind, partial(with_memory, scene, kind)
     for kind, levels in FITTED.items() if database is not None else ():
         for level in levels.quick if quick else levels.all:
             if kind != memory or level != levels.usual:
-                fit = partial(with_memory, scene, kind, database, level=level)
+                fit = partial(with_memory, scene, kind, level=level)
                 yield f"{kind} {levels.asked}={level:g}", fit
 
 
@@ -119,9 +118,13 @@ def full_memory_name(scene: Scene, name: str) -> str:
     return f"{kind}:{sum(block.a.shape[0] for block in blocks)}"
 
 
-def with_memory(
-    scene: Scene, kind: str, database: HydroDatabase | None, *, level: float | None = None
-) -> Scene:
+def _database(scene: Scene) -> HydroDatabase | None:
+    """Of the one vessel, where that is from one."""
+    (vessel,) = scene.vessels.values()
+    return vessel.database if isinstance(vessel.database, HydroDatabase) else None
+
+
+def with_memory(scene: Scene, kind: str, *, level: float | None = None) -> Scene:
     """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit.
 
     Parameters
@@ -131,6 +134,7 @@ def with_memory(
     """
     (vessel,) = scene.vessels.values()
     changes: dict[str, Any] = {"memory": []}
+    database = _database(scene)
     if database is not None:
         if level is not None:
             database = replace(database, memory=_fit(database, kind, level))

@@ -19,9 +19,9 @@ from seacrane.experiment.reference import Reference
 from seacrane.experiment.row import Row
 from seacrane.experiment.row_file import RowFile, completed
 from seacrane.files.atomic import atomic_write
-from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
@@ -75,8 +75,8 @@ class Trade:
             "formulation": [row.formulation for row in self.rows],
             "integrator": [row.method.integrator for row in self.rows],
             "setting": [row.method.setting for row in self.rows],
-            "rtol": [_or_nan(row.method.tolerance) for row in self.rows],
-            "dt": [_or_nan(row.method.step) for row in self.rows],
+            "rtol": [_or_nan(row.method.rtol) for row in self.rows],
+            "dt": [_or_nan(row.method.dt) for row in self.rows],
             **{name: [row.case[name] for row in self.rows] for name in self.full_case},
             **{name: [getattr(row, name) for row in self.rows] for name in MEASURED},
             "reason": [row.message for row in self.rows],
@@ -226,6 +226,7 @@ class Trade:
             self.plot().savefig(draft, format="png", dpi=110)
 
 
+@refusing
 def trade(
     scene: Scene,
     t_end: float = 100.0,
@@ -235,7 +236,6 @@ def trade(
     quantities: Sequence[str] | None = None,
     dt_out: float | None = None,
     quick: bool = False,
-    database: HydroDatabase | None = None,
     progress: bool = True,
     out: str | os.PathLike[str] | None = None,
 ) -> Trade:
@@ -246,6 +246,7 @@ def trade(
     changed: fluid memory, evaluation of the waves, coupling of crane, payload and vessel; the other rungs of
     elastic lines (rigid, quasi-static, elastic), each at several tolerances. Methods and physics
     are not crossed: their errors add. What a method cannot do is a row that is not stable and says why.
+    Other memories are fitted to the vessel's database; without one, only no memory is compared.
 
     Parameters
     ----------
@@ -262,9 +263,6 @@ def trade(
         those of the named ones that the scene has, else position and velocity of all bodies.
     quick : bool
         A coarse grid of few integrators.
-    database : HydroDatabase, optional
-        The vessel's, to fit other memory models; default: the shipped one where the scene was made from it.
-        Without one, only the scene without memory is compared.
     progress : bool
         Show a progress bar.
     out : path, optional
@@ -281,7 +279,7 @@ def trade(
         For an unknown quantity, or a scene of which no two tight runs work.
     """
     _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
-    case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt)
+    case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out)
     measured = quantities_of(scene, case.model, quantities)
     metadata = {
         "scene": scene.name, "seacrane_version": __version__, "t_end": case.t_end, "dt_out": case.dt_out,
@@ -293,7 +291,7 @@ def trade(
     file = _row_file(out, {**metadata, "quantities": list(measured)}, scene)
     bench = Bench(case=case, quantities=measured, truth=truth, repeats=1 if quick else REPEATS)
     tried = measured_methods(quick=quick) if methods is None else methods
-    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, database, quick=quick)])
+    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, quick=quick)])
     rows = completed(
         tasks, file, lambda keys: ((key, tasks[key]()) for key in keys), title="trade", progress=progress
     )
@@ -317,10 +315,10 @@ def _methods(bench: Bench, metadata: Mapping[str, Any], methods: Iterable[Method
         yield row.key, partial(measure, bench, row)
 
 
-def _physics(bench: Bench, database: HydroDatabase | None, *, quick: bool) -> Iterator[Task]:
+def _physics(bench: Bench, *, quick: bool) -> Iterator[Task]:
     """One row for each scene with less physics, all by the same method; rungs of lines by several."""
     scene = bench.case.scene
-    for variant in rungs.variants(scene, database or _shipped(scene), quick=quick):
+    for variant in rungs.variants(scene, quick=quick):
         case = {"memory": variant.memory, "waves": variant.waves, "rung": variant.rung}
         if variant.rung == rungs.LINEAR:
             row = Row(case=case, method=LINEAR)
@@ -344,13 +342,6 @@ def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any],
     if not folder.is_dir():
         raise SceneError(f"out {str(folder)!r} is no folder; create it first")
     return RowFile(folder / "trade_rows.jsonl", {**experiment, "described": scene_digest(scene)})
-
-
-def _shipped(scene: Scene) -> HydroDatabase | None:
-    """The shipped database, if the scene's vessel was made from it."""
-    shipped = shipped_database()
-    known = [scene.provenance.get(name) for name in scene.vessels]
-    return shipped if [one and one.database for one in known] == [shipped.name] else None
 
 
 def _or_nan(value: float | None) -> float:

@@ -8,6 +8,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from seacrane.errors import SimulationError
+from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 Finding = tuple[type[Warning], str]
 Some = TypeVar("Some")
@@ -23,14 +24,6 @@ class Counted(Protocol):
 
 Judged = TypeVar("Judged", bound=Counted)
 NOT_FINITE = "not_finite"  # stat of a result: such channels
-
-
-class UnjudgedWarning(UserWarning):
-    """Something that is worked out after a run failed, and is missing; what was recorded is whole."""
-
-
-class NotFiniteWarning(UserWarning):
-    """A channel of a finished run holds values that are no numbers."""
 
 
 def tried(what: str, work: Callable[[], Some], otherwise: Some, found: list[Finding]) -> Some:

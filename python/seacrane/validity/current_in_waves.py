@@ -11,13 +11,10 @@ from seacrane import _core
 from seacrane.description.scene import Description
 from seacrane.validity.energy import Finding
 from seacrane.validity.hull_range import LARGEST_SHIFT, Peak
+from seacrane.warnings import CurrentInWavesWarning
 
 Array = NDArray[np.float64]
 LIGHTEST_WATER = 500.0  # kg/m3: a denser medium is water
-
-
-class CurrentInWavesWarning(UserWarning):
-    """A current is strong enough to change the waves that a vessel meets, and its loads do not know it."""
 
 
 def current_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.warnings import EnergyErrorWarning
+
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
@@ -15,10 +17,6 @@ Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 LARGEST_SHARE = 0.1  # of the work, or of the kinetic energy
 LEAST_RISE = 1e-3  # m times the length scale, by which all bodies are lifted: what does not matter
-
-
-class EnergyErrorWarning(UserWarning):
-    """The energy balance does not close by far: the step is too long, or a load tells a wrong power."""
 
 
 def energy_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.joint_coordinates import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -24,18 +25,6 @@ SHORT_ANGLE = np.radians(5.0)
 STEADY = 3.0  # standard deviations: an error of the mean, not of a motion about it
 LAST = 0.4  # of the outputs, which are judged
 FEWEST_OUTPUTS = 16
-
-
-class OutsideRangeWarning(UserWarning):
-    """A coordinate left its range, such as a cylinder the stroke of the crane's data file."""
-
-
-class SoftGainsWarning(UserWarning):
-    """An actuator stays away from its reference: gains too soft for what it carries, or no feed-forward."""
-
-
-class FullTurnWarning(UserWarning):
-    """An angle passed half a turn: its record jumps there, and so does the error an actuator sees."""
 
 
 def following(scene: Description, time: Array, channels: Channels, steered: Collection[str]) -> list[Finding]:
@@ -137,8 +126,8 @@ def _short(scene: Description, name: str, error: Array) -> list[Finding]:
             SoftGainsWarning,
             f"actuator {name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and "
             f"damping {actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too "
-            "soft for what it carries. Give stiffness = inertia * omega**2 (seacrane.reflected_inertia) with "
-            "omega well above the motion, or its load as feed_forward (seacrane.balance)",
+            "soft for what it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
+            "(seacrane.analysis.reflected_inertia), or its load as feed_forward (seacrane.balance)",
         )
     ]
 

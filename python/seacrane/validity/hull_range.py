@@ -12,6 +12,13 @@ from numpy.typing import NDArray
 
 from seacrane.description.given import given_vessels
 from seacrane.inputs.frames import heading_of, rotation_about_z
+from seacrane.warnings import (
+    ForwardSpeedWarning,
+    MeanHeadingWarning,
+    MeanPositionWarning,
+    MooringTurnWarning,
+    NoWaveLoadsWarning,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -31,26 +38,6 @@ LARGEST_SHIFT = 0.1  # of the encounter frequency from the wave's, as a share
 SLOW = 2.0  # peak periods: what two running means over so many leave of a motion is slow
 TINY = float(np.finfo(float).tiny)
 BINS = 32  # of the band, in which the peak is looked for
-
-
-class MeanPositionWarning(UserWarning):
-    """A vessel drifted away from where its wave loads are taken: their phase is that of another place."""
-
-
-class MeanHeadingWarning(UserWarning):
-    """A vessel turned away from the heading at which its wave loads are taken."""
-
-
-class ForwardSpeedWarning(UserWarning):
-    """A vessel makes way through waves, and its hydrodynamics are those of zero speed."""
-
-
-class MooringTurnWarning(UserWarning):
-    """A vessel turned beyond half a turn, where a mooring that is a spring in yaw pulls the other way."""
-
-
-class NoWaveLoadsWarning(UserWarning):
-    """A vessel is in a sea that does not load it."""
 
 
 def motions(
@@ -227,7 +214,7 @@ def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Fin
         (
             NoWaveLoadsWarning,
             f"vessel {name!r}: rests in the sea that {', '.join(map(repr, waves.hulls))} meets, and would "
-            f"follow its RAOs there; call scene.add_sea(raos, vessel={body!r}) with its database or table",
+            f"follow its RAOs there; call scene.add_sea(vessel={body!r})",
         )
     ]
 
@@ -235,5 +222,5 @@ def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Fin
 def _unloaded(name: str, waves: Waves) -> str:
     return (
         f"vessel {name!r}: floats in the sea that loads {', '.join(map(repr, waves.hulls))}, and has no wave "
-        f"loads itself; call scene.add_sea(database, vessel={name!r}) with its database"
+        f"loads itself; call scene.add_sea(vessel={name!r})"
     )

@@ -16,6 +16,7 @@ from seacrane.description.loads import lines_of, path_of
 from seacrane.description.outline import box_edges, ship_size
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -30,18 +31,6 @@ LARGEST_SWING = np.radians(20.0)
 CLEAR = 0.01  # m of a load below a deck on which it stands
 WATER = 1025.0  # kg/m3
 BLOCK = 0.7  # of a hull: its volume over that of the box around it
-
-
-class LargeSwingWarning(UserWarning):
-    """A load on a crane's link, or on one line alone, swung beyond 20 deg: further than any lift is let."""
-
-
-class OverloadWarning(UserWarning):
-    """The load of a crane is above what the crane's own table allows at the radius where it is."""
-
-
-class LoadInHullWarning(UserWarning):
-    """The load of a crane starts inside the hull of a vessel, through which it hangs."""
 
 
 def lifting(scene: Description, time: Array, channels: Channels) -> list[Finding]:

@@ -13,17 +13,14 @@ from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of
 from seacrane.inputs.caller import warn_caller
-from seacrane.validity.lines import STRONGEST, WinchLimitWarning
+from seacrane.validity.lines import STRONGEST
+from seacrane.warnings import LiftedStartWarning, WinchLimitWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 LARGEST_LIFT = 1.5  # of a body's weight, by its lines
-
-
-class LiftedStartWarning(UserWarning):
-    """Lines start by lifting a body with far more than its weight: one of them is too short."""
 
 
 def warn_of_line_starts(scene: Description) -> None:
@@ -48,7 +45,7 @@ def start_tension(line: _core.Line, path: float) -> float:
     length = float(line.length.evaluate([0.0])[0, 0])
     strain = path / length - 1.0
     if not len(line.strains):
-        return max(0.0, float(line.stiffness) * strain)
+        return max(0.0, float(line.EA) * strain)
     return float(np.interp(strain, line.strains, line.tensions))
 
 

@@ -11,8 +11,15 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of, whole_of
-from seacrane.description.stretch import QUASI_STATIC
+from seacrane.description.rungs import QUASI_STATIC
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import (
+    FleetAngleWarning,
+    LineLengthWarning,
+    LineTableWarning,
+    PushingLineWarning,
+    WinchLimitWarning,
+)
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -23,26 +30,6 @@ LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
 STRONGEST = 1e12  # N or W: a bound here or beyond is none
 LARGEST_FLEET_ANGLE = 4.0  # degrees, the usual bound for ropes of cranes
-
-
-class LineLengthWarning(UserWarning):
-    """A line starts far longer or shorter than its path: its length or a point is not what was meant."""
-
-
-class LineTableWarning(UserWarning):
-    """A line was strained beyond the table of its tension, which goes on along its last tangent."""
-
-
-class FleetAngleWarning(UserWarning):
-    """A line leaves a sheave at an angle at which ropes do not stay in their groove."""
-
-
-class WinchLimitWarning(UserWarning):
-    """A winch met a limit: it did not do what it was commanded."""
-
-
-class PushingLineWarning(UserWarning):
-    """A quasi-static line pushed for a moment while it was stretched; an elastic one would be slack."""
 
 
 class _Bound(NamedTuple):
@@ -158,7 +145,7 @@ def strains_at_rest(scene: Description) -> dict[str, float]:
     """Of lines with a constant EA that alone carry what hangs on them, by that weight."""
     lines = lines_of(scene.loads)
     return {
-        name: weight / falls / lines[name].stiffness
+        name: weight / falls / lines[name].EA
         for name, (weight, falls) in line_weights(scene).items()
         if not len(lines[name].strains)
     }
@@ -194,12 +181,12 @@ def _contradicted(
 def _pushed(named: tuple[str, _core.Line], tension: Array, time: Array) -> Iterator[Finding]:
     name, line = named
     worst = int(np.argmin(tension))
-    if line.stretch != QUASI_STATIC or tension[worst] >= 0.0:
+    if line.rung != QUASI_STATIC or tension[worst] >= 0.0:
         return
     yield (
         PushingLineWarning,
         f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
-        "quasi-static, and follows the tension too late to go slack. Give it stretch 'elastic'",
+        "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
     )
 
 

@@ -16,12 +16,13 @@ from seacrane.description.loads import kind_of
 from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
+from seacrane.inputs.plausible import angle_of
 from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_starts import warn_of_line_starts
 from seacrane.validity.stability import carried_by, warn_of_capsize
 from seacrane.validity.units import warn_of_units
+from seacrane.warnings import BallastWarning, CompassDirectionWarning, MassUnitWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -45,10 +46,6 @@ JUDGED_LOADS = (
     "pendulum damping",
     "span drag",
 )
-
-
-class BallastWarning(UserWarning):
-    """A vessel starts far from where its weights balance: ballast is missing, or misplaced."""
 
 
 def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:

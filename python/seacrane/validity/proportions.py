@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.line_weights import line_weights
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.description.places import placed
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -75,17 +75,10 @@ class _Around:
     def __init__(self, scene: Description, times: Array) -> None:
         self.scene, self.times, self.hung = scene, times, line_weights(scene)
 
-    def place(self, body: str, point: Any) -> Array:
-        point = np.asarray(point, dtype=float)
-        if body not in self.scene.bodies:
-            return np.asarray(point)
-        there = self.scene.bodies[body]
-        return np.asarray(there.position + rotation_matrix(there.quaternion) @ point)
-
     def distance(self, element: Any) -> float:
         """Between the two points of an element, m."""
         ends = (element.first, element.first_point), (element.second, element.second_point)
-        return float(np.linalg.norm(self.place(*ends[1]) - self.place(*ends[0])))
+        return float(np.linalg.norm(placed(self.scene, *ends[1]) - placed(self.scene, *ends[0])))
 
     def mass(self, *bodies: str) -> float:
         """The smallest of these bodies', kg; infinite of the ground."""
@@ -109,21 +102,21 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
     """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
     weight, falls = around.hung.get(line.name, (0.0, 1))
     mass = _over(weight, abs(around.scene.gravity))
-    places = np.array([around.place(*end) for end in zip(line.bodies, line.points, strict=True)])
+    places = np.array([placed(around.scene, *end) for end in zip(line.bodies, line.points, strict=True)])
     path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
     start = float(line.length.evaluate(around.times[:1])[0, 0])
     if len(line.tensions):
         share = _over(line.tensions[-1] * falls, weight)
         yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
     else:
-        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.stiffness), 0.0)
-        yield Proportion("stiffness", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
+        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.EA), 0.0)
+        yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
     share = _over(line.mass, mass)
     yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
     if not line.winch:
         return
     held = around.largest(line.tension)
-    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.stiffness), 1e-5, 0.5, "N")
+    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.EA), 1e-5, 0.5, "N")
     speed = line.tension_gain * held
     yield Proportion("tension_gain", "{:.3g} m/s by the tension held", speed, 1e-2, 100.0, "m/s/N")
     share = _over(line.dead_band, held)

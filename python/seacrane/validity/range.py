@@ -14,10 +14,17 @@ from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.after_run import tried
 from seacrane.validity.current_in_waves import current_findings
 from seacrane.validity.energy import energy_findings
-from seacrane.validity.following import FullTurnWarning, following
+from seacrane.validity.following import following
 from seacrane.validity.hull_range import hull_findings, motions
 from seacrane.validity.lifting import lifting
 from seacrane.validity.lines import line_findings
+from seacrane.warnings import (
+    FullTurnWarning,
+    LargeHeelWarning,
+    NearSingularWarning,
+    OutsideDatabaseWarning,
+    PushingLinkWarning,
+)
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -30,22 +37,6 @@ LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off,
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
 FEWEST_OUTPUTS = 32
-
-
-class LargeHeelWarning(UserWarning):
-    """Roll or pitch beyond 20 deg: the linear restoring and the wave loads are those of an upright hull."""
-
-
-class OutsideDatabaseWarning(UserWarning):
-    """A vessel moves at frequencies that its database does not hold: its fluid memory there is a guess."""
-
-
-class PushingLinkWarning(UserWarning):
-    """A link of constant length pushed: a wire would have gone slack, and snapped tight later."""
-
-
-class NearSingularWarning(UserWarning):
-    """Constraints came to depend on each other: the mechanism could branch, and reactions are not unique."""
 
 
 def findings(
@@ -160,7 +151,7 @@ def _links(scene: Description, time: Array, channels: Channels) -> list[Finding]
                     PushingLinkWarning,
                     f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
                     "cannot: it would be slack, and its load when it tightens again is not in this result. "
-                    f"scene.add_wire(joint={name!r}) makes it a wire",
+                    f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
                 )
             )
     return found

@@ -11,18 +11,11 @@ from seacrane.description.given import floating_bodies
 from seacrane.description.loads import named
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import UnstableRestWarning
 
 if TYPE_CHECKING:
     from seacrane import _core
     from seacrane.description.scene import Description
-
-
-class UnstableRestWarning(UserWarning):
-    """A state of rest at which the scene does not stay: the least disturbance grows."""
-
-
-class CreepingRestWarning(UserWarning):
-    """A state of rest from which something creeps, as a hydraulic cylinder that leaks."""
 
 
 def warn_of_capsize(scene: Description) -> None:

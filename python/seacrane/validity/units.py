@@ -16,8 +16,9 @@ from seacrane import _core
 from seacrane.description.loads import BEYOND, kind_of, named
 from seacrane.description.scene import ELEMENTS, KINDS, LOADS
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.plausible import TURN, UnitWarning
+from seacrane.inputs.plausible import TURN
 from seacrane.validity.proportions import disproportions
+from seacrane.warnings import UnitWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description

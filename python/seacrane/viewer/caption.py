@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -61,7 +59,7 @@ def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:
 
 
 def _method(result: Result) -> str:
-    settings: Mapping[str, Any] = json.loads(str(result.stats["settings"]))
+    settings = result.settings
     words = [str(result.stats["integrator"]), str(result.stats["formulation"])]
     for key, name, unit in (("rtol", "tolerance", ""), ("dt", "step", " s")):
         if settings.get(key) is not None:

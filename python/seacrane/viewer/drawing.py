@@ -21,13 +21,13 @@ from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
-from seacrane.viewer.absences import absences
 from seacrane.viewer.bodies import Look, looks
 from seacrane.viewer.motion import Motion, motion_of
 from seacrane.viewer.wheels import Wheel, wheels_of
 from seacrane.viewer.wires import end_of, wires_of
 
 Array = NDArray[np.float64]
+Spans = list[list[float]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -196,3 +196,28 @@ def _at_start(scene: Description) -> Motion:
         quaternion=np.array([[quaternion_of(turn[0]) for _, turn in poses]]), velocity=still,
         angular_velocity=still,
     )  # fmt: skip
+
+
+def absences(result: Result | None) -> dict[str, Spans]:
+    """Times from which and up to which elements are absent, s, by name; only those that ever are.
+
+    What a lift connects before it releases it is absent from the start. What stages that were not run
+    released (`first` of `simulate_stages`) is not known.
+    """
+    found: dict[str, Spans] = {}
+    if result is None:
+        return found
+    start, end = float(result.time[0]), float(result.time[-1])
+    beyond = end + max(1.0, end - start)  # the last output is within
+    for event in result.events:
+        if event.kind == "connection":
+            spans = found.setdefault(event.name, [[start, beyond]])
+            spans[-1][1] = event.time
+        elif event.kind == "release" and _is_of_a_stage(result, event.time):
+            found.setdefault(event.name, []).append([event.time, beyond])
+    return found
+
+
+def _is_of_a_stage(result: Result, time: float) -> bool:
+    """Whether a stage begins then: limits have events of that kind too."""
+    return any(span.start == time for span in result.stages)

@@ -1,7 +1,11 @@
-"""A drawing set up in pyvista: bodies, wheels, sea, wires and tracks, moved from time to time."""
+"""A drawing set up in pyvista: bodies, wheels, sea, wires and tracks, moved from time to time.
+
+The sea is a round sheet of triangles, finer towards its middle, and exact at its points.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,15 +15,19 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.viewer.bodies import Look
 from seacrane.viewer.camera import OPENING, Camera
 from seacrane.viewer.drawing import Drawing
-from seacrane.viewer.hanging import wire_line
-from seacrane.viewer.palette import SKY, SLACK, TRACKS, WIRES
+from seacrane.viewer.palette import SKY, SLACK, TRACKS, WIRES, rgb
 from seacrane.viewer.sea import sea_components, without_sea
-from seacrane.viewer.sea_surface import SeaSurface, sea_surface
 from seacrane.viewer.surfaces import surfaces_of
 
 Array = NDArray[np.float64]
 
 MISSING = "pictures without a browser need pyvista: install it by pip install 'seacrane[stills]'"
+POINTS = 33
+TAUT = 1e-3  # of the length: what is shorter by less hangs straight
+RINGS = 90
+REACH = 9.0  # radius over that of the things in it
+DEEP, CREST = (0.03, 0.17, 0.27), (0.20, 0.50, 0.58)  # colours of troughs and crests, rgb
+FADES = (0.3, 0.95)  # of the radius, between which the water turns into sky
 
 
 class Stage:
@@ -149,3 +157,74 @@ def _put(actors: list[Any], turn: Array, place: Array) -> None:
     pose[:3, :3], pose[:3, 3] = turn, place
     for actor in actors:
         actor.user_matrix = pose
+
+
+def wire_line(start: Array, end: Array, length: float) -> tuple[Array, bool]:
+    """Points (n, 3) from start to end, m, and whether the wire is slack; a length of 0 never is."""
+    chord = float(np.linalg.norm(end - start))
+    if not (length > 0.0 and chord < length * (1.0 - TAUT)):
+        return np.array([start, end]), False
+    return _half_wave(start, end, length), True
+
+
+def _half_wave(start: Array, end: Array, length: float) -> Array:
+    """Downwards or, under a vertical chord, sideways, as high as the length asks for."""
+    along = end - start
+    chord = max(float(np.linalg.norm(along)), 1e-6 * length)
+    along = along / chord
+    side = np.array([0.0, 0.0, -1.0]) + along * along[2]
+    if np.linalg.norm(side) < 0.2:
+        side = np.array([1.0, 0.0, 0.0]) - along * along[0]
+    side /= np.linalg.norm(side)
+    u = np.linspace(0.0, 1.0, POINTS)[:, None]
+    low, high = 0.0, length
+    for _ in range(30):
+        depth = 0.5 * (low + high)
+        points = start + along * chord * u + side * depth * np.sin(np.pi * u)
+        if np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < length:
+            low = depth
+        else:
+            high = depth
+    return np.asarray(points)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SeaSurface:
+    """A sheet of points `place` (n, 2), m, with triangles `faces` (m, 3); `far` (n,) is 0 to 1 outwards."""
+
+    components: Array
+    place: Array
+    faces: NDArray[np.intp]
+    far: Array
+
+    def elevation(self, time: float) -> tuple[Array, Array]:
+        """Heights (n,), m, and slopes (n, 2), of the sum of all components at a time, s."""
+        amplitude, omega, phase, kx, ky = self.components.T
+        angle = np.remainder(omega * time + phase, 2.0 * np.pi) - self.place @ np.array([kx, ky])
+        rise = amplitude * np.sin(angle)
+        return np.cos(angle) @ amplitude, np.column_stack([rise @ kx, rise @ ky])
+
+    def colours(self, height: Array) -> NDArray[np.uint8]:
+        """(n, 3): darker in troughs, sky far out."""
+        usual = float(np.sqrt(np.sum(self.components[:, 0] ** 2))) or 0.5
+        up = np.clip(0.45 + 0.3 * height / usual, 0.0, 1.0)[:, None]
+        out = np.clip((self.far - FADES[0]) / (FADES[1] - FADES[0]), 0.0, 1.0)[:, None]
+        out = out**2 * (3.0 - 2.0 * out)
+        water = np.array(DEEP) * (1.0 - up) + np.array(CREST) * up
+        return np.asarray(np.rint(255.0 * (water * (1.0 - out) + np.array(rgb(SKY)) * out)), dtype=np.uint8)
+
+
+def sea_surface(components: Array, centre: Array, radius: float) -> SeaSurface:
+    """Of components as of `sea_components`, about a centre (2,), for things of that radius, m."""
+    spokes = 2 * RINGS
+    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(1, RINGS + 1), np.arange(spokes), indexing="ij"))
+    u, angle = i / RINGS, 2.0 * np.pi * (j + 0.5 * (i % 2)) / spokes
+    far = 0.22 * u + 0.78 * u**4
+    ring = (REACH * radius * far)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    place = np.concatenate([np.zeros((1, 2)), ring]) + centre
+    number = np.arange(1, 1 + RINGS * spokes).reshape(RINGS, spokes)
+    after = np.roll(number, -1, axis=1)
+    a, b, c, d = (one.ravel() for one in (number[:-1], number[1:], after[1:], after[:-1]))
+    middle = np.column_stack([np.zeros(spokes, dtype=int), number[0], after[0]])
+    faces = np.concatenate([middle, np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    return SeaSurface(components=components, place=place, faces=faces, far=np.concatenate([[0.0], far]))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +30,6 @@ from seacrane.viewer.gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.viewer.gltf import gltf_of
 from seacrane.viewer.motion import STEPS, Motion
 from seacrane.viewer.packing import Blob
-from seacrane.viewer.page import page
 from seacrane.viewer.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.viewer.sea import sea_components, without_sea
 from seacrane.viewer.shapes import HullShape, MeshShape
@@ -36,6 +39,8 @@ from seacrane.viewer.wheels import Wheel
 SCENE_ALONE = 60.0  # s that the sea of a scene without a run is shown
 LOWEST, HIGHEST = 200, 4000  # pixels
 ANGLE_STEP = 1e-3  # rad, of a drum
+SLOT = re.compile(r"@@(\w+)@@")
+INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -236,3 +241,46 @@ def _wheel_data(wheel: Wheel, blob: Blob) -> dict[str, Any]:
     told = _body_data(wheel.name, 0, wheel.look, blob)
     angle = None if wheel.angle is None else blob.series(wheel.angle[None], ANGLE_STEP)
     return told | {"at": wheel.at, "axis": [round(float(x), 6) for x in wheel.axis], "angle": angle}
+
+
+def page(*, title: str, caption: Sequence[tuple[str, str]], data: Mapping[str, Any], blob: str) -> str:
+    """One page with everything inside; all names in it appear as text.
+
+    Parameters
+    ----------
+    title : str
+    caption : sequence of (str, str)
+        Rows of what and its words.
+    data : mapping
+        Plain data for the script.
+    blob : str
+        Its arrays, base64.
+    """
+    rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(words)}</td></tr>" for what, words in caption)
+    filled = {
+        "title": escape(title),
+        "style": _asset("page.css"),
+        "caption": rows,
+        "data": json_text(data),
+        "blob": blob,
+        "script": script(),
+    }
+    return SLOT.sub(lambda slot: filled[slot[1]], _asset("page.html"))
+
+
+def json_text(data: Any) -> str:
+    """JSON that no HTML parser takes for markup, wherever it stands."""
+    text = json.dumps(data, allow_nan=False, separators=(",", ":"))
+    return re.sub("[<>&\u2028\u2029]", lambda found: INSIDE_SCRIPT[found[0]], text)
+
+
+def script() -> str:
+    """The bundle, with what would end its element escaped."""
+    return re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE).replace(
+        "<!--", "<\\!--"
+    )
+
+
+@cache
+def _asset(name: str) -> str:
+    return (files("seacrane") / "viewer" / "assets" / name).read_text(encoding="utf-8")

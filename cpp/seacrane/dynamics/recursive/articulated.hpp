@@ -55,7 +55,7 @@ class ArticulatedTree {
   }
   /// Articulated inertias for those of all bodies, at the last place(). They are used up: set them again.
   void factor();
-  /// The same for the bodies' mass matrices.
+  /// Takes the bodies' mass matrices, then factors.
   void factor(const Mat6<T>* mass) {
     for (int b = 0; b < ground_; ++b) set_inertia(b, mass[b]);
     factor();
@@ -72,7 +72,7 @@ class ArticulatedTree {
   void solve(bool moving, T* u_rate, const T* torque = nullptr);
   /// At the last solve(); of the ground too.
   const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
-  /// The same for the bodies' loads; accelerations of the bodies, ground last.
+  /// Solves for loads of the bodies, and writes accelerations of the bodies, ground last.
   void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr) {
     for (int b = 0; b < ground_; ++b) set_load(b, Wrench<T>(load[b]));
     solve(moving, u_rate, torque);

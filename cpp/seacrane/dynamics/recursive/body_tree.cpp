@@ -133,10 +133,10 @@ class TreeBuilder {
     }
   }
 
-  /// Whether the hinge angle tells the strut's pose in every position: ends off the slide's line must not
-  /// come as near as that, where the stroke continues and the hinge turns back; no ends may meet, where the
-  /// line between them has no direction; nor may the universal joint start with the strut in the plane of its
-  /// axes, free to spin.
+  /// Whether the hinge angle tells the strut's pose in every position. Three cases are excluded. The ends
+  /// come as near as they lie off the slide's line: there the stroke continues while the hinge turns back.
+  /// The ends meet: the line between them has no direction. The universal joint starts with the strut in the
+  /// plane of its axes: the strut is free to spin.
   bool angle_tells(const Pattern& p, int parent, int body) const {
     const Strut s = make_strut(p, parent, body);
     const TreeJoint hinge = oriented(edges_[p.hinge].joint, parent);

@@ -40,7 +40,7 @@ class LoopClosure {
   Dependence take_dependence();
   /// False where rows depend on each other at the last factor().
   bool regular() const { return !dependent_; }
-  /// Those of the last solve().
+  /// The multipliers of the last solve().
   const VecXd& multipliers() const { return multipliers_; }
 
  private:

@@ -118,8 +118,8 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   ydot[layout_.work + 1] = terms_->power().absolute;
 }
 
-/// And the actuators' torques: on the speeds, or all of them as wrenches on the bodies, which the Jacobian
-/// needs.
+/// Evaluates wrenches, and the actuators' torques: on the speeds, or as wrenches on the bodies, which the
+/// Jacobian needs.
 void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree) {
   const double* const memory = y + layout_.memory;
   std::ranges::fill(torque_, 0.0);

@@ -114,7 +114,7 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   return out;
 }
 
-/// The same of a slender strut; `lower`: parent's state point to the lower end.
+/// The motion of a slender strut. `lower` leads from the parent's state point to the lower end.
 template <class T>
 StrutMotionOf<T> move_slender_strut(const Strut& s, const Vec3<T>& lower, const Vec3<T>& hinge_lever,
                                     const Vec3<T>& axis, const Vec3<T>& arm) {

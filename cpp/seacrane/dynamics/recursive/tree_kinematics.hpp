@@ -53,7 +53,7 @@ class TreeKinematics {
   /// From the parent's state point to the body's, at the last place().
   const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
   const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
-  /// Of a strut, and its derivative in the hinge angle, at the last place().
+  /// The stroke of a strut, and its derivative in the hinge angle, at the last place().
   struct Stroke {
     T value, slope;
   };

@@ -124,7 +124,7 @@ struct Drum {
   T winding(const LoadInput<T>& in, const T& rate) const {
     return (braking(in, rate) - T(stiffness) * in.states[wound]) / T(damping);
   }
-  /// Of the brake, into the drum and what the brake's spring stores: never positive.
+  /// The power of the brake into the drum and into its own spring: never positive.
   template <class T>
   T brake_power(const LoadInput<T>& in, const T& rate) const {
     if (!has_brake()) return T(0);

@@ -121,7 +121,7 @@ struct FlowForce {
     return f;
   }
 
-  /// Of what a speed u jumps by, the load sees (u - v)^2, with a velocity v of the body of up to 0.5 m/s.
+  /// Where a speed u jumps, (u - v)^2 does, with a velocity v of the body that is taken as up to 0.5 m/s.
   std::vector<LoadKinks> kinks() const {
     Vec3d largest = Vec3d::Zero();
     for (const Vec3d& at : load) largest = largest.cwiseMax(at.cwiseAbs());

@@ -354,7 +354,7 @@ struct HydraulicCylinder {
     return out;
   }
 
-  /// Of oil, ends of the stroke and gas.
+  /// The energy stored in oil, ends of the stroke and gas.
   double potential(const LoadInput<double>& in) const {
     const Motion<double> m = place(in);
     const double depth = beyond(m.stroke);
@@ -380,7 +380,7 @@ struct HydraulicCylinder {
     for (std::size_t i = 0; i < now.size(); ++i) out |= now[i] > 0.0 ? 1 << i : 0;
     return out;
   }
-  /// Of the margins that change, positive on the first side: the least.
+  /// The least of the margins that change, positive on the first side.
   double across(const LoadInput<double>& in, int from, int to) const {
     const Margins now = margins(in);
     double least = std::numeric_limits<double>::infinity();
@@ -584,7 +584,7 @@ struct HydraulicCylinder {
     return (clamped(m.asked, T(-1), T(1)) - m.spool) / T(spool_lag);
   }
 
-  /// Of a side but for what passes the piston.
+  /// The flow into a side, but for what passes the piston.
   template <class T>
   void flow(double time, double limit, std::size_t side, const std::array<T, 2>& h, Motion<T>& m) const {
     const T &p = m.pressure[side], &other = m.pressure[1 - side];

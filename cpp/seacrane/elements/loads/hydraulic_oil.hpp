@@ -117,7 +117,7 @@ struct HydraulicOil {
   T gas_volume(const T& p) const {
     return T(air) * power(T(T(kAtmosphere) / p), 1.0 / kExponent);
   }
-  /// Of h over the pressure; with air from 1e5 Pa, by Gauss's rule over the logarithm.
+  /// The integral of h over the pressure. With air it begins at 1e5 Pa, by Gauss's rule over the logarithm.
   double enthalpy_integral(double pressure) const {
     if (air == 0.0) return modulus * (enthalpy(pressure) - pressure);
     static constexpr std::array<double, 6> at = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,

@@ -26,10 +26,10 @@ struct LineDescription : WinchDescription {
   std::string name;
   std::vector<std::string> bodies;
   std::vector<Vec3d> points;
-  double stiffness = 0.0;
+  double EA = 0.0;
   Curve length;
   double damping_ratio = 0.02, mass = 0.0;
-  std::string stretch = "elastic";
+  std::string rung = "elastic";
   double settling = 0.2;
   SheaveDescriptions sheaves;
   std::vector<double> strains, tensions;
@@ -42,12 +42,12 @@ struct LineDescription : WinchDescription {
     const auto own = std::tuple(
         on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
         required("points", &D::points, "m", "coordinates of these bodies"),
-        required("stiffness", &D::stiffness, "N", "EA: tension over strain").usually(0.0, 2e10),
+        required("EA", &D::EA, "N", "axial stiffness: tension over strain").usually(0.0, 2e10),
         required("length", &D::length, "m", "unstretched; with a winch, at the start"),
         optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line")
             .usually(1e-4, 1.0),
         optional("mass", &D::mass, "kg", "that bounces on the line; 0: what its start tells, see LineBounce"),
-        optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
+        optional("rung", &D::rung, "", "'elastic', or 'quasi-static': its stretch follows the tension"),
         optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")
             .usually(1e-3, 10.0));
     const auto table = std::tuple(
@@ -97,7 +97,7 @@ struct Line {
       const T taken = (tension - inertial) * share * length / unstretched;
       return -(taken - stored - kinetic) * unstretched_rate;
     }
-    /// The same of an inertial tension of 1 N.
+    /// The winch's power for an inertial tension of 1 N.
     T winch_power_per_inertial() const { return -share * length / unstretched * unstretched_rate; }
     T power_per_inertial() const { return winch_power_per_inertial() - lost; }
     T friction_power() const { return -lost * (tension - inertial); }
@@ -107,7 +107,7 @@ struct Line {
   std::string name;
   LinePath path;
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
-  double stiffness = 0.0;
+  double EA = 0.0;      // N
   LineElasticity elasticity;
   double slip_speed = 0.0;
   bool has_sheaves = false, has_friction = false;
@@ -123,9 +123,9 @@ struct Line {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     check_path(d, c, names);
-    c.finite("stiffness", d.stiffness);
-    if (!(d.stiffness > 0.0)) {
-      c.fail("stiffness is " + to_text(d.stiffness) + " N; give EA, the tension over the strain, positive");
+    c.finite("EA", d.EA);
+    if (!(d.EA > 0.0)) {
+      c.fail("EA is " + to_text(d.EA) + " N; give the tension over the strain, positive");
     }
     for (const Curve::Piece& piece : d.length.pieces()) {
       const double start = d.length.at(piece.start).value;
@@ -139,7 +139,7 @@ struct Line {
     d.sheaves.check(d.points.size(), kSides - first_held(d.winch) + 2, c);
     d.sheaves.check_neighbours(d.bodies, d.points, c);
     LineElasticity::check(d.strains, d.tensions, c);
-    check_stretch(d, c);
+    check_rung(d, c);
     if (d.winch) {
       names.input(c, kind, d.name);
       Winch::check(d, d.length, c);
@@ -155,7 +155,7 @@ struct Line {
     d.name = "load";
     d.bodies = {"first", "third", "second"};
     d.points = {{2.0, 0.5, -1.0}, {0.2, -0.4, 0.3}, {-1.0, 0.3, 2.0}};
-    d.stiffness = 60.0;
+    d.EA = 60.0;
     d.length = Curve::constant(3.0);
     d.damping_ratio = 0.1;
     d.winch = true;
@@ -200,21 +200,21 @@ struct Line {
     line.has_sheaves = d.sheaves.any();
     line.has_friction = line.path.has_friction();
     line.slip_speed = d.sheaves.slip_speed;
-    line.stiffness = d.stiffness;
-    line.elasticity = {d.stiffness, d.strains, d.tensions};
+    line.EA = d.EA;
+    line.elasticity = {d.EA, d.strains, d.tensions};
     line.length = d.length;
     line.damping_ratio = d.damping_ratio;
     line.given_mass = d.mass > 0.0;
     line.hang(line.given_mass ? d.mass : mass_of_ends(d, context));
     if (d.winch) line.wind(d, context);
-    if (d.stretch == kQuasiStatic) line.settle(d, context);
+    if (d.rung == kQuasiStatic) line.settle(d, context);
     return line;
   }
 
   /// Takes another mass for its damping, kg.
   void hang(double mass) {
     hung = mass;
-    viscous = 2.0 * damping_ratio * std::sqrt(stiffness * hung);
+    viscous = 2.0 * damping_ratio * std::sqrt(EA * hung);
   }
 
   const std::vector<int>& bodies() const { return on; }
@@ -238,8 +238,8 @@ struct Line {
             if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
           }
         };
-        add(later, share * stiffness / l0);
-        add(later - 1, share * (damper(l0) + stiffness * settling / l0));
+        add(later, share * EA / l0);
+        add(later - 1, share * (damper(l0) + EA * settling / l0));
         if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
       }
     }
@@ -260,17 +260,18 @@ struct Line {
                                   [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
   }
 
+  /// Whether it is quasi-static and, on a side, neither taut nor free to haul in.
+  bool slack(int at) const { return quasi_static() && (at & kTaut) != kTaut; }
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
     const std::string what = "line '" + name + "': ";
     for (std::size_t i = 1; has_sheaves && i + 1 < path.points().size(); ++i) {
       if ((at & held(i)) == 0) return what + SheaveDescriptions::lost(i);
     }
-    if (!quasi_static() || (at & kTaut) == kTaut) return "";
+    if (!slack(at)) return "";
     const std::string stretch = what + "its stretch is quasi-static, and it ";
-    if (at & 1)
-      return stretch + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
-    return stretch + "goes slack; give it stretch 'elastic', which snatches";
+    if (at & 1) return stretch + "has hauled in to its minimum_length; give a smaller one, or rung 'elastic'";
+    return stretch + "goes slack; give it rung 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
@@ -288,7 +289,7 @@ struct Line {
     });
     return out;
   }
-  /// Of all margins that change, positive on the first side: the least, so that the first crossing is found.
+  /// The least of all margins that change, positive on the first side: so the first crossing is found.
   double across(const LoadInput<double>& in, int from, int to) const {
     const Margins now = margins(in);
     const int changed = from ^ to, sheaves = first_held(winch.has_value());
@@ -326,7 +327,7 @@ struct Line {
       out.inertial = T(in.inertial[place]);
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
       const T unsettled = strain_rate - in.states[settled];
-      out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      out.tension = unbounded_pull(out) + EA * settling * unsettled + out.inertial;
       out.stored = elasticity.energy(strain);
       return out;
     }
@@ -438,25 +439,25 @@ struct Line {
     }
   }
 
-  static void check_stretch(const Description& d, const Check& c) {
-    if (d.stretch != kQuasiStatic && d.stretch != "elastic") {
-      c.fail("stretch '" + d.stretch + "' is unknown; choose 'elastic' or 'quasi-static'");
+  static void check_rung(const Description& d, const Check& c) {
+    if (d.rung != kQuasiStatic && d.rung != "elastic") {
+      c.fail("rung '" + d.rung + "' is unknown; choose 'elastic' or 'quasi-static'");
     }
     c.finite("settling", d.settling);
     if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
-    if (d.stretch != kQuasiStatic) return;
-    if (!d.strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose stretch 'elastic'");
+    if (d.rung != kQuasiStatic) return;
+    if (!d.strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose rung 'elastic'");
     if (d.winch && d.lag == 0.0) {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
     }
     if (d.drum_inertia > 0.0) {
-      c.fail("a drum with inertia rings with its line; choose stretch 'elastic', or leave drum_inertia out");
+      c.fail("a drum with inertia rings with its line; choose rung 'elastic', or leave drum_inertia out");
     }
     for (const CurveKink& kink : d.length.kinks()) {
       if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
       c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
-             to_text(kink.time) + " s, or its rate; smooth it, or choose stretch 'elastic'");
+             to_text(kink.time) + " s, or its rate; smooth it, or choose rung 'elastic'");
     }
   }
 
@@ -479,7 +480,7 @@ struct Line {
     if (states.count == 0) states.first = settled;
     ++states.count;
   }
-  double strain_inertia() const { return stiffness * settling * settling; }  // N s2
+  double strain_inertia() const { return EA * settling * settling; }  // N s2
 
   /// The reduced mass of two bodies that the path joins, whichever way it is written.
   template <class Context>

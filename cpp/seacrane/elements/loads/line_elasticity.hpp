@@ -29,8 +29,8 @@ class LineElasticity {
     }
   }
 
-  /// Of a strain of zero or more; before it the secant to the first row goes on, which tells how far the line
-  /// is from being taut.
+  /// Tension of a strain of zero or more. Below zero the secant to the first row goes on, which tells how far
+  /// the line is from being taut.
   template <class T>
   T tension(const T& strain) const {
     if (strains_.empty()) return T(stiffness_) * strain;
@@ -106,7 +106,7 @@ class LineElasticity {
     slopes_[0] = end_slope(h[0], h[1], secant[0], secant[1]);
     slopes_[n - 1] = end_slope(h[n - 2], h[n - 3], secant[n - 2], secant[n - 3]);
   }
-  /// Of the parabola through three rows, kept monotone.
+  /// The slope of the parabola through three rows at its end, kept monotone.
   static double end_slope(double h, double next_h, double secant, double next) {
     const double slope = ((2.0 * h + next_h) * secant - h * next) / (h + next_h);
     return std::max(slope, 0.0);

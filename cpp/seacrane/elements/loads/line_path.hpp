@@ -38,10 +38,10 @@ struct PathSection {
   T swing;         // of that rate's own, what moving makes; between sheaves see LinePath::swing
   T wrap;          // rad, on the sheave at its second end
   bool turns = false, moves = true;
-  // Of the sheave at its second end, as numbers: by what it is held, and the larger fleet angle, rad.
+  // For the sheave at its second end: by what the rope is held, and the larger fleet angle, rad.
   double hold = std::numeric_limits<double>::infinity(), fleet = 0.0;
 
-  /// Of 1 N.
+  /// Adds the wrenches of a tension in this section.
   void add_to(BodyLoad<T>* wrench, const T& tension) const {
     if (!moves) return;
     const Vec3<T> force = pull * tension;
@@ -111,7 +111,7 @@ class LinePath {
     f(sections[(points_.size() - 1) % 2], points_.size() - 1);
   }
 
-  /// Of section i between sheaves: how its rate changes with the places alone, the velocities held.
+  /// How the rate of section i between sheaves changes with the places alone, the velocities held.
   template <class T>
   T swing(const LoadInput<T>& in, std::size_t i) const {
     Place<T> from, to;

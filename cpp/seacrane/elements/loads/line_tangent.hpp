@@ -128,8 +128,8 @@ inline double clearance(const TangentEnd<double>& a, const TangentEnd<double>& b
 
 }  // namespace line_tangent
 
-/// Of two ends of which one is a sheave. From radii as numbers each step of Newton's method brings
-/// derivatives of one more order.
+/// The tangent of two ends, one of which is a sheave. From radii as numbers each step of Newton's method
+/// brings derivatives of one more order.
 template <class T>
 Tangent<T> tangent(const TangentEnd<T>& a, const TangentEnd<T>& b) {
   using std::sqrt;

@@ -46,8 +46,8 @@ concept HasStates = requires(const Load& load) {
   { load.states } -> std::convertible_to<StateRange>;
 };
 
-/// How the force of a load along its direction, row 0, and the rates of its stiff states, the other rows,
-/// change with its rate along that direction, column 0, and with those states.
+/// Slopes of a load with stiff states. Row 0 is its force along its direction, the other rows are the rates
+/// of its stiff states. Column 0 is the slope in its rate along that direction, the others in those states.
 using StiffSlopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 /// A load that acts along one direction, add_unit(0, ...), and some of whose states, one after another and
@@ -88,12 +88,12 @@ struct LoadKink {
   Eigen::Matrix<double, Eigen::Dynamic, 4> jump;
 };
 
-/// Those of one curve or table, by time. Every load has kinks(), a list of these by its curves, and, where
-/// there are some, add_unit(component, input, wrenches), which adds what a unit of a component puts on the
-/// bodies. A load that depends on time has no other way to be stopped at.
+/// The kinks of one curve or table, by time. Every load has kinks(), a list of these by its curves, and,
+/// where there are some, add_unit(component, input, wrenches), which adds what a unit of a component puts on
+/// the bodies. A load that depends on time has no other way to be stopped at.
 using LoadKinks = std::vector<LoadKink>;
 
-/// Those of `value` times a curve plus `rate` times its rate.
+/// The kinks of `value` times a curve plus `rate` times its rate.
 inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
   LoadKinks out;
   for (const CurveKink& kink : curve.kinks()) {

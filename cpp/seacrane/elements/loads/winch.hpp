@@ -82,7 +82,7 @@ struct Winch {
     Drum::check(d, d.lag, c);
   }
 
-  /// Of the line of this name, whose unstretched length is `start` at first.
+  /// Compiles the winch of the line of this name, whose unstretched length is `start` at first.
   template <class Context>
   static Winch compile(const WinchDescription& d, const std::string& name, double start, Context& context) {
     Winch out;

@@ -33,7 +33,7 @@ std::vector<std::string> link_names(const Model& m) {
   return out;
 }
 
-/// Of all loads; with their kind in front where loads of several kinds have one name.
+/// Names of all loads, with their kind in front where loads of several kinds have one name.
 std::vector<std::string> load_names(const Model& m) {
   std::vector<std::pair<std::string, std::string>> loads;
   std::map<std::string, int> uses;

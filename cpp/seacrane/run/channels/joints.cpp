@@ -23,7 +23,7 @@ void write_actuator_force(const Output& o, double* out) {
   for (const Actuator& a : o.system.model().actuators()) *out++ = a.force<double>(input);
 }
 
-/// Of the drivers described: stops that hold are drivers of the compiled model too.
+/// Forces of the drivers described alone: stops that hold are drivers of the compiled model too.
 void write_driver_force(const Output& o, double* out) {
   const Model& m = o.system.model();
   for (std::size_t d = 0; d < m.description.drivers.size(); ++d) {

@@ -10,7 +10,7 @@ namespace seacrane {
 /// Every channel there is, in the order in which results hold them.
 const std::vector<Channel>& all_channels();
 
-/// Those that a scene has.
+/// The channels that a scene has.
 std::vector<const Channel*> channels_of(const Model& model);
 
 /// Names of those that a scene has.

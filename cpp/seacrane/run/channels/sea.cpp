@@ -25,7 +25,7 @@ void for_each_wave_load(const Output& o, Function&& function) {
   for (std::size_t i = 0; i < loads.size(); ++i) function(o.terms.waves(i), idx(loads[i].vessel));
 }
 
-/// Of vessels that the waves do not load, where they rest.
+/// The elevation at a vessel; where the waves do not load it, at its place of rest.
 void write_wave_elevation(const Output& o, double* out) {
   const Model& m = o.system.model();
   if (m.wave_loads.size() < m.vessels.size()) {

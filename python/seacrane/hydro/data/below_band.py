@@ -6,13 +6,10 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.warnings import BelowBandWarning
 
 MOST_BELOW = 0.1  # of the energy of the waves
 FLOATING = (2, 3, 4)  # heave, roll, pitch
-
-
-class BelowBandWarning(UserWarning):
-    """A database is used below its trusted band: damping there, and what resonates, is far off."""
 
 
 def warn_of_waves_below_band(database: HydroData, share: float, what: str) -> None:

@@ -10,24 +10,13 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import DampingWarning, HeadingGapWarning, WaterMismatchWarning
 
 FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
-
-
-class DampingWarning(UserWarning):
-    """Damping is negative: a motion gains energy from still water, and may grow."""
-
-
-class HeadingGapWarning(UserWarning):
-    """Headings do not close the circle: seas from within the gap are refused."""
-
-
-class WaterMismatchWarning(UserWarning):
-    """Density, gravity or depth of two sources differ: weights, buoyancy or wave lengths do not fit."""
 
 
 def warn_of_data(database: HydroData) -> None:

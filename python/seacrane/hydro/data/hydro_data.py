@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.arrays import check_increasing, freeze
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
@@ -16,6 +16,24 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 MOTION_RAO_LIMIT = (1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3)
+_SHAPES = {
+    "omega": "n",
+    "heading": "m",
+    "added_mass": "nij",
+    "damping": "nij",
+    "infinite_frequency_added_mass": "ij",
+    "zero_frequency_added_mass": "ij",
+    "mass_matrix": "ij",
+    "force": "mni",
+    "motion_rao": "mni",
+    "motion_rao_limit": "i",
+    "motion_rao_floor": "i",
+    "linear_damping": "ij",
+    "quadratic_damping": "i",
+    "linear": "n",
+    "quadratic": "n",
+    "linearised": "mn",
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -140,3 +158,47 @@ class HydroData:
             raise ValueError(
                 f"database {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s"
             )
+
+
+def freeze(part: Any, n: int, m: int, name: str, *, restoring: str) -> None:
+    """Replace every array of ``part`` by a finite, read-only copy of the right shape and type.
+
+    ``restoring`` says in letters what shape that matrix has there: "ij", or "nij" where it has frequencies.
+    """
+    sizes = {"n": n, "m": m, "i": 6, "j": 6}
+    for entry in fields(part):
+        value = getattr(part, entry.name)
+        letters = _SHAPES.get(entry.name)
+        if entry.name == "restoring":
+            letters = restoring
+        if letters is None or value is None:
+            continue
+        wanted = tuple(sizes[letter] for letter in letters)
+        array = np.array(value, dtype=complex if letters == "mni" else float)
+        if array.shape != wanted:
+            raise ValueError(f"database {name!r}: {entry.name} has shape {array.shape}; {wanted} is needed")
+        if not np.all(np.isfinite(array)):
+            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+            raise ValueError(
+                f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers"
+            )
+        array.setflags(write=False)
+        object.__setattr__(part, entry.name, array)
+
+
+def check_increasing(name: str, what: str, values: FloatArray, *, low: float, high: float) -> None:
+    """Raise unless ``values`` are strictly increasing and inside (low, high)."""
+    if values.size == 0:
+        raise ValueError(f"database {name!r}: {what} is empty; give at least one value")
+    steps = np.flatnonzero(np.diff(values) <= 0.0)
+    if steps.size:
+        i = int(steps[0])
+        raise ValueError(
+            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} "
+            "at index "
+            f"{i + 1}; sort it and drop duplicates"
+        )
+    if not (values[0] > low and values[-1] < high):
+        raise ValueError(
+            f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})"
+        )

@@ -12,6 +12,7 @@ from seacrane.hydro.data.motion import motion_response
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import RaoPhaseWarning
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -20,10 +21,6 @@ FOLLOWS = (0.5, 1.6)  # of the limit's amplitude: a hull that follows the wave
 LARGEST_PHASE = np.radians(60.0)  # from the limit's
 ALONG = 0.5  # least cosine of a heading in which pitch is judged
 _SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
-
-
-class RaoPhaseWarning(UserWarning):
-    """Motions in the longest wave do not have the phase that every hull has there."""
 
 
 def _limits(

@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.motion import natural_frequency
+from seacrane.hydro.data.packed import digest_of
 from seacrane.hydro.database.check import CheckRow, check_database
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
-from seacrane.hydro.database.roll_damping import with_roll_damping
 from seacrane.hydro.database.selection import Choice, selected_database
 from seacrane.hydro.database.table import as_html, as_line, as_text
 from seacrane.hydro.database.transform import mirrored_database, moved_database
+from seacrane.inputs.checked import not_negative_of
 
 if TYPE_CHECKING:
     import xarray
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+Database = TypeVar("Database", bound=HydroData)
 
 
 class HydroDatabase(HydroData):
@@ -79,7 +83,7 @@ class HydroDatabase(HydroData):
 
         Warns
         -----
-        seacrane.hydro.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
 
         Raises
         ------
@@ -167,6 +171,11 @@ class HydroDatabase(HydroData):
         """
         return hydro_figures(database=self, what=what)
 
+    @property
+    def digest(self) -> str:
+        """SHA-256 of all that it holds: equal for databases that say the same."""
+        return digest_of(self)
+
     def __repr__(self) -> str:
         return as_line(self)
 
@@ -197,3 +206,25 @@ class HydroDatabase(HydroData):
     def to_xarray(self) -> xarray.Dataset:
         """The arrays as a labelled dataset (copies), complex values kept complex; needs xarray."""
         return to_xarray(self)
+
+
+def with_roll_damping(database: Database, linear: float, quadratic: float, fraction: float) -> Database:
+    """See `HydroDatabase.with_roll_damping`."""
+    for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
+        not_negative_of(f"database {database.name!r}: roll damping, {what}", value)
+    whole, squares = database.linear_damping.copy(), database.quadratic_damping.copy()
+    whole[3, 3] = linear + (fraction and roll_damping_of(database, fraction))
+    squares[3] = quadratic
+    return replace(database, linear_damping=whole, quadratic_damping=squares, roll_damping=None)
+
+
+def roll_damping_of(database: HydroData, fraction: float) -> float:
+    """N m s/rad: a fraction of the critical roll damping at the roll natural frequency."""
+    resonance = natural_frequency(database, 3)
+    if resonance is None:
+        raise SceneError(
+            f"hull {database.name!r}: the roll natural frequency lies outside {database.omega[0]:.4g} to "
+            f"{database.omega[-1]:.4g} rad/s; widen omega, or check centre of gravity and radii of gyration"
+        )
+    inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
+    return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))

@@ -18,6 +18,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.memory.transform import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import QuadraticDampingWarning
 
 FloatArray = NDArray[np.float64]
 Data = TypeVar("Data", bound=HydroData)
@@ -35,10 +36,6 @@ PER_CAUSE = ("added_mass", "damping", "restoring")
 MIRRORED = "; mirrored in the centre plane"
 
 
-class QuadraticDampingWarning(UserWarning):
-    """Quadratic damping of a translation does not move with the reference point: its coupling is lost."""
-
-
 def motion_transform(point: FloatArray) -> FloatArray:
     """T (6, 6): motions at the old reference point from those at ``point`` (3,), m from it."""
     x, y, z = point
@@ -48,7 +45,7 @@ def motion_transform(point: FloatArray) -> FloatArray:
 
 
 def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
-    """`HydroDatabase.at`, whose docstring says what each part becomes."""
+    """Move the reference point. The docstring of `HydroDatabase.at` says what each part becomes."""
     r = _point(database, point, net_lift)
     if r[1] != 0.0 and database.port_starboard_symmetric:
         database = _unfolded(database)

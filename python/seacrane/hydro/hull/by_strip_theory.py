@@ -9,16 +9,13 @@ from seacrane import _core
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.solution import HullSolution
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import SubmergedPartWarning
 
 FloatArray = NDArray[np.float64]
 
 HANGING = 1e-6  # of the volume
 PANELS = 40  # on each half section
 PANELS_PER_WAVE = 8.0
-
-
-class SubmergedPartWarning(UserWarning):
-    """A part of the hull that hangs under water apart from the rest is missing from the strip theory."""
 
 
 def strip_solution(

@@ -11,15 +11,12 @@ from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.solution import HullSolution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.warnings import MeshConvergenceWarning
 
 FloatArray = NDArray[np.float64]
 
 LARGEST_CHANGE = 0.05  # of the largest of an entry
 FEWEST = 8  # panels along the length and around, of the coarse mesh
-
-
-class MeshConvergenceWarning(UserWarning):
-    """Added mass or damping changes by more than 5 % of its largest with half the panels."""
 
 
 def coarser(hull: Hull) -> Hull:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
@@ -11,14 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.files.stl import read_stl
-from seacrane.hydro.hull.girth import around
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
-from seacrane.hydro.hull.panels import cut_panels, end_cap, lofted, without_slivers
+from seacrane.hydro.hull.panels import along, cut_panels, end_cap, fractions, lofted, without_slivers
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import positive_of
 
 FloatArray = NDArray[np.float64]
 
@@ -27,6 +28,8 @@ ON_WATERLINE = 1e-6  # of the length
 FLAT = 1e-9  # of the cube of the length: less is no volume
 CLOSED = 1e-3  # of the volume: what the integrals of x n_x, y n_y and z n_z may differ by
 SYMMETRIC = 1e-3  # of the breadth: how far off the centre plane volume and waterplane may lie
+KNUCKLE = np.radians(15.0)  # by which an outline turns at a corner; a round bilge turns less at each point
+LEAST_PART = 1e-6  # of a section's length between two corners
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -188,9 +191,8 @@ class Hull:
         triangles = mesh_triangles(name, vertices, faces)
         _require_metres(name, triangles)
         if draught is not None:
-            if not (np.isfinite(draught) and draught > 0.0):
-                raise ValueError(f"hull {name!r}: draught is {draught} m; give a positive number")
-            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + draught])
+            depth = positive_of(f"hull {name!r}: draught", draught, "m")
+            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
         triangles = require_closed(name, triangles)
         return Hull(name=name, panels=_wetted(name, triangles[:, [0, 1, 2, 2]]), source=source)
 
@@ -202,9 +204,7 @@ class Hull:
         ------
         ValueError, seacrane.errors.FileFormatError : as `from_mesh` and `seacrane.hydro.read_stl`.
         """
-        if not (np.isfinite(scale) and scale > 0.0):
-            raise ValueError(f"hull {str(path)!r}: scale is {scale}; give a positive number")
-        triangles = scale * read_stl(path)
+        triangles = positive_of(f"hull {str(path)!r}: scale", scale) * read_stl(path)
         return Hull.from_mesh(
             vertices=triangles.reshape(-1, 3),
             faces=np.arange(3 * len(triangles)).reshape(-1, 3),
@@ -285,3 +285,67 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
         raise ValueError(
             f"hull {name!r}: is {length:.4g} m long in x and {breadth:.4g} m in y; turn it: x is forward"
         )
+
+
+def around(sections: Sequence[FloatArray], count: int) -> list[FloatArray]:
+    """Every half section (p, 2) with ``count`` pieces: corners stay corners, points between them are even.
+
+    Where sections have equally many corners, one corner is the same point of each, so that a chine stays one
+    line of the mesh. A section of another kind, such as a stem, has even points where its corners are not.
+    """
+    corners = [knuckles(section) for section in sections]
+    usual = _usual_number(corners)
+    lengths = np.mean([np.diff([0.0, *c, 1.0]) for c in corners if len(c) == usual], axis=0)
+    shares = _shared_out(lengths, count) if usual < count else np.array([count])
+    made = []
+    for section, own in zip(sections, corners, strict=True):
+        if len(own) == usual and usual < count:
+            at = _between([0.0, *own, 1.0], shares)
+        else:
+            at = _snapped(np.linspace(0.0, 1.0, count + 1), own)
+        made.append(along(section, at))
+    return made
+
+
+def knuckles(section: FloatArray) -> FloatArray:
+    """Shares of a half section's length at which it has a corner."""
+    at = fractions(section)
+    keep = np.append(True, np.diff(at) > LEAST_PART)
+    at, points = at[keep], section[keep]
+    if len(points) < 3:
+        return np.zeros(0)
+    direction = np.arctan2(*np.diff(points, axis=0).T[::-1])
+    turn = np.abs(np.angle(np.exp(1j * np.diff(direction))))
+    return np.asarray(at[1:-1][turn > KNUCKLE])
+
+
+def _usual_number(corners: Sequence[FloatArray]) -> int:
+    """How many corners most sections have."""
+    number, times = np.unique([len(c) for c in corners], return_counts=True)
+    return int(number[times.argmax()])
+
+
+def _shared_out(lengths: FloatArray, count: int) -> NDArray[np.intp]:
+    """Pieces for each part, at least one, in proportion to its length."""
+    pieces = np.ones(len(lengths), dtype=np.intp)
+    for _ in range(count - len(lengths)):
+        pieces[np.argmax(lengths / pieces)] += 1
+    return pieces
+
+
+def _between(corners: Sequence[float], pieces: NDArray[np.intp]) -> FloatArray:
+    parts = [np.linspace(corners[i], corners[i + 1], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())]
+    return np.concatenate(parts)
+
+
+def _snapped(even: FloatArray, corners: FloatArray) -> FloatArray:
+    """Even shares, the nearest of which moves to each corner."""
+    at = even.copy()
+    free = np.ones(len(at), dtype=bool)
+    free[[0, -1]] = False
+    for corner in corners:
+        if not free.any():
+            break
+        nearest = int(np.argmin(np.where(free, np.abs(at - corner), np.inf)))
+        at[nearest], free[nearest] = corner, False
+    return np.sort(at)

@@ -17,6 +17,8 @@ from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import positive_of
+from seacrane.warnings import FloatingPositionWarning
 
 FloatArray = NDArray[np.float64]
 
@@ -24,10 +26,6 @@ METHODS = ("strip", "capytaine")
 GYRATION = (0.36, 0.25, 0.25)  # of breadth, length, length
 DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
 TRIM_LIMIT = 0.001  # rad
-
-
-class FloatingPositionWarning(UserWarning):
-    """The hull would not float as drawn with this mass and centre of gravity."""
 
 
 def hydro_from_hull(
@@ -85,14 +83,13 @@ def hydro_from_hull(
     -----
     FloatingPositionWarning : mass and displacement differ by more than 1 %, or the hull would trim by more
         than 0.001 rad.
-    seacrane.hydro.SubmergedPartWarning : strip theory leaves out a part of the hull.
-    seacrane.hydro.MeshConvergenceWarning : checked, and added mass or damping changes by more than 5 %.
+    seacrane.warnings.SubmergedPartWarning : strip theory leaves out a part of the hull.
+    seacrane.warnings.MeshConvergenceWarning : checked, and added mass or damping changes by more than 5 %.
     """
     shape = Hull.from_parametric(hull) if isinstance(hull, ParametricHull) else hull
     _require_choice(shape.name, method, speed, roll_damping_fraction)
     for what, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
-        if not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"hull {shape.name!r}: {what} is {value}; give a positive number")
+        positive_of(f"hull {shape.name!r}: {what}", value)
     centre = _vector(shape.name, "centre_of_gravity", centre_of_gravity)
     if abs(centre[1]) > 1e-9 * shape.breadth:
         raise ValueError(

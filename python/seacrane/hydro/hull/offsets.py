@@ -14,6 +14,7 @@ from seacrane.errors import FileFormatError
 from seacrane.files.whole_file import read_whole
 from seacrane.hydro.hull.panels import end_cap, lofted
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
 
 FloatArray = NDArray[np.float64]
@@ -90,9 +91,8 @@ class OffsetTable:
         ValueError : a draught that is not positive, or a station whose outline begins under water.
         """
         keel = min(float(section[:, 1].min()) for section in self.sections)
-        if draught is not None and not (np.isfinite(draught) and draught > 0.0):
-            raise ValueError(f"offset table {self.name!r}: draught is {draught} m; give a positive number")
-        waterline = 0.0 if draught is None else keel + draught
+        what = f"offset table {self.name!r}: draught"
+        waterline = 0.0 if draught is None else keel + positive_of(what, draught, "m")
         level = np.array([0.0, waterline])
         tolerance = 1e-6 * float(np.ptp(self.x))
         for x, section in zip(self.x, self.sections, strict=True):

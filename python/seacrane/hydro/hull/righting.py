@@ -11,6 +11,7 @@ from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.panels import cut_panels
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import positive_of
 from seacrane.plotting.text import text_table
 
 FloatArray = NDArray[np.float64]
@@ -91,9 +92,8 @@ def righting_arms(
     """
     triangles = require_closed(name, mesh_triangles(name, vertices, faces))
     if draught is not None:
-        if not (np.isfinite(draught) and draught > 0.0):
-            raise ValueError(f"hull {name!r}: draught is {draught} m; give a positive number")
-        triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + draught])
+        depth = positive_of(f"hull {name!r}: draught", draught, "m")
+        triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
     centre = np.asarray(center_of_gravity, dtype=float)
     if centre.shape != (3,) or not np.all(np.isfinite(centre)):
         raise ValueError(f"hull {name!r}: center_of_gravity is {center_of_gravity!r}; give x, y and z, m")

@@ -13,16 +13,13 @@ from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryModel
 from seacrane.hydro.memory.entries import memory_entries
 from seacrane.hydro.memory.identification import r_squared
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import MemoryMismatchWarning
 
 FloatArray = NDArray[np.float64]
 
 CLAIMED_R2 = 0.9  # pairs that never followed their data say nothing about where the model belongs
 LOST_R2 = 0.05
 FEWEST_FREQUENCIES = 8
-
-
-class MemoryMismatchWarning(UserWarning):
-    """A memory model of other data: radiation loads belong to another ship, point or loading."""
 
 
 def judged_rows(model: MemoryModel, database: HydroData) -> tuple[FitRow, ...]:

@@ -12,8 +12,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import zipfile
-import zlib
 from dataclasses import asdict, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
@@ -23,14 +21,8 @@ import numpy as np
 
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.memory_model import (
-    FitRow,
-    MemoryBlock,
-    MemoryModel,
-    MotionError,
-    MotionFit,
-    Passivity,
-)
+from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 
 VERSION = 2  # raised with every change of a fit
 VARIABLE, OFF = "SEACRANE_CACHE", "off"
@@ -47,8 +39,7 @@ USED = (
     "linear_damping",
     "port_starboard_symmetric",
 )
-BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
-MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
+SUFFIX = ".memory"
 
 _of_process: dict[str, MemoryModel] = {}
 
@@ -91,8 +82,8 @@ def kept_fit(database: HydroData, settings: FitSettings) -> MemoryModel | None:
         if folder is None:
             continue
         try:
-            model = _read(folder / f"{name}.npz")
-        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
+            model = _read(folder / f"{name}{SUFFIX}")
+        except (OSError, *NOT_PACKED):
             continue
         return _of_process.setdefault(name, model)
     return None
@@ -107,8 +98,8 @@ def keep_fit(database: HydroData, settings: FitSettings, model: MemoryModel) -> 
         return
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with atomic_write(folder / f"{name}.npz") as draft, draft.open("wb") as file:
-            np.savez(file, **_arrays(model))
+        with atomic_write(folder / f"{name}{SUFFIX}") as draft:
+            draft.write_bytes(packed(model))
     except OSError:
         return
 
@@ -133,47 +124,8 @@ def _add(parts: Any, name: str, value: Any) -> None:
     parts.update(np.ascontiguousarray(array).tobytes())
 
 
-def _arrays(model: MemoryModel) -> dict[str, Any]:
-    head: dict[str, Any] = {
-        "band": model.band,
-        "r2": model.r2,
-        "rows": [asdict(row) for row in model.rows],
-        "passivity": asdict(model.passivity),
-        "causes": [block.cause for block in model.blocks],
-    }
-    out: dict[str, Any] = {name: getattr(model, name) for name in MATRICES}
-    if model.motion is not None:
-        motion = model.motion
-        head["motion"] = {"limit": motion.limit, "floor": motion.floor, "left_out": motion.left_out}
-        out["seas"], out["peaks"] = motion.error.seas, motion.error.peaks
-    for i, block in enumerate(model.blocks):
-        out |= {f"{i}_{name}": getattr(block, name) for name in BLOCK_ARRAYS}
-    return out | {"head": np.frombuffer(json.dumps(head).encode(), dtype=np.uint8)}
-
-
 def _read(path: Path) -> MemoryModel:
     if path.stat().st_size > MOST_BYTES:
         raise ValueError("too large for a memory model")
-    with path.open("rb") as stream, np.load(stream) as file:
-        arrays = {name: file[name] for name in file.files}
-    head = json.loads(arrays["head"].tobytes())
-    motion = head.get("motion")
-    return MemoryModel(
-        blocks=tuple(
-            MemoryBlock(cause=cause, **{name: arrays[f"{i}_{name}"] for name in BLOCK_ARRAYS})
-            for i, cause in enumerate(head["causes"])
-        ),
-        **{name: arrays[name] for name in MATRICES},
-        band=(float(head["band"][0]), float(head["band"][1])),
-        r2=float(head["r2"]),
-        rows=tuple(FitRow(**row) for row in head["rows"]),
-        passivity=Passivity(**head["passivity"]),
-        motion=None
-        if motion is None
-        else MotionFit(
-            limit=float(motion["limit"]),
-            error=MotionError(seas=arrays["seas"], peaks=arrays["peaks"]),
-            floor=float(motion["floor"]),
-            left_out=tuple((int(j), int(k)) for j, k in motion["left_out"]),
-        ),
-    )
+    model: MemoryModel = unpacked(path.read_bytes(), (MemoryModel,))
+    return model

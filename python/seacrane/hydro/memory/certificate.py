@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.errors import PassivityError
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel
 from seacrane.one_thread import one_thread
 
@@ -27,10 +28,6 @@ ComplexArray = NDArray[np.complex128]
 
 SYMMETRY = 1e-8
 NEAR_AXIS = 1e-4  # of 1 + |eigenvalue|: generous, as every candidate is followed up by a sample
-
-
-class PassivityError(ValueError):
-    """A memory model that can deliver energy, where a passive one was asked for."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,6 +21,7 @@ from seacrane.hydro.memory.passive import fit_passive
 from seacrane.hydro.memory.realisation import realise
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
+from seacrane.warnings import InfiniteFrequencyWarning
 
 FloatArray = NDArray[np.float64]
 
@@ -29,10 +30,6 @@ BY_MOTION = "by-motion"
 KINDS = (BY_MOTION, "per-pair", "passive")
 LIMIT = 0.01  # of the motions
 R2 = 0.99
-
-
-class InfiniteFrequencyWarning(UserWarning):
-    """No infinite-frequency added mass to compare with: an error of its estimate is a wrong mass always."""
 
 
 @one_thread

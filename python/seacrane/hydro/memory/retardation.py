@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -114,13 +115,15 @@ def retardation_functions(
     """
     if step is None:
         step = min(LONGEST_STEP, PHASE_PER_STEP / float(database.omega[-1]))
-    step = _positive("step", step)
+    step = positive_of("retardation functions: step", step, "s")
     if step * database.omega[-1] > np.pi:
         raise ValueError(
             f"retardation functions: step is {step} s, more than half a period of the database's highest "
             f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
         )
-    durations = DURATIONS if duration is None else (_positive("duration", duration),)
+    durations = (
+        DURATIONS if duration is None else (positive_of("retardation functions: duration", duration, "s"),)
+    )
     low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
     if inside.sum() < FEWEST_FREQUENCIES:
@@ -292,9 +295,3 @@ def _samples(duration: float, step: float) -> int:
             f"retardation functions: {duration} s at steps of {step} s are {count} samples; choose 8 to 20000"
         )
     return count
-
-
-def _positive(name: str, value: float) -> float:
-    if not (np.isfinite(value) and value > 0.0):
-        raise ValueError(f"retardation functions: {name} is {value} s; give a positive number")
-    return float(value)

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from seacrane.hydro.data.roughness import first_rough_value
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.reader_warnings import RoughDataWarning
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import RoughDataWarning
 
 
 def with_band_of_data(database: HydroDatabase) -> HydroDatabase:

@@ -22,10 +22,10 @@ from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
-from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning
 from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
+from seacrane.warnings import MissingMotionsWarning
 
 if TYPE_CHECKING:
     import xarray

@@ -15,7 +15,7 @@ from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
 from seacrane.hydro.readers.format import Format, of_one_speed
-from seacrane.hydro.readers.reader_warnings import RoughDataWarning
+from seacrane.warnings import RoughDataWarning
 
 FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
 NAMED = 5  # files in a message

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.hydro.readers.reader_warnings import AssumedSymmetryWarning
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.warnings import AssumedSymmetryWarning
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

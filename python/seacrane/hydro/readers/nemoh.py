@@ -24,10 +24,10 @@ from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
-from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import AssumedDensityWarning
 
 FloatArray = NDArray[np.float64]
 

@@ -22,10 +22,10 @@ from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.mafredo_file import read_mafredo
 from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
-from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning, PartialSetWarning
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import AssumedDensityWarning, PartialSetWarning
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

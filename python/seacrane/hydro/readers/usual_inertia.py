@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.reader_warnings import AssumedInertiaWarning
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import AssumedInertiaWarning
 
 FloatArray = NDArray[np.float64]
 

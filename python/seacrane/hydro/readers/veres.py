@@ -23,11 +23,6 @@ from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
 from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format
-from seacrane.hydro.readers.reader_warnings import (
-    EncounterFrequencyWarning,
-    HydrostaticsWarning,
-    PartialSetWarning,
-)
 from seacrane.hydro.readers.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
 from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
 from seacrane.hydro.readers.veres_set import (
@@ -43,6 +38,7 @@ from seacrane.hydro.readers.veres_set import (
     veres_speeds,
 )
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
 
 FloatArray = NDArray[np.float64]
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.reader_warnings import PartialSetWarning, SeveralSpeedsWarning
 from seacrane.hydro.readers.veres_files import (
     Case,
     DriftFile,
@@ -19,6 +18,7 @@ from seacrane.hydro.readers.veres_files import (
     same_speed,
 )
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import PartialSetWarning, SeveralSpeedsWarning
 
 LOST = {  # with a file that need not be there
     ".re8": "wave forces are solved from the motions",

@@ -23,10 +23,6 @@ from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
-from seacrane.hydro.readers.reader_warnings import (
-    AssumedDensityWarning,
-    PartialSetWarning,
-)
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wamit_control import (
     ForceControl,
@@ -45,6 +41,7 @@ from seacrane.hydro.readers.wamit_tables import (
 )
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
+from seacrane.warnings import AssumedDensityWarning, PartialSetWarning
 
 FloatArray = NDArray[np.float64]
 

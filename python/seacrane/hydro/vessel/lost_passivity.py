@@ -11,15 +11,12 @@ from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.vessel.parameters import VesselParameters
 from seacrane.hydro.vessel.stability import growth_rate
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import NonPassiveMemoryWarning
 
 SCALED_DAMPING_LIMIT = -0.05
 GROWTH_LIMIT = 1e-6  # 1/s, a factor e in eleven days: above the round-off of eigenvalues at zero
 ROUNDING = 1e-9
 AUDIT = np.geomspace(2e-2, 2e1, 201)
-
-
-class NonPassiveMemoryWarning(UserWarning):
-    """A memory model can feed energy into a motion: motions may grow out of nothing."""
 
 
 def warn_of_lost_passivity(database: HydroData, vessel: VesselParameters) -> None:

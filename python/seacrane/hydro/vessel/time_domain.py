@@ -18,16 +18,9 @@ from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, time_d
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.one_thread import one_thread
+from seacrane.warnings import MemoryFitWarning, RollDampingWarning
 
 LOST_DAMPING = 0.02  # of its standard deviation
-
-
-class RollDampingWarning(UserWarning):
-    """The vessel has no roll damping beside radiation: its roll at resonance has no converged answer."""
-
-
-class MemoryFitWarning(UserWarning):
-    """A memory model does not follow the data as closely as was asked."""
 
 
 @one_thread

@@ -1,0 +1,39 @@
+#include "seacrane/dynamics/terms.hpp"
+#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/run/channels/channel.hpp"
+
+namespace seacrane {
+namespace {
+
+const Axis spring{
+    "spring", {}, [](const Model& m) {
+      std::vector<std::string> names;
+      for (const auto& d : std::get<std::vector<SpringDamper::Description>>(*m.description.loads)) {
+        names.push_back(d.name);
+      }
+      return names;
+    }};
+
+void write_spring_length(const Output& o, double* out) {
+  const auto& bodies = o.terms.bodies();
+  for (const SpringDamper& s : std::get<std::vector<SpringDamper>>(*o.terms.model().loads)) {
+    const auto &first = bodies[idx(s.first)], &second = bodies[idx(s.second)];
+    const Vec3d from = first.position + first.rotation * s.first_point;
+    *out++ = (second.position + second.rotation * s.second_point - from).norm();
+  }
+}
+
+}  // namespace
+
+std::vector<Channel> spring_channels() {
+  return {
+      {.name = "spring_length",
+       .axes = {&spring},
+       .unit = "m",
+       .text = "distance between the ends of the spring",
+       .by_default = false,
+       .write = write_spring_length},
+  };
+}
+
+}  // namespace seacrane

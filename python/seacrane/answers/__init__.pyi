@@ -1,0 +1,10 @@
+"""Numbers in an engineer's words: the summary of a run, statics, allowable loads."""
+
+from seacrane.answers.summary import summary as summary
+from seacrane.answers.summary import Summary as Summary
+from seacrane.answers.statics import statics as statics
+from seacrane.answers.statics import Statics as Statics
+from seacrane.answers.load_chart import load_chart as load_chart
+from seacrane.answers.load_chart import LoadChart as LoadChart
+from seacrane.reporting.report import report as report
+from seacrane.reporting.report import Report as Report

@@ -1,0 +1,142 @@
+"""What may be recorded: dimensions, unit and description of every channel.
+
+The core's channels come from its own table. Those that Python derives from them are in `DERIVED`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from seacrane import _core
+
+
+@dataclass(frozen=True, kw_only=True)
+class Channel:
+    """Dimensions, unit and description of one recorded quantity.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Of its arrays, "time" first.
+    dims_of_several : tuple of str
+        The same in a scene with several vessels, slew drives or hooks: theirs comes after time there.
+    unit, long_name : str
+    by_default : bool
+        Whether a run records it unasked.
+    made_of : tuple of str
+        The core's channels from which it is derived, as far as a scene has them; empty for the core's own.
+    turns : bool
+        Whether it is an angle that counts whole turns.
+    """
+
+    dims: tuple[str, ...]
+    dims_of_several: tuple[str, ...]
+    unit: str
+    long_name: str
+    by_default: bool = True
+    made_of: tuple[str, ...] = ()
+    turns: bool = False
+
+    def dims_of(self, axes: int) -> tuple[str, ...]:
+        """Dimensions of an array with so many axes."""
+        return self.dims_of_several if axes == len(self.dims_of_several) else self.dims
+
+
+def _core_channel(channel: _core.Channel) -> Channel:
+    return Channel(
+        dims=("time", *channel.dims),
+        dims_of_several=("time", *channel.dims_of_several),
+        unit=channel.unit,
+        long_name=channel.text,
+        by_default=channel.by_default,
+    )
+
+
+def _derived(
+    dims: str,
+    unit: str,
+    long_name: str,
+    made_of: str,
+    *,
+    several: str = "",
+    turns: bool = False,
+    by_default: bool = True,
+) -> Channel:
+    own = dims.split()
+    return Channel(
+        dims=("time", *own), dims_of_several=("time", *several.split(), *own), unit=unit, long_name=long_name,
+        by_default=by_default, made_of=tuple(made_of.split()), turns=turns,
+    )  # fmt: skip
+
+
+_DRIVE = "actuator_force driver_force hydraulic_force"
+_POSE = "position quaternion"
+_MOTION = "position quaternion velocity angular_velocity"
+
+DERIVED: Mapping[str, Channel] = MappingProxyType(
+    {
+        "stroke": _derived("cylinder", "m", "cylinder stroke, extension positive", "coordinate"),
+        "stroke_rate": _derived("cylinder", "m/s", "rate of the cylinder stroke", "coordinate_rate"),
+        "cylinder_force": _derived(
+            "cylinder", "N", "actuator force of the cylinder, positive pushes", _DRIVE
+        ),
+        "cylinder_pressure": _derived(
+            "piston",
+            "Pa",
+            "pressure in the loaded chamber of the cylinder, the rod side's negative",
+            _DRIVE,
+        ),
+        "slew_angle": _derived(
+            "", "rad", "slew angle of the crane", "coordinate", several="slew", turns=True
+        ),
+        "slew_torque": _derived("", "N m", "actuator torque of the slew drive", _DRIVE, several="slew"),
+        "link_tension": _derived(
+            "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
+        ),
+        "hook_load": _derived(
+            "suspension",
+            "N",
+            "load on the lower end of a link, a wire or a line, all its falls together",
+            f"tension line_tension {_POSE}",
+        ),
+        "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
+        "tip_velocity": _derived(
+            "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
+        ),
+        "offlead": _derived(
+            "",
+            "rad",
+            "angle of the link from the vertical, away from the crane positive",
+            _POSE,
+            several="hook",
+        ),
+        "sidelead": _derived(
+            "",
+            "rad",
+            "angle of the link from the vertical across the boom, to its left positive",
+            _POSE,
+            several="hook",
+        ),
+    }
+)
+
+CHANNELS: Mapping[str, Channel] = MappingProxyType(
+    {**{channel.name: _core_channel(channel) for channel in _core.channels()}, **DERIVED}
+)
+
+# Names along the dimensions that are the same in every scene.
+FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {dim: tuple(names) for dim, names in _core.axes().items() if names}
+)
+# Dimensions whose names belong to the scene.
+NAMED = frozenset(dim for channel in CHANNELS.values() for dim in channel.dims_of_several[1:]) - set(FIXED)
+AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
+
+
+def attributes(name: str) -> dict[str, str]:
+    """`units` and `long_name` of a channel, or of `time`."""
+    if name == "time":
+        return {"units": "s", "long_name": "time since the start of the run"}
+    return {"units": CHANNELS[name].unit, "long_name": CHANNELS[name].long_name}

@@ -1,0 +1,76 @@
+"""What holds the joints of cranes, and the drivers that stand for the drives that nobody described."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from seacrane import _core
+from seacrane.description.drives import add_driver
+from seacrane.description.loads import LOAD_KINDS, named, springs_of
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description, Some
+
+PASSIVE = ("limit", "friction", "soft stop")  # loads that name a joint and do not hold it where it is
+Drive = tuple[str, str, str]  # label, joint and coordinate
+
+
+def free_drives(scene: Description, roles: CraneRoles) -> list[Drive]:
+    """Slew drive, luffs and cylinders of a crane on which nothing acts; none where C functions may.
+
+    What acts is a driver, an actuator or another load on the joint, a luffing rope, or a spring or hydraulic
+    cylinder between its two bodies.
+    """
+    if scene.function_forces:
+        return []
+    return [drive for drive in _drives(scene, roles) if not _acted_on(scene, drive[1])]
+
+
+def _drives(scene: Description, roles: CraneRoles) -> Iterator[Drive]:
+    ropes = {label: rope.name for label, rope in roles.ropes.items()}
+    if roles.slew is not None and roles.slew[0] in scene.joints:
+        yield "slew drive", *roles.slew
+    for label, (joint, coordinate) in roles.luffs.items():
+        if joint in scene.joints and ropes.get(label) not in scene.loads:
+            yield label, joint, coordinate
+    for label, joint in roles.cylinders.items():
+        if joint in scene.joints:
+            yield label, joint, "displacement"
+
+
+def _acted_on(scene: Description, joint: str) -> bool:
+    passive = tuple(LOAD_KINDS[kind] for kind in PASSIVE)
+    ends = {scene.joints[joint].first, scene.joints[joint].second}
+    springs = [spring for _, spring in springs_of(scene.springs, scene.loads)]
+    cylinders = [load for load in scene.loads.values() if isinstance(load, _core.HydraulicCylinder)]
+    return (
+        any(driver.joint == joint for driver in scene.drivers.values())
+        or any(joint in named(one, "joint") for one in scene.all_loads() if not isinstance(one, passive))
+        or any({one.first, one.second} == ends for one in (*springs, *cylinders))
+    )
+
+
+def held_drives(scene: Description) -> dict[str, list[Drive]]:
+    """What is held because nothing acts on it, by the prefix of its crane."""
+    found = {prefix: free_drives(scene, roles) for prefix, roles in scene.roles.items() if roles.held}
+    return {prefix: drives for prefix, drives in found.items() if drives}
+
+
+def with_holds(scene: Some) -> Some:
+    """The scene as it is compiled: with a driver for each drive that is held; itself where there is none."""
+    return decided(scene) if held_drives(scene) else scene
+
+
+def decided(scene: Some) -> Some:
+    """As `with_holds`, and nothing more is held: what takes a drive out of it finds its joint free."""
+    out = let_go(scene)
+    for drives in held_drives(scene).values():
+        for _, joint, coordinate in drives:
+            add_driver(out, joint=joint, coordinate=coordinate, curve=0.0)
+    return out
+
+
+def let_go(scene: Some) -> Some:
+    """The scene with nothing held but by what is described."""
+    roles = {prefix: replace(one, held=False) for prefix, one in scene.roles.items()}
+    return scene.copy(roles=roles)

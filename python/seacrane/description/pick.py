@@ -1,0 +1,145 @@
+"""Which curves of a result are meant: a channel, names along its dimensions, from when on; as a short text.
+
+    hook_load
+    vessel_motion[roll]                roll
+    position[load, z]                  position[body=load, axis=z]
+    hook_load[main, after=60]
+
+A name without its dimension goes to the one that holds it: x, y, z and the six motions to their own, others
+to those that the scene names, in their order. A motion by itself is that of the vessel.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import text_of
+from seacrane.inputs.shown import shown
+
+WHOLE = re.compile(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", re.DOTALL)
+ITEM = re.compile(r"""\s*(?:(\w+)\s*=\s*)?("[^"]*"|'[^']*'|[^,"']*?)\s*(?:,|$)""")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pick:
+    """Curves of a channel.
+
+    Attributes
+    ----------
+    channel : str
+    names : mapping of str to str
+        By dimension; dimensions that are not named are kept.
+    after : float or None
+        s: earlier outputs are left out; None: nothing is said of it.
+    """
+
+    channel: str
+    names: Mapping[str, str] = field(default_factory=dict)
+    after: float | None = None
+
+    def __str__(self) -> str:
+        words = [f"{dim}={name}" for dim, name in self.names.items()]
+        words += [] if self.after is None else [f"after={self.after:g}"]
+        return f"{self.channel}[{', '.join(words)}]" if words else self.channel
+
+
+def pick_of(
+    what: str,
+    channel: str | Pick,
+    names: Mapping[str, str] | None = None,
+    *,
+    held: Collection[str] | None = None,
+) -> Pick:
+    """A selector as a value, from its text or from a channel with names.
+
+    Parameters
+    ----------
+    what : str
+        Who asks, for messages.
+    channel : str or Pick
+        The name of a channel, or a text as above.
+    names : mapping of str to str, optional
+        Along its dimensions, beside those in the text.
+    held : collection of str, optional
+        The channels of a result, of which it must be one.
+
+    Raises
+    ------
+    SceneError
+        For a text that is none, a channel that does not exist, a dimension that it has not, or a name that
+        none of its dimensions holds.
+    """
+    if isinstance(channel, Pick):
+        text, items, after = channel.channel, list(channel.names.items()), channel.after
+    else:
+        text, items, after = _read(what, channel)
+    if text in MOTIONS and not items:
+        text, items = "vessel_motion", [("motion", text)]
+    if held is not None and text not in held:
+        raise SceneError(f"channel {shown(text)} is not in this result; it holds {', '.join(held)}")
+    if text not in CHANNELS:
+        near = get_close_matches(text, [*CHANNELS, *MOTIONS], n=1)
+        raise SceneError(
+            f"{what}: channel {shown(text)} does not exist; "
+            + (f"did you mean {near[0]!r}?" if near else "docs/channels.md lists them")
+        )
+    return Pick(channel=text, names=_by_dimension(what, text, [*items, *(names or {}).items()]), after=after)
+
+
+def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], float | None]:
+    """Channel, (dimension or nothing, name) and `after` of a text."""
+    found = WHOLE.fullmatch(text_of(what, text))
+    if not found:
+        raise SceneError(f"{what} is {shown(text)}; give a channel, such as 'position[load, z]'")
+    channel, inner = found.groups()
+    items: list[tuple[str, str]] = []
+    after: float | None = None
+    at = 0
+    while inner and at < len(inner):
+        item = ITEM.match(inner, at)
+        if not item or not item[2]:
+            raise SceneError(f"{what} is {shown(text)}; give names with commas between, such as 'load, z'")
+        at = item.end()
+        key, value = item[1] or "", item[2].strip("\"'")
+        if key != "after":
+            items.append((key, value))
+            continue
+        try:
+            after = float(value)
+        except ValueError:
+            raise SceneError(f"{what}: after is {shown(value)}; give a time in s") from None
+    return channel, items, after
+
+
+def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> dict[str, str]:
+    dims = CHANNELS[channel].dims_of_several[1:]
+    found: dict[str, str] = {}
+    for key, name in sorted(items, key=lambda item: not item[0]):  # those that say their dimension first
+        dim = key or _dimension_of(name, [dim for dim in dims if dim not in found])
+        if dim not in dims:
+            has = ", ".join(dims) or "none but time"
+            asked = f"dimension {key!r}" if key else f"{shown(name)}"
+            raise SceneError(f"{what}: {channel} has no {asked}; its dimensions are {has}")
+        if dim in found:
+            raise SceneError(f"{what}: {channel} is given two names along {dim}; give one")
+        if dim in FIXED and name not in FIXED[dim]:
+            raise SceneError(f"{what}: {dim} is {shown(name)}; choose from {', '.join(FIXED[dim])}")
+        found[dim] = text_of(f"{what}: {dim}", name)
+    return {dim: found[dim] for dim in dims if dim in found}
+
+
+def _dimension_of(name: str, free: Sequence[str]) -> str:
+    """The dimension that holds a name, or no text."""
+    fixed = [dim for dim in free if dim in FIXED and name in FIXED[dim]]
+    return next(iter([*fixed, *(dim for dim in free if dim not in FIXED)]), "")
+
+
+def column_name(channel: str, names: Sequence[str]) -> str:
+    """The text that picks one curve, by its names in the order of its dimensions."""
+    quoted = [name if re.fullmatch(r"[^,=\"'\[\]]+", name) else f'"{name}"' for name in names]
+    return f"{channel}[{', '.join(quoted)}]" if quoted else channel

@@ -1,0 +1,37 @@
+"""The rungs of lines; "auto" is settled by a run, and is elastic everywhere else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal
+
+from seacrane import _core
+from seacrane.description.loads import changed, lines_of
+from seacrane.description.scene import Description, Some
+
+RIGID, QUASI_STATIC, ELASTIC, AUTO, WITH_MASS = "rigid", "quasi-static", "elastic", "auto", "with mass"
+Rung = Literal["rigid", "quasi-static", "elastic", "auto", "with mass"]
+StretchingRung = Literal["quasi-static", "elastic", "auto"]
+
+
+def automatic(scene: Description) -> dict[str, _core.Line]:
+    """The lines with rung "auto"."""
+    return {name: line for name, line in lines_of(scene.loads).items() if line.rung == AUTO}
+
+
+def with_rungs(scene: Some, rungs: Mapping[str, str]) -> Some:
+    """The scene with the rungs of these lines; itself where none is named."""
+    if not rungs:
+        return scene
+    out = scene.copy()
+    for name, rung in rungs.items():
+        out.loads[name] = changed(out.loads[name], rung=rung)
+    return out
+
+
+def compiled_loads(loads: Iterable[Any]) -> list[Any]:
+    """Loads as the core takes them: it knows no "auto"."""
+    return [
+        changed(load, rung=ELASTIC) if isinstance(load, _core.Line) and load.rung == AUTO else load
+        for load in loads
+    ]

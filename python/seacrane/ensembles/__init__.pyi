@@ -1,0 +1,12 @@
+"""Many runs of one lift: what varies, what each run keeps, and where the results go."""
+
+from seacrane.ensembles.ensemble import ensemble as ensemble
+from seacrane.ensembles.ensemble import Ensemble as Ensemble
+from seacrane.ensembles.kept import Kept as Kept
+from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
+from seacrane.ensembles.sensitivity import sensitivity as sensitivity
+from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
+from seacrane.ensembles.certainty import Certainty as Certainty
+from seacrane.ensembles.linear_control import LinearControl as LinearControl
+from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl

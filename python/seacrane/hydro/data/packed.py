@@ -1,0 +1,137 @@
+"""What a sea loads or moves a vessel by, as bytes and back, and the digest that tells one from another."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from functools import lru_cache
+from types import NoneType, UnionType
+from typing import Any, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from seacrane.errors import SceneError
+from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.data.memory_model import (
+    FitRow,
+    MemoryBlock,
+    MemoryModel,
+    MotionError,
+    MotionFit,
+    Passivity,
+)
+
+KIND, ARRAY = "$kind", "$array"
+STORED = {"f": "<f8", "c": "<c16", "i": "<i8"}  # types of arrays, by the kind that NumPy calls them
+NOT_PACKED = (ValueError, TypeError, LookupError, AttributeError, RecursionError, SceneError)
+PARTS: tuple[type, ...] = (
+    AdditionalMatrices, RollDamping, DriftCoefficients, MemoryModel, MemoryBlock, FitRow, Passivity,
+    MotionFit, MotionError,
+)  # fmt: skip
+
+
+_hints = lru_cache(get_type_hints)
+
+
+@lru_cache(maxsize=16)
+def digest_of(source: Any) -> str:
+    """SHA-256 of all that a database or a table of motions holds."""
+    return hashlib.sha256(packed(source)).hexdigest()
+
+
+def packed(source: Any) -> bytes:
+    """A line of JSON, and after it the numbers of its arrays; an entry that is None is left out.
+
+    What is None counts as not there, so that a digest stays when an optional entry is added later.
+    """
+    arrays: list[bytes] = []
+    told = json.dumps(_told(source, arrays))
+    return b"".join([told.encode("ascii"), b"\n", *arrays])
+
+
+def _told(value: Any, arrays: list[bytes]) -> Any:
+    if is_dataclass(value) and not isinstance(value, type):
+        hints = _hints(type(value))
+        parts = {entry.name: getattr(value, entry.name) for entry in fields(value)}
+        numbers = {name: float(part) for name, part in parts.items() if hints[name] is float}
+        known = {name: part for name, part in (parts | numbers).items() if part is not None}
+        return {KIND: type(value).__name__} | {name: _told(part, arrays) for name, part in known.items()}
+    if isinstance(value, np.ndarray):
+        kept = np.ascontiguousarray(value, dtype=STORED[value.dtype.kind])
+        arrays.append(kept.tobytes())
+        return {ARRAY: STORED[value.dtype.kind], "shape": list(kept.shape)}
+    if isinstance(value, np.generic):
+        return value.item()
+    return [_told(part, arrays) for part in value] if isinstance(value, tuple | list) else value
+
+
+def unpacked(data: bytes, roots: tuple[type, ...]) -> Any:
+    """What `packed` wrote, which is one of `roots`; runs no code but the constructors of these.
+
+    Raises
+    ------
+    One of NOT_PACKED
+        For anything else.
+    """
+    told, _, rest = data.partition(b"\n")
+    made = _made(json.loads(told), _Numbers(rest), {kind.__name__: kind for kind in (*roots, *PARTS)})
+    if not isinstance(made, roots):
+        raise ValueError(f"it holds a {type(made).__name__}")
+    return made
+
+
+class _Numbers:
+    """The arrays one after another."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data, self._at = data, 0
+
+    def array(self, kind: str, shape: list[int]) -> np.ndarray[Any, Any]:
+        if kind not in STORED.values() or not all(type(size) is int and size >= 0 for size in shape):
+            raise ValueError(f"it holds an array of {kind!r} and shape {shape}")
+        count, first = math.prod(shape), self._at
+        self._at += count * np.dtype(kind).itemsize
+        if self._at > len(self._data):
+            raise ValueError("it ends within an array")
+        return np.frombuffer(self._data, kind, count, first).reshape(shape)
+
+
+def _made(told: Any, numbers: _Numbers, kinds: dict[str, type]) -> Any:
+    if isinstance(told, list):
+        return tuple(_made(part, numbers, kinds) for part in told)
+    if not isinstance(told, dict):
+        return told
+    if ARRAY in told:
+        return numbers.array(told[ARRAY], told["shape"])
+    kind = kinds[told[KIND]]
+    parts = {name: _made(part, numbers, kinds) for name, part in told.items() if name != KIND}
+    hints = _hints(kind)
+    for name, part in parts.items():
+        if not _fits(part, hints[name]):
+            raise ValueError(f"its {name} is a {type(part).__name__}")
+    return kind(**parts)
+
+
+def _fits(value: Any, hint: Any) -> bool:
+    """Whether a value is of a type as annotated."""
+    origin, arguments = get_origin(hint), get_args(hint)
+    if hint is Any:
+        return True
+    if origin is UnionType:
+        return any(_fits(value, one) for one in arguments if one is not NoneType)
+    if origin is np.ndarray:
+        return isinstance(value, np.ndarray) and value.dtype == get_args(arguments[1])[0]
+    if origin is tuple:
+        return isinstance(value, tuple) and all(_fits(*pair) for pair in _pairs(value, arguments))
+    whole = hint is float and isinstance(value, int)
+    return (isinstance(value, hint) or whole) and (hint is bool or not isinstance(value, bool))
+
+
+def _pairs(values: tuple[Any, ...], hints: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
+    if hints[-1] is Ellipsis:
+        return ((value, hints[0]) for value in values)
+    return zip(values, hints, strict=True)

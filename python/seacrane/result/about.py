@@ -1,0 +1,106 @@
+"""What a result holds of its scene and its settings beside numbers and words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from seacrane import renamed
+from seacrane.description.limit_state import LimitState
+
+SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
+
+
+@dataclass(frozen=True, kw_only=True)
+class StageSpan:
+    """A stage as it was run.
+
+    Attributes
+    ----------
+    name : str
+    start, end : float
+        s.
+    ended_by : str
+        The condition in words, "duration", or "" where something stopped it.
+    """
+
+    name: str
+    start: float
+    end: float
+    ended_by: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class About:
+    """What a run notes of its scene and its settings; all of it is plain data.
+
+    Attributes
+    ----------
+    settings : mapping
+        By the words of `simulate`, with what is known of vessels and sea.
+    stages : tuple of StageSpan
+        Empty: it was one run.
+    limit_states : tuple of LimitState
+    cranes : sequence of mapping
+        Roles of each crane, as a scene file holds them.
+    outline, bounds
+        As `outline_of` and `bounds_of` make them.
+    hanging_weight : mapping of str to float
+        Weight on each link, N.
+    line_weight : mapping
+        Weight on each elastic line, N, and on how many of its falls.
+    """
+
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    stages: tuple[StageSpan, ...] = ()
+    limit_states: tuple[LimitState, ...] = ()
+    cranes: Sequence[Mapping[str, Any]] = ()
+    outline: Mapping[str, Any] = field(default_factory=dict)
+    bounds: Sequence[Mapping[str, Any]] = ()
+    hanging_weight: Mapping[str, float] = field(default_factory=dict)
+    line_weight: Mapping[str, Sequence[float]] = field(default_factory=dict)
+
+    def to_attributes(self) -> dict[str, str]:
+        """As files hold it; ValueError or TypeError for what no file can hold."""
+        rest = {name: value for name, value in vars(self).items() if value and name != SETTINGS}
+        return {SETTINGS: _json(self.settings), ABOUT: _json(rest)}
+
+
+def _json(value: Mapping[str, Any]) -> str:
+    return json.dumps(dict(value), default=vars, sort_keys=True, allow_nan=False)
+
+
+NAMES = tuple(one.name for one in fields(About))
+
+
+def parted(attributes: Mapping[str, Any]) -> tuple[dict[str, Any], About]:
+    """The stats among a file's attributes, and the rest; ValueError for a rest that no run writes.
+
+    Files of 0.1 and 0.2 hold each part of the rest as a text of its own.
+    """
+    stats = {name: value for name, value in attributes.items() if name not in (ABOUT, *NAMES)}
+    try:
+        parts = {name: json.loads(attributes[name]) for name in NAMES if name in attributes}
+        return stats, _made({**json.loads(attributes.get(ABOUT, "{}")), **parts})
+    except (LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
+        raise ValueError(f"its notes are none that a run writes: {error}") from error
+
+
+def _made(data: Mapping[str, Any]) -> About:
+    given = {name: value for name, value in data.items() if name in NAMES}
+    for name, value in given.items():
+        kind = dict if isinstance(getattr(About(), name), dict) else list
+        if not isinstance(value, kind):
+            raise TypeError(f"{name} is a {type(value).__name__}")
+    settings = given.pop(SETTINGS, {})
+    given[SETTINGS] = {renamed.SETTINGS.get(name, name): value for name, value in settings.items()}
+    stages = tuple(StageSpan(**one) for one in given.pop("stages", ()))
+    limit_states = tuple(_limit_state(**one) for one in given.pop("limit_states", ()))
+    return About(**given, stages=stages, limit_states=limit_states)
+
+
+def _limit_state(*, where: Mapping[str, str] | None = None, **known: Any) -> LimitState:
+    """Results of before 0.3 say `where` for its names."""
+    return LimitState(**known) if where is None else LimitState(names=where, **known)

@@ -1,0 +1,153 @@
+"""Channels as single curves, each with its names and in the unit that people read."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.description.channels import CHANNELS
+from seacrane.description.pick import Pick
+from seacrane.result.about import About
+from seacrane.result.events import Event
+from seacrane.result.units import unit_of
+
+Array = NDArray[np.float64]
+ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
+NO_MOTION = 1e-9  # m, deg, N and so on: nothing below it is meant
+NO_ENERGY = 1e-6  # J
+ANGLES = ("angle", "roll", "pitch", "yaw")  # coordinates that are angles
+PREFIXES = ((1e6, "M"), (1e3, "k"))
+LOADS = ("N", "N m", "J", "N or N m")
+FEWEST_DIGITS = 1e4  # N: below it loads stay as they are
+
+
+class Record(Protocol):
+    """What curves are read from: a `Result`."""
+
+    @property
+    def time(self) -> Array: ...
+    @property
+    def channels(self) -> Mapping[str, Array]: ...
+    @property
+    def coords(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def dims(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def events(self) -> tuple[Event, ...]: ...
+    @property
+    def about(self) -> About: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def stats(self) -> Mapping[str, Any]: ...
+
+    def select(self, channel: str | Pick, /, **names: str) -> Array: ...
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trace:
+    """One curve of a channel.
+
+    Attributes
+    ----------
+    channel : str
+    names : tuple of str
+        Along the channel's dimensions but time.
+    unit : str
+        Of the values: degrees for radians, kN for newtons where they are large.
+    values : ndarray, shape (n,)
+    """
+
+    channel: str
+    names: tuple[str, ...]
+    unit: str
+    values: Array
+
+    @property
+    def label(self) -> str:
+        """Names along its dimensions; empty for a channel that has none."""
+        return " ".join(self.names)
+
+    @property
+    def title(self) -> str:
+        """Channel and names, as a table shows them."""
+        return " ".join([self.channel.replace("_", " "), *self.names])
+
+
+def traces(result: Record, channel: str, **names: str) -> list[Trace]:
+    """The curves of a channel, or those of them that names pick.
+
+    Parameters
+    ----------
+    result : Record
+    channel : str
+    **names : str
+        As of `Result.select`, such as ``body="payload"``.
+
+    Raises
+    ------
+    KeyError, ValueError
+        As `Result.select`.
+    """
+    array = result.select(channel, **names)
+    left = [dim for dim in result.dims[channel][1:] if dim not in names]
+    every = list(itertools.product(*(result.coords[dim] for dim in left)))
+    columns = array.reshape(len(result.time), len(every)).T
+    units = [_unit(result, channel, (*names.values(), *one)) for one in every]
+    kept = tuple(names.values())
+    found: list[Trace] = []
+    for one, values, unit in zip(every, columns, units, strict=True):
+        same = [column for column, other in zip(columns, units, strict=True) if other == unit]
+        factor, shown = shown_unit(unit, same)
+        found.append(
+            Trace(channel=channel, names=(*kept, *one), unit=shown, values=np.asarray(factor * values))
+        )
+    return found
+
+
+def _unit(result: Record, channel: str, names: tuple[str, ...]) -> str:
+    """Of one curve."""
+    if channel == "limit_force":
+        return _unit_of_limit(result, names[-1])
+    return unit_of(channel, names)
+
+
+def _unit_of_limit(result: Record, name: str) -> str:
+    """As the run noted its limits; stops of angles push with moments."""
+    for bound in result.about.bounds:
+        if name in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
+            return "N m" if bound["kind"] == "stop" and bound["coordinate"] in ANGLES else "N"
+    return CHANNELS["limit_force"].unit
+
+
+def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
+    """Factor and unit that people read curves of an SI unit in."""
+    if unit in ("rad", "rad/s", "rad/s2"):
+        return float(np.degrees(1.0)), unit.replace("rad", "deg")
+    if unit not in LOADS:
+        return 1.0, unit
+    largest = max((float(np.nanmax(np.abs(curve), initial=0.0)) for curve in curves), default=0.0)
+    scales = [(scale, prefix) for scale, prefix in PREFIXES if largest >= 10.0 * scale]
+    if not scales or largest < FEWEST_DIGITS:
+        return 1.0, unit
+    scale, prefix = scales[0]
+    return 1.0 / scale, " or ".join(f"{prefix}{one}" for one in unit.split(" or "))
+
+
+def beyond_rounding(found: Iterable[Trace]) -> list[Trace]:
+    """Those that are not zero up to rounding, beside the largest of the same unit."""
+    every = list(found)
+    largest: dict[str, float] = {}
+    for one in every:
+        largest[one.unit] = max(largest.get(one.unit, 0.0), _size(one))
+    least = {unit: NO_ENERGY if unit == "J" else NO_MOTION for unit in largest}
+    return [one for one in every if _size(one) > max(ROUNDING * largest[one.unit], least[one.unit])]
+
+
+def _size(one: Trace) -> float:
+    return float(np.nanmax(np.abs(one.values), initial=0.0))

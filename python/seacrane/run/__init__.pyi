@@ -1,0 +1,11 @@
+"""A run: settings, stepping, outputs to memory or to a file."""
+
+from seacrane.simulation import simulate as simulate
+from seacrane.run.to_file import simulate_to_file as simulate_to_file
+from seacrane.run.run import Run as Run
+from seacrane.run.method import Method as Method
+from seacrane.run.outputs import Outputs as Outputs
+from seacrane.run.sampled_controller import SampledController as SampledController
+from seacrane._core import Model as Model
+from seacrane._core import State as State
+from seacrane._core import integrator_names as integrator_names

@@ -1,0 +1,32 @@
+"""What is added to a scene from hydrodynamics, seas, winds and limits."""
+
+from seacrane.scene.scene import Scene as Scene
+from seacrane.lift.lift import Lift as Lift
+from seacrane._core import Curve as Curve
+from seacrane.description.curves import spline_curve as spline_curve
+from seacrane.scene.gusts import gust_curve as gust_curve
+from seacrane._core import Frame as Frame
+from seacrane._core import Point as Point
+from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
+from seacrane.scene.mooring import MooringSpring as MooringSpring
+from seacrane.scene.mooring import mooring_matrix as mooring_matrix
+from seacrane.scene.motion_history import MotionHistory as MotionHistory
+from seacrane.hydro.data.motion_raos import MotionRaos as MotionRaos
+from seacrane.analysis.tanks import Tank as Tank
+from seacrane.analysis.ballast import Ballast as Ballast
+from seacrane.description.roles import CraneRoles as CraneRoles
+from seacrane.description.limit_state import LimitState as LimitState
+from seacrane._core import FlowForce as FlowForce
+from seacrane._core import Friction as Friction
+from seacrane._core import GasSpring as GasSpring
+from seacrane._core import HeaveCompensator as HeaveCompensator
+from seacrane._core import HydraulicCylinder as HydraulicCylinder
+from seacrane._core import Limit as Limit
+from seacrane._core import Line as Line
+from seacrane._core import SoftStop as SoftStop
+from seacrane._core import joint_kinds as joint_kinds
+from seacrane.description.waves import Waves as Waves
+from seacrane.description.waves import ByHeading as ByHeading
+from seacrane.description.waves import HullLoads as HullLoads
+from seacrane.description.provenance import SeaProvenance as SeaProvenance
+from seacrane.description.provenance import VesselProvenance as VesselProvenance

@@ -1,0 +1,15 @@
+"""Statistics of records and of the maxima of seeds: what is exceeded, and how sure that is."""
+
+from seacrane.statistics.of_results import extremes as extremes
+from seacrane.statistics.estimate import Maximum as Maximum
+from seacrane.statistics.estimate import Estimate as Estimate
+from seacrane.statistics.seeds import SeedExtremes as SeedExtremes
+from seacrane.statistics.seeds import seed_extremes as seed_extremes
+from seacrane.statistics.record_extremes import RecordExtremes as RecordExtremes
+from seacrane.statistics.record_extremes import record_extremes as record_extremes
+from seacrane.statistics.tail import Tail as Tail
+from seacrane.statistics.gaussian import gaussian_maximum as gaussian_maximum
+from seacrane.statistics.control_variate import controlled_mean as controlled_mean
+from seacrane.statistics.control_variate import ControlledMean as ControlledMean
+from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
+from seacrane.statistics.spectrum import SpectrumEstimate as SpectrumEstimate

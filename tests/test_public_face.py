@@ -1,0 +1,131 @@
+"""The public face: few names at the top, closed modules by subject, old names refused with their place."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+import subprocess
+import sys
+from operator import attrgetter
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import seacrane
+from seacrane.renamed import NAMES
+
+MODULES = [name for name in seacrane.__all__ if isinstance(getattr(seacrane, name), ModuleType)]
+NAMES_0_2 = (Path(__file__).parent / "names_0_2.txt").read_text(encoding="utf-8").split()
+MOVED = [name for name in NAMES_0_2 if name not in seacrane.__all__ and name not in NAMES]
+STUBS = [stub.parent.relative_to(Path(seacrane.__file__).parent) for stub in
+         Path(seacrane.__file__).parent.rglob("__init__.pyi")]  # fmt: skip
+
+
+def module_of(name: str) -> ModuleType:
+    return importlib.import_module(f"seacrane.{name}")
+
+
+def names_of(name: str) -> list[str]:
+    return [one for one in dir(module_of(name)) if not one.startswith("_")]
+
+
+def test_the_top_is_short_enough_to_be_read() -> None:
+    assert len(dir(seacrane)) <= 80
+    assert {"Payload", "shipped_database", "Scene", "simulate"} <= set(dir(seacrane))
+
+
+@pytest.mark.parametrize("place", STUBS, ids=str)
+def test_a_face_shows_its_stub_in_its_order(place: Path) -> None:
+    stub = Path(seacrane.__file__).parent / place / "__init__.pyi"
+    listed = [one for one in ast.parse(stub.read_text()).body if isinstance(one, ast.ImportFrom)]
+    face = importlib.import_module(".".join(("seacrane", *place.parts)))
+    assert face.__all__ == [one.names[0].asname for one in listed]
+    assert dir(face) == sorted(face.__all__)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_public_module_shows_what_is_its_own(name: str) -> None:
+    """No module, no name of another library, whatever was imported before."""
+    for one in names_of(name):
+        value = getattr(module_of(name), one)
+        assert not isinstance(value, ModuleType), one
+        if isinstance(value, type) or callable(value):
+            assert value.__module__.startswith("seacrane"), one
+    assert not {"annotations", "TYPE_CHECKING", "Any", "np", "face"} & set(names_of(name))
+
+
+def test_no_module_within_takes_the_place_of_a_name() -> None:
+    """`seacrane.viewer.view` is a function and a file, `seacrane.ensembles.ensemble` and others too."""
+    code = (
+        "import importlib, pkgutil, types, seacrane\n"
+        "for one in pkgutil.walk_packages(seacrane.__path__, 'seacrane.'):\n"
+        "    if 'lanes' not in one.name and '__main__' not in one.name: importlib.import_module(one.name)\n"
+        f"for name in {MODULES}:\n"
+        "    module = getattr(seacrane, name)\n"
+        "    for one in dir(module):\n"
+        "        assert one.startswith('_') or not isinstance(getattr(module, one), types.ModuleType), one\n"
+        "print(len(dir(seacrane)))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) == len(seacrane.__all__)
+
+
+@pytest.mark.parametrize("name", sorted(set(seacrane.__all__) - set(MODULES) - {"__version__"}))
+def test_a_name_of_the_top_is_of_one_subject(name: str) -> None:
+    offered = [one for one in MODULES if name in names_of(one)]
+    assert len(offered) == 1
+    assert getattr(module_of(offered[0]), name) is getattr(seacrane, name)
+
+
+def test_a_name_is_of_one_subject() -> None:
+    every = [name for module in MODULES for name in names_of(module)]
+    assert sorted(every) == sorted(set(every))
+
+
+@pytest.mark.parametrize("name", MOVED)
+def test_a_name_of_0_2_is_refused_with_its_new_place(name: str) -> None:
+    with pytest.raises(AttributeError, match=rf"'{name}'; it is seacrane\.\w+\.{name}$") as refused:
+        getattr(seacrane, name)
+    with pytest.raises(ImportError) as not_imported:
+        exec(f"from seacrane import {name}")
+    assert str(not_imported.value) == str(refused.value)
+    _, place, _ = str(refused.value).rsplit(" ", 1)[1].split(".")
+    assert name in names_of(place)
+    assert not hasattr(seacrane, name)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_that_is_called_otherwise_is_refused_with_what_it_is(name: str) -> None:
+    now = NAMES[name]
+    assert attrgetter(now)(seacrane) is not None
+    with pytest.raises(AttributeError, match=rf"'{name}'; it is seacrane\.{now}$"):
+        getattr(seacrane, name)
+    with pytest.raises(ImportError, match=rf"it is seacrane\.{now}$"):
+        exec(f"from seacrane import {name}")
+
+
+def test_a_name_is_refused_with_the_nearest() -> None:
+    with pytest.raises(
+        AttributeError, match=r"module 'seacrane' has no attribute 'simulat'; did you mean 'simulate'\?"
+    ):
+        _ = seacrane.simulat  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match=r"has no attribute 'simulate'; it is seacrane\.simulate$"):
+        _ = seacrane.analysis.simulate  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match=r"module 'seacrane' has no attribute '_inner'$"):
+        _ = seacrane._inner  # type: ignore[attr-defined]
+
+
+def test_a_module_within_is_imported_though_a_name_elsewhere_is_like_it() -> None:
+    """`seacrane.crane.statics` is a file; `seacrane.statics` a function."""
+    from seacrane.crane import statics  # type: ignore[attr-defined]
+
+    assert isinstance(statics, ModuleType)
+
+
+@pytest.mark.parametrize("name", [*MODULES, ""])
+def test_a_public_module_says_what_it_is(name: str) -> None:
+    face = importlib.import_module(f"seacrane.{name}".rstrip("."))
+    assert re.match(r"[A-Z].+\.", (face.__doc__ or "").split("\n\n")[0])

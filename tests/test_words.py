@@ -1,0 +1,106 @@
+"""Every public keyword and every key of lift and study files has the spelling of docs/conventions.md."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterable, Iterator
+from fnmatch import fnmatchcase
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import seacrane
+from seacrane import renamed
+from seacrane.lift.keys import Key
+from seacrane.lift.tables import TABLES
+from seacrane.study_files.keys import DESIGN, KEEP, RANGE, STATISTICS
+
+
+@pytest.fixture(scope="module")
+def refused(repository: Path) -> list[str]:
+    """Spellings of the last column; an asterisk stands for the rest of a word."""
+    text = (repository / "docs" / "conventions.md").read_text(encoding="utf-8")
+    table = text.split("## Words", 1)[1].split("\n## ", 1)[0]
+    rows = [line.split("|")[3] for line in table.splitlines() if line.startswith("| `")]
+    return [word for cell in rows for word in re.findall(r"`([^`]+)`", cell)]
+
+
+def keywords_of(name: str, call: Any) -> Iterator[tuple[str, str]]:
+    """Each parameter of a call, with where it is."""
+    try:
+        parameters = inspect.signature(call).parameters.values()
+    except (TypeError, ValueError):  # of the core, whose keywords are those of Scene
+        return
+    yield from ((f"{name}({one.name}=)", one.name) for one in parameters)
+
+
+def public(module: ModuleType, prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Keywords of what a module shows, of its modules, and of the methods of its classes."""
+    for name in dir(module):
+        one = getattr(module, name)
+        if name.startswith("_") or not str(getattr(one, "__module__", "seacrane")).startswith("seacrane"):
+            continue
+        if isinstance(one, ModuleType):
+            if one.__name__.startswith("seacrane.") and not prefix:
+                yield from public(one, f"{name}.")
+        elif isinstance(one, type):
+            if issubclass(one, BaseException):
+                continue
+            yield from keywords_of(prefix + name, one)
+            for method in (method for method in vars(one) if not method.startswith("_")):
+                yield from keywords_of(f"{prefix}{name}.{method}", getattr(one, method))
+        elif callable(one):
+            yield from keywords_of(prefix + name, one)
+
+
+def keys_in(path: str, keys: Iterable[Key]) -> Iterator[tuple[str, str]]:
+    """Keys of a table and of those inside it."""
+    for key in keys:
+        yield f"[{path}] {key.name}", key.name
+        yield from keys_in(f"{path}.{key.name}", key.keys)
+
+
+def words() -> list[tuple[str, str]]:
+    tables = {table.name: table.keys for table in TABLES.values()}
+    study = {"keep": KEEP, "over": RANGE, "design": DESIGN, "statistics": STATISTICS}
+    files = [word for name, keys in {**tables, **study}.items() for word in keys_in(name, keys)]
+    return [*public(seacrane), *files]
+
+
+def test_all_keywords_are_seen() -> None:
+    found = {place for place, _ in words()}
+    assert {"Scene.add_line(length=)", "simulate(t_end=)", "[stage.until] minimum", "[keep] names"} <= found
+    assert len(found) > 1000
+
+
+def test_no_public_keyword_or_key_has_a_spelling_that_the_table_replaces(refused: list[str]) -> None:
+    assert {"where", "above", "max_*"} <= set(refused)
+    wrong = [place for place, word in words() for old in refused if fnmatchcase(word, old)]
+    assert not wrong
+
+
+def test_a_start_of_a_run_is_a_state() -> None:
+    for call in (seacrane.simulate, seacrane.Run):
+        assert "State" in str(inspect.signature(call).parameters["start"].annotation), call
+
+
+def test_every_old_keyword_is_refused_where_it_was() -> None:
+    """Whatever stands in the table of old names is carried by the call of that name."""
+    scene = seacrane.Scene()
+    for name, older in renamed.KEYWORDS.items():
+        outer, _, inner = name.partition(".")
+        call: Any = next(
+            getattr(module, outer)
+            for module in (scene, seacrane, seacrane.sea, seacrane.hydro, seacrane.crane, seacrane.cases,
+                           *(getattr(seacrane, n) for n in dir(seacrane)))
+            if hasattr(module, outer)
+        )  # fmt: skip
+        call = getattr(call, inner) if inner else call
+        for old, new in older.items():
+            with pytest.raises(TypeError, match=re.escape(f"has no keyword {old!r} since 0.3")):
+                call(**{old: None})
+            if " " not in new and not isinstance(call, type):
+                assert new in inspect.signature(call).parameters, (name, new)
