@@ -225,7 +225,8 @@ KINDS: tuple[Callable[[np.random.Generator], Scene], ...] = (
 class Word:
     """What was asked of a scene, promised and found.
 
-    `end` is "held", "beyond", "refused" (by name, before a run or in it), or "not judgeable" where both judges differ.
+    `end` is "held", "beyond", "refused" (by name, before a run or in it), or "not judgeable" where the judges
+    differ.
     """
 
     number: int
