@@ -1,5 +1,5 @@
 # make demo     the paper's figures and report in out/demo
-# make test     everything that CI checks: lint, types, formatting, C++ tests, sanitized too, Python tests
+# make test     what CI checks before it makes the wheel: lint, types, formatting, C++ tests, sanitized too, Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
 #                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
