@@ -103,7 +103,8 @@ def test_what_is_derived_says_what_it_is_made_of() -> None:
 
 def test_an_axis_of_any_name_is_saved_and_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither results nor files know axes by name: a channel over a new one needs its entry alone."""
-    from seacrane.result import channels, netcdf, result
+    from seacrane.description import channels
+    from seacrane.result import netcdf, result
 
     dims = ("time", "point", "axis")
     new = channels.Channel(dims=dims, dims_of_several=dims, unit="m", long_name="of named points")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -178,7 +179,7 @@ def test_the_depth_chosen_is_that_of_the_sea(tmp_path: Path, capsys: pytest.Capt
     found = load_database(file, depth=20.0, speed=0.0)
     assert found.depth == 20.0
     scene = Scene()
-    scene.add_vessel(shipped_database(), memory="convolution")
+    scene.add_vessel(replace(shipped_database(), depth=20.0), memory="convolution")
     scene.add_sea(hs=1.0, tp=9.0)
     assert scene.waves is not None and scene.waves.depth == 20.0
     scene.waves = None

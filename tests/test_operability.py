@@ -271,7 +271,7 @@ def test_threads_and_a_store_change_nothing(database: HydroDatabase, tmp_path: P
     again = allowable_hs(vessel(), **asked, store=tmp_path / "storms")
     assert alone.dataset.identical(stored.dataset)
     assert alone.dataset.identical(again.dataset)
-    other = asked | {"criteria": [replace(HEAVE, where={"motion": "pitch"})]}
+    other = asked | {"criteria": [replace(HEAVE, names={"motion": "pitch"})]}
     with pytest.raises(SceneError, match="keep"):
         allowable_hs(vessel(), **other, store=tmp_path / "storms")
 
@@ -425,9 +425,9 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
     [
         ({"criteria": []}, "criteria is .*give a list of Criterion"),
         ({"criteria": [HEAVE, HEAVE]}, "'heave' is there twice"),
-        ({"criteria": [replace(HEAVE, channel="hook_load", where={})]}, "hook_load"),
-        ({"criteria": [replace(HEAVE, channel="position[lod, z]", where={})]}, "no body 'lod'.*choose from"),
-        ({"criteria": [replace(HEAVE, where={})]}, "holds several curves; give motion: one of surge"),
+        ({"criteria": [replace(HEAVE, channel="hook_load", names={})]}, "hook_load"),
+        ({"criteria": [replace(HEAVE, channel="position[lod, z]", names={})]}, "no body 'lod'.*choose from"),
+        ({"criteria": [replace(HEAVE, names={})]}, "holds several curves; give motion: one of surge"),
         ({"tp": [9.0, 8.0]}, "tp is .*give ascending"),
         ({"tp": -1.0}, "tp begins with -1; give numbers above zero"),
         ({"direction_deg": [0.0, 360.0]}, "direction_deg goes from 0 to 360; name each"),
@@ -468,7 +468,7 @@ def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
         ({"maximum": -1.0}, "motion=True bounds a distance"),
         ({"statistic": "P95"}, "statistic is 'P95'; choose from significant, mpm, mean, p90"),
         ({"exposure": 0.0}, "exposure is 0.0 s"),
-        ({"where": "heave"}, "where is 'heave'"),
+        ({"names": "heave"}, "names is 'heave'"),
         ({"motion": 1}, "motion is 1; give True or False"),
     ],
 )

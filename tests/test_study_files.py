@@ -95,7 +95,7 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
     there = Ensemble.load(ran / MEMBERS)
-    place: dict[str, Any] = {"channel": "position", "at": {"body": "vessel", "axis": "z"}, "after": 2.0}
+    place: dict[str, Any] = {"channel": "position", "names": {"body": "vessel", "axis": "z"}, "after": 2.0}
     lift = Lift.load(ran.parent / "ship.toml")
     same = ensemble(
         lift.scene(),

@@ -90,7 +90,10 @@ def test_a_start_of_a_run_is_a_state() -> None:
 def test_every_old_keyword_is_refused_where_it_was() -> None:
     """Whatever stands in the table of old names is carried by the call of that name."""
     scene = seacrane.Scene()
+    of_scenes = ("Line", "LuffingRope")  # elements, which Scene.replace looks up: tests/test_rungs.py
     for name, older in renamed.KEYWORDS.items():
+        if name in of_scenes:
+            continue
         outer, _, inner = name.partition(".")
         call: Any = next(
             getattr(module, outer)

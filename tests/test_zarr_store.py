@@ -104,7 +104,7 @@ import sys
 from ensemble_studies import lowest, pendulum
 from seacrane import Kept, ensemble
 ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(100)]}, keep={"lowest": lowest,
-         "track": Kept(channel="position", step=0.5)}, t_end=30.0, rtol=1e-9, store=sys.argv[1])
+         "track": Kept(channel="position", interval=0.5)}, t_end=30.0, rtol=1e-9, store=sys.argv[1])
 """
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seacrane import Curve, MotionHistory, Scene, simulate
+from seacrane import MotionHistory, Scene, simulate
 from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
@@ -20,8 +20,6 @@ def lift(lag: float) -> Scene:
     scene = Scene(name="heave compensation on a cylinder")
     scene.add_given_vessel(MotionHistory(time=time, motion=heave), ramp=9.0)
     jib, head = scene.add_crane(**POSE).tip
-    for joint in ("A", "main_cylinder"):
-        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
     scene.add_actuator(joint="knuckle_cylinder")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=TIP - [0.0, 0.0, ROPE])
     scene.add_line(name="hoist", bodies=[jib, "load"], points=[head, (0, 0, 0)], EA=EA, length=ROPE)

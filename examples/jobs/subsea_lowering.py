@@ -10,8 +10,6 @@ scene = Scene(name="subsea lowering")
 scene.add_given_vessel(shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
 jib, head = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0).tip
-for joint in ("A", "main_cylinder", "knuckle_cylinder"):
-    scene.add_driver(joint=joint, curve=0.0)
 x, y, tip = scene.place_of(body=jib, point=head)
 scene.add_body(name="load", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(x, y, START))
 strain = MASS * scene.gravity / EA

@@ -14,6 +14,7 @@ from typing import Any
 
 PACKAGE = __name__.partition(".")[0]
 _TOLD: set[str] = set()
+_TELLING: ContextVar[bool] = ContextVar("telling", default=True)
 _LISTENING: ContextVar[tuple[dict[str, None], ...]] = ContextVar("listening", default=())
 
 
@@ -29,9 +30,19 @@ def warn_caller(message: str, category: type[Warning]) -> None:
 
 def tell(assumption: str) -> None:
     """Say on the terminal what was assumed; once in an interpreter, and never in a worker process."""
-    if assumption not in _TOLD and parent_process() is None:
+    if assumption not in _TOLD and _TELLING.get() and parent_process() is None:
         _TOLD.add(assumption)
         sys.stderr.write(f"seacrane: {assumption}\n")
+
+
+@contextmanager
+def untold() -> Iterator[None]:
+    """Inside, nothing is told: what a file leaves out is in its schema."""
+    before = _TELLING.set(False)
+    try:
+        yield
+    finally:
+        _TELLING.reset(before)
 
 
 @contextmanager

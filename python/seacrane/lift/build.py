@@ -11,6 +11,7 @@ from seacrane._core import Curve
 from seacrane.analysis.inverse import Balance
 from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.inputs.caller import untold
 from seacrane.lift.calls import Caller, Keywords, keywords
 from seacrane.lift.check import Entry, plain
 from seacrane.lift.control import feed_forward_of, gains_of
@@ -69,6 +70,7 @@ class _Build:
             self._control(scene, control, commands, start)
         return scene
 
+    @untold()
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
         """The scene with its commands not yet controlled, and what balances it where [balance] says so."""
         scene = made(self.document, self.entries, "scene", Scene)

@@ -273,8 +273,8 @@ def _axial_stiffness(what: str, given: float | None, strains: ArrayLike, tension
 
 def add_winch(
     scene: Description,
-    *,
     line: str,
+    *,
     rate: _core.Curve | float = 0.0,
     maximum_rate: float = NO_BOUND,
     maximum_acceleration: float = NO_BOUND,

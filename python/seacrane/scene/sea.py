@@ -169,16 +169,12 @@ def add_sea(
 
 
 def _tell_assumed(given: dict[str, Any]) -> None:
-    """The direction and the peakedness of a sea that was given without them."""
-    peaked = given.get("spectrum", "jonswap") == "jonswap"
-    assumed = {"direction_deg": "135"} | ({"gamma": "3.3"} if peaked else {})
-    told = [f"{name}={value}" for name, value in assumed.items() if name not in given]
-    if told:
-        tell(
-            f"sea: {' and '.join(told)} assumed (135 deg: from the starboard bow)"
-            if "direction_deg" not in given
-            else f"sea: {' and '.join(told)} assumed"
-        )
+    """The direction of a sea that was given without it, and the peakedness where that is left out too."""
+    if "direction_deg" in given:
+        return
+    peaked = given.get("spectrum", "jonswap") == "jonswap" and "gamma" not in given
+    told = "direction_deg=135 and gamma=3.3" if peaked else "direction_deg=135"
+    tell(f"sea: {told} assumed (135 deg: from the starboard bow)")
 
 
 def _sea_of(
