@@ -20,8 +20,8 @@ from seacrane.scene.lines import STRETCHING
 @refusing
 def add_bridle(
     scene: Description,
-    *,
     name: str,
+    *,
     hook: str,
     load: str,
     points: ArrayLike,

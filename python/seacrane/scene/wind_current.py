@@ -79,8 +79,8 @@ class FlowCoefficients:
 
 def add_wind(
     scene: Description,
-    *,
     coefficients: FlowCoefficients,
+    *,
     speed: float | _core.Curve,
     direction_deg: float,
     frontal_area: float,
@@ -143,8 +143,8 @@ def add_wind(
 
 def add_current(
     scene: Description,
-    *,
     coefficients: FlowCoefficients,
+    *,
     speed: float | _core.Curve,
     direction_deg: float,
     frontal_area: float,
