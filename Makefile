@@ -1,7 +1,7 @@
 # make demo     the paper's figures and report in out/demo
 # make test     what CI checks before it makes the wheel: lint, types, formatting, C++ tests, sanitized too, Python tests
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
+# make nightly  longer tests, C++ tests with every check of the sanitizers, ThreadSanitizer
 #                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
 #                  (make extremes), every comparison (make validation), benchmarks (make bench)
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
@@ -126,16 +126,16 @@ cpp-tsan: system-packages
 python-test: build .venv/.installed-dev browser-packages
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
 
-# The sanitized build runs every C++ test; the optimised one those that count allocations (all: make cpp-test).
+# Both builds run every C++ test: optimisers see other warnings and other orders than sanitizers do.
 test:
 	$(MAKE) --no-print-directory lint
 	$(MAKE) --no-print-directory cpp-allocations
+	$(MAKE) --no-print-directory cpp-test
 	$(MAKE) --no-print-directory cpp-sanitize
 	$(MAKE) --no-print-directory python-test
 
 nightly: build .venv/.installed-dev bundle-packages
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
-	$(MAKE) --no-print-directory cpp-test
 	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT= UNITY=OFF
 	$(MAKE) --no-print-directory cpp-tsan
 	$(MAKE) --no-print-directory docs
