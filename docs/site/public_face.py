@@ -13,7 +13,7 @@ def pages() -> dict[str, list[str]]:
     """Public classes and functions by module: each is of one module, and many stand at the top too."""
     return {
         module: [
-            f"seacrane.{name}" if name in seacrane.__all__ else f"seacrane.{module}.{name}"
+            f"seacrane.{name}" if name in seacrane.__dict__["homes"] else f"seacrane.{module}.{name}"
             for name in _callables(face)
         ]
         for module, face in _modules().items()
@@ -37,7 +37,7 @@ def _value(public: str) -> Any:
 
 
 def _modules() -> dict[str, ModuleType]:
-    faces = {name: getattr(seacrane, name) for name in seacrane.__all__}
+    faces = {name: getattr(seacrane, name) for name in seacrane.__dict__["homes"]}
     return {name: face for name, face in faces.items() if isinstance(face, ModuleType)}
 
 

@@ -58,11 +58,15 @@ class Face(ModuleType):
 
 
 def face(package: str, file: str) -> list[str]:
-    """Make a package show the names of its stub, which lies beside ``file``; they are its ``__all__``."""
+    """Make a package show the names of its stub, which lies beside ``file``; they are its ``__all__``.
+
+    But modules named as one of Python's own, such as `warnings`, which ``import *`` would hide.
+    """
     module = sys.modules[package]
     module.__class__ = Face
     module.__dict__["homes"] = _homes(f"{file}i")
-    return list(module.__dict__["homes"])
+    homes: dict[str, str] = module.__dict__["homes"]
+    return [name for name, home in homes.items() if home != package or name not in sys.stdlib_module_names]
 
 
 def _homes(stub: str) -> dict[str, str]:
