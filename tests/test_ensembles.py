@@ -241,7 +241,7 @@ from concurrent.futures import ThreadPoolExecutor
 from ensemble_studies import KEEP, pendulum
 from seacrane import ensemble
 with ThreadPoolExecutor(2) as pool:
-    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(400)]}, keep=KEEP,
+    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(4000)]}, keep=KEEP,
              t_end=200.0, rtol=1e-9, executor=pool if sys.argv[2] == "threads" else None, store=sys.argv[1])
 """
 
@@ -262,7 +262,7 @@ def test_ctrl_c_keeps_what_came_back(where: str, tmp_path: Path) -> None:
     assert b"KeyboardInterrupt" in told
     left = Ensemble.load(store)
     done = left.dataset.failure.to_numpy() == ""
-    assert 3 <= done.sum() < 400
+    assert 3 <= done.sum() < 4000
     assert np.isfinite(left.dataset.lowest.to_numpy()[done]).all()
 
 
