@@ -197,7 +197,7 @@ stubs: build .venv/.installed-dev
 
 # tests/test_view_bundle.py compares the committed bundle with what this makes.
 viewer:
-	tools/viewer/build.sh python/seacrane/viewer/assets
+	tools/viewer/build.sh python/seacrane/pictures/assets
 
 .venv/.installed-wheel: .venv/.installed-run
 	touch $@.began

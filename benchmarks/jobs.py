@@ -22,7 +22,7 @@ import documents
 from measure.section import significant
 from measure.table import write
 
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = ROOT / "examples" / "jobs"

@@ -52,7 +52,7 @@ from measure import (
 from measure.machine import machine
 from measure.section import Section
 
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
 
 HERE = Path(__file__).resolve().parent
 INTRODUCTION = """# Benchmarks

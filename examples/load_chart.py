@@ -10,8 +10,8 @@ import numpy as np
 
 from seacrane import Scene, load_chart, statics
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.figures import plot_load_chart
 from seacrane.hydro import shipped_database
+from seacrane.pictures import plot_load_chart
 
 PAYLOAD = 50e3  # kg, with which the ship is upright in the pose described
 LIMITS = {"cylinder force main": 12e3, "cylinder force knuckle": 6e3, "heel": 6.0}  # kN, kN, deg

@@ -10,8 +10,8 @@ import numpy as np
 
 from seacrane import Criterion, allowable_hs, availability, cases, weather_windows  # fmt: skip
 from seacrane.crane import Payload
-from seacrane.figures import plot_allowable_hs  # fmt: skip
 from seacrane.operability import AlphaFactor, ScatterDiagram, WaveHindcast  # fmt: skip
+from seacrane.pictures import plot_allowable_hs  # fmt: skip
 
 WEIGHT = 10e3 * 9.80665  # N
 

@@ -13,7 +13,7 @@ import pytest
 import seacrane.accuracy.choice
 import seacrane.run.advance
 import seacrane.run.run
-import seacrane.validity.range
+import seacrane.validity.left_range
 from seacrane import (
     Result,
     Run,
@@ -42,8 +42,8 @@ def fails(*_: Any) -> Any:
 
 
 LOOKS: dict[str, tuple[Any, str]] = {
-    "a look at its range": (seacrane.validity.range, "lifting"),
-    "a look at what follows": (seacrane.validity.range, "following"),
+    "a look at its range": (seacrane.validity.left_range, "lifting"),
+    "a look at what follows": (seacrane.validity.left_range, "following"),
     "a look at oil": (seacrane.run.run, "boiled"),
     "modes": (seacrane.run.advance, "slow_findings"),
 }

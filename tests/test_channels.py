@@ -104,14 +104,14 @@ def test_what_is_derived_says_what_it_is_made_of() -> None:
 def test_an_axis_of_any_name_is_saved_and_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither results nor files know axes by name: a channel over a new one needs its entry alone."""
     from seacrane.description import channels
-    from seacrane.result import netcdf, result
+    from seacrane.result import result, result_file
 
     dims = ("time", "point", "axis")
     new = channels.Channel(dims=dims, dims_of_several=dims, unit="m", long_name="of named points")
     table = {**CHANNELS, "point_position": new}
     for module in (channels, result):
         monkeypatch.setattr(module, "CHANNELS", table)
-    monkeypatch.setattr(netcdf, "NAMED", NAMED | {"point"})
+    monkeypatch.setattr(result_file, "NAMED", NAMED | {"point"})
     stats = simulate(chain(), t_end=0.1).stats
     made = Result.from_arrays(
         time=[0.0, 1.0], arrays={"point_position": np.arange(12.0).reshape(2, 2, 3)},

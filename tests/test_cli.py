@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from seacrane.cli.as_json import to_json
 from seacrane.cli.command_line import explain, main
-from seacrane.cli.json_text import to_json
 from seacrane.cli.scene_source import run_script
 from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table

@@ -14,11 +14,11 @@ import pytest
 
 from seacrane import Method, SceneError, cases
 from seacrane.accuracy.quantities import ErrorMeasures
-from seacrane.experiment import row as rows
-from seacrane.experiment.case import Case
-from seacrane.experiment.reference import Reference
-from seacrane.experiment.row import Row
-from seacrane.experiment.row_file import RowFile
+from seacrane.trading import row as rows
+from seacrane.trading.case import Case
+from seacrane.trading.reference import Reference
+from seacrane.trading.row import Row
+from seacrane.trading.row_file import RowFile
 from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
@@ -193,7 +193,7 @@ def raising(error: Exception) -> Callable[..., None]:
 
 
 def test_a_value_that_is_not_finite_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    import seacrane.experiment.measure as module
+    import seacrane.trading.measured_case as module
 
     real = module.timed
 

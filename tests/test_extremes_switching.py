@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from seacrane import Method, simulate
-from seacrane.experiment.case import Case
-from seacrane.experiment.reference import Reference
 from seacrane.result import Result
+from seacrane.trading.case import Case
+from seacrane.trading.reference import Reference
 from stability_atlas.axes import AXES
 from stability_atlas.measure import measure, reference_of
 from stability_atlas.points import POINTS

@@ -14,7 +14,7 @@ from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_res
 from seacrane import Frame, Scene, simulate
 from seacrane.crane.skeleton import crane_skeleton
 from seacrane.description.file_origin import roles_to_data
-from seacrane.figures import (
+from seacrane.pictures import (
     Panel,
     PaperRuns,
     Sheet,
@@ -25,10 +25,10 @@ from seacrane.figures import (
     save_pose_figure,
     save_sheet,
 )
-from seacrane.figures.findings import amplitude_at, slew_stop
-from seacrane.figures.overview import overview_sheet
-from seacrane.figures.paper import motion_of
-from seacrane.figures.pose import box_lines, complete_skeleton, posed_lines, rotation_matrix, wire_lines
+from seacrane.pictures.findings import amplitude_at, slew_stop
+from seacrane.pictures.overview import overview_sheet
+from seacrane.pictures.paper_figures import motion_of
+from seacrane.pictures.pose import box_lines, complete_skeleton, posed_lines, rotation_matrix, wire_lines
 from seacrane.plotting.panel import Line, draw
 from seacrane.result import MOTIONS, Result
 from seacrane.result.about import About
@@ -155,7 +155,7 @@ def test_a_line_of_the_wrong_length_is_refused() -> None:
 
 
 def test_the_picture_shows_the_lines_of_its_table(tmp_path: Path) -> None:
-    from seacrane.figures import draw
+    from seacrane.pictures import draw
 
     time = np.linspace(0, 1, 11)
     lines = (Line(label="a", values=time**2), Line(label="b", values=-time))

@@ -9,7 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Result, cases, simulate
-from seacrane.figures.findings import (
+from seacrane.hydro import shipped_database, vessel_parameters
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.pictures.findings import (
     OSCILLATION_PERIOD,
     OSCILLATION_START,
     amplitude_at,
@@ -17,10 +20,7 @@ from seacrane.figures.findings import (
     paper_findings,
     slew_stop,
 )
-from seacrane.figures.paper import PaperRuns
-from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.pictures.paper_figures import PaperRuns
 from seacrane.result import MOTIONS
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SceneError, natural_modes, simulate
 from seacrane.description.outline import outline_of
-from seacrane.viewer.wires import wires_of
+from seacrane.pictures.wires import wires_of
 
 G = 9.80665
 MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m

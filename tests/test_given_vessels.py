@@ -29,9 +29,9 @@ from seacrane.analysis.ballast import add_ballast
 from seacrane.crane import Payload
 from seacrane.description.databases import without_databases
 from seacrane.description.sum_of_cosines import curves_of_sum, ramp_of, summed
-from seacrane.figures.pose import outlined_skeleton
 from seacrane.hydro import shipped_database
-from seacrane.viewer.bodies import looks
+from seacrane.pictures.drawn_bodies import looks
+from seacrane.pictures.pose import outlined_skeleton
 from seacrane.warnings import AngleUnitWarning, NoWaveLoadsWarning
 
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}

@@ -26,12 +26,12 @@ from seacrane import (
 )
 from seacrane._core import integrators
 from seacrane.analysis import linearise
+from seacrane.answers import report
+from seacrane.answers.paper_report import Study, study_report
 from seacrane.cases import vessel
 from seacrane.errors import OutputMemoryError
-from seacrane.reporting import report
-from seacrane.reporting.paper import Study, study_report
 from seacrane.run import modes
-from seacrane.validity.range import findings
+from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     FullTurnWarning,
     LargeHeelWarning,
@@ -239,7 +239,7 @@ def pendulum() -> Scene:
     return scene
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.validity.range.FullTurnWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.validity.left_range.FullTurnWarning")
 def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
     settings: dict[str, Any] = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
     free = simulate(pendulum(), **settings)

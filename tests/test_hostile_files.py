@@ -24,7 +24,6 @@ from fuzz.targets import CORPUS, TARGETS, Target, cases, quiet
 from seacrane import Lift, Scene
 from seacrane.crane.data_file import load as load_crane
 from seacrane.errors import FileFormatError
-from seacrane.files import hdf5_structure
 from seacrane.hydro import (
     HydroDatabase,
     read_capytaine,
@@ -34,6 +33,7 @@ from seacrane.hydro import (
     read_veres,
 )
 from seacrane.hydro.readers.veres_files import read_drift
+from seacrane.inputs import hdf5_structure
 from seacrane.result import Result
 
 LITTLE = 64 * 2**20  # bytes: what refusing a small file may take

@@ -11,7 +11,7 @@ import pytest
 from seacrane import Result, Scene, simulate
 from seacrane.hydro import shipped_database
 from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
-from seacrane.validity.range import findings
+from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     ForwardSpeedWarning,
     LargeHeelWarning,

@@ -27,7 +27,7 @@ from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.scene import HullLoads, Waves
-from seacrane.trading import rungs
+from seacrane.trading import simpler_scenes
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -299,7 +299,7 @@ def test_files_and_tables_name_the_vessels(tmp_path: Path) -> None:
 
 
 def test_an_overview_shows_every_vessel() -> None:
-    from seacrane.figures.overview import overview_sheet
+    from seacrane.pictures.overview import overview_sheet
 
     sheet = overview_sheet(simulate(two_hulls(), t_end=2.0))
     shown = [panel.quantity for panel in sheet.panels]
@@ -322,8 +322,8 @@ def test_the_linear_model_sums_the_loads_of_all_hulls() -> None:
     runs = simulate(both, t_end=0.5)
     roll = quantities_of(both, both.compile(), None)["roll"].values(runs)
     assert roll.shape == (runs.time.size, 2, 1)
-    names = {variant.rung for variant in rungs.variants(both, quick=True)}
-    assert rungs.PRESCRIBED not in names and rungs.LINEAR in names
+    names = {variant.rung for variant in simpler_scenes.variants(both, quick=True)}
+    assert simpler_scenes.PRESCRIBED not in names and simpler_scenes.LINEAR in names
 
 
 def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> None:
@@ -387,7 +387,7 @@ def test_a_prescribed_vessel_moves_along_its_own_heading() -> None:
     scene.add_vessel(database(), position=(30.0, 10.0, 0.0), heading_deg=-70.0)
     scene.add_sea(count=20)
     run = simulate(scene, t_end=8.0, dt_out=0.05, rtol=1e-9)
-    held = rungs.with_prescribed_vessel(scene, run.time, run["vessel_motion"])
+    held = simpler_scenes.with_prescribed_vessel(scene, run.time, run["vessel_motion"])
     again = simulate(held, t_end=8.0, dt_out=0.5, rtol=1e-9)
     assert np.abs(again["vessel_motion"] - run["vessel_motion"][::10]).max() < 1e-6
     assert np.abs(run["vessel_motion"]).max() > 0.05

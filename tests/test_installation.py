@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from seacrane.cli import doctor_command
+from seacrane.cli import built, doctor_command, pace
 from seacrane.cli.command_line import main
 from seacrane.cli.doctor_command import chosen_packages
-from seacrane.files import sole_writer
-from seacrane.installation import build, pace
+from seacrane.inputs import sole_writer
 from seacrane.result.partial_file import PartialFile
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
 
@@ -113,8 +112,8 @@ def test_a_system_that_cannot_lock_counts_as_free(tmp_path: Path, monkeypatch: p
 
 
 def test_the_core_tells_its_compiler() -> None:
-    facts = build.build_facts()
-    file = build.core_file()
+    facts = built.build_facts()
+    file = built.core_file()
     assert file is not None and facts["core"].startswith(file.name)
     assert "compiler" in facts and Path(facts["installed in"]).name == "seacrane"
 
@@ -129,7 +128,7 @@ def test_the_core_tells_its_compiler() -> None:
     ],
 )
 def test_what_a_core_was_built_with_is_read_from_it(core: bytes, facts: dict[str, str]) -> None:
-    assert build._inside(core) == facts
+    assert built._inside(core) == facts
 
 
 def test_requirements_become_packages_with_what_to_do() -> None:

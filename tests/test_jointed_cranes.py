@@ -155,7 +155,7 @@ def test_scenes_go_to_files_and_back(name: str, tmp_path: Path) -> None:
 
 
 def test_both_are_drawn_by_their_members(lattice: JointedCrane) -> None:
-    from seacrane.viewer.bodies import crane_shapes
+    from seacrane.pictures.drawn_bodies import crane_shapes
 
     scene = fixed(lattice, boom=0.7)
     shapes = crane_shapes(scene, None)

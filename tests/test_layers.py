@@ -15,7 +15,6 @@ FLOORS = """
     renamed
     lazy
     inputs
-    files
     plotting sea
     hydro.data
     hydro.memory
@@ -36,22 +35,17 @@ FLOORS = """
     simulation
     ensembles
     operability
-    stages
-    experiment
-    figures viewer
+    pictures
     answers
-    reporting
     trading
     lift
-    study_files
     cases
-    installation
     cli
     __main__
 """
 HIDDEN = {
     "cli": "a command imports what it needs, so that --help is quick",
-    "files.netcdf_limits": "h5py is loaded once a file is opened",
+    "inputs.netcdf_limits": "h5py is loaded once a file is opened",
 }
 
 

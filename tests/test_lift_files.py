@@ -33,9 +33,9 @@ from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.control import times_of
 from seacrane.lift.keys import Key, suffix
 from seacrane.lift.lift import LIFTS
-from seacrane.lift.lines import lines_of
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import CURVES, TABLES
+from seacrane.lift.text_lines import lines_of
 from seacrane.sea import cos_2s, jonswap
 from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
 

@@ -17,10 +17,10 @@ from test_result import crane_result, crane_run, vessel_result
 
 from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, report, simulate
 from seacrane.answers import Report
-from seacrane.reporting.limits import judged_bounds
-from seacrane.reporting.measures import statistics_of
-from seacrane.reporting.registry import SECTIONS
-from seacrane.reporting.section import Section, compose
+from seacrane.answers.limits_section import judged_bounds
+from seacrane.answers.measures import statistics_of
+from seacrane.answers.registry import SECTIONS
+from seacrane.answers.section import Section, compose
 from seacrane.result import About, Event
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose

@@ -25,7 +25,7 @@ from seacrane import (
     simulate,
     simulate_to_file,
 )
-from seacrane.analysis.excitation import curve_frequency, excitations
+from seacrane.analysis.exciting_frequencies import curve_frequency, excitations
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
 from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, tension_error

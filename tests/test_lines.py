@@ -30,7 +30,7 @@ from seacrane import (
 )
 from seacrane.analysis import Evaluator
 from seacrane.description.outline import outline_of
-from seacrane.viewer.wires import wires_of
+from seacrane.pictures.wires import wires_of
 from seacrane.warnings import LineLengthWarning, WinchLimitWarning
 
 Array = NDArray[np.float64]

@@ -11,8 +11,8 @@ from seacrane import FileFormatError, Scene, SceneError, load_chart, statics
 from seacrane.answers import LoadChart
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.crane.data_file import DEFAULT_PATH, parse
-from seacrane.figures import plot_load_chart
 from seacrane.hydro import shipped_database
+from seacrane.pictures import plot_load_chart
 
 MASS = 5e4
 TABLE = "[capacity]\nrows = [[10.0, 120e3], [20.0, 60e3], [30.0, 30e3]]\n"

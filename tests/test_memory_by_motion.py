@@ -27,7 +27,7 @@ from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem
 from seacrane.hydro.memory.oscillators import GroupData, first_guess
-from seacrane.hydro.vessel.stability import largest_growth_rate
+from seacrane.hydro.vessel.memory_stability import largest_growth_rate
 from seacrane.sea import jonswap
 from seacrane.warnings import MemoryFitWarning
 

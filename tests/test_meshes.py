@@ -26,9 +26,9 @@ from seacrane import FileFormatError, Frame, Lift, Result, Scene, SceneError, ca
 from seacrane.description import meshes
 from seacrane.description.file import scene_digest
 from seacrane.description.meshes import MOST_TRIANGLES
-from seacrane.files.gltf import read_gltf
-from seacrane.viewer.bodies import looks
-from seacrane.viewer.shapes import HullShape, MeshShape
+from seacrane.inputs.gltf import read_gltf
+from seacrane.pictures.drawn_bodies import looks
+from seacrane.pictures.shapes import HullShape, MeshShape
 
 CORNERS = np.array([[x, y, z] for x in (0, 2) for y in (0, 3) for z in (0, 1)], dtype=float)
 FACES = np.array(

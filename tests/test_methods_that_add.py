@@ -15,7 +15,7 @@ from lift_examples import every_table
 
 from seacrane import Scene
 from seacrane.crane import Payload, load_crane
-from seacrane.description.scene import KINDS
+from seacrane.description.description import KINDS
 from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.scene import Ballast
 

@@ -12,7 +12,7 @@ SHOWN = """
 import sys
 import numpy as np
 from seacrane import Scene, simulate
-from seacrane.figures import plot_track
+from seacrane.pictures import plot_track
 from IPython.core.formatters import DisplayFormatter
 
 scene = Scene(name="stone")

@@ -16,7 +16,7 @@ import test_restart
 from seacrane import Lift, Result, Run, Scene, State, cases
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
-from seacrane.files.state import state_to_bytes
+from seacrane.inputs.state import state_to_bytes
 from seacrane.warnings import RenamedKeysWarning
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.

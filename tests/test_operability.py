@@ -31,17 +31,17 @@ from seacrane import (
 )
 from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
-from seacrane.figures import plot_allowable_hs
 from seacrane.hydro import shipped_database
 from seacrane.operability import AllowableHs, AlphaFactor
+from seacrane.operability.allowable_table import over_circle
 from seacrane.operability.alpha import alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
-from seacrane.operability.table import over_circle
 from seacrane.operability.time_domain import ByTime, first_crossing
+from seacrane.pictures import plot_allowable_hs
 from seacrane.sea import jonswap
 
 

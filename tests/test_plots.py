@@ -11,10 +11,10 @@ from matplotlib.text import Text
 from test_result import crane_result, crane_run, vessel_result
 
 from seacrane import Scene, SceneError, cases, plot_overview, simulate
-from seacrane.figures import plot_rao, plot_reactions, plot_scene, plot_spectrum, plot_track
-from seacrane.figures.overview import overview_sheet
-from seacrane.figures.plots import draw_track, rao_sheet, spectrum_sheet
 from seacrane.inputs.frames import AXES_NOTE
+from seacrane.pictures import plot_rao, plot_reactions, plot_scene, plot_spectrum, plot_track
+from seacrane.pictures.overview import overview_sheet
+from seacrane.pictures.plots import draw_track, rao_sheet, spectrum_sheet
 from seacrane.plotting.panel import draw
 from seacrane.result import Event, Result
 from seacrane.result.history import history_sheet

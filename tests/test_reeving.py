@@ -28,7 +28,7 @@ from scipy.interpolate import PchipInterpolator
 from seacrane import Run, Scene, SceneError, SimulationError, State, equilibrium, simulate
 from seacrane.analysis import Evaluator
 from seacrane.description.line_path import described_poses, laid, path_length
-from seacrane.viewer.wires import wires_of
+from seacrane.pictures.wires import wires_of
 from seacrane.warnings import FleetAngleWarning, LineTableWarning
 
 Array = NDArray[np.float64]

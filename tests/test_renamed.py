@@ -13,8 +13,8 @@ from lift_examples import PENDULUM
 
 import seacrane
 from seacrane import FileFormatError, Lift, renamed
+from seacrane.lift.study_keys import KEEP
 from seacrane.lift.tables import TABLES
-from seacrane.study_files.keys import KEEP
 from seacrane.warnings import RenamedKeysWarning
 
 OLDER = PENDULUM.replace("version = 2", "version = 1")

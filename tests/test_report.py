@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane.figures import Finding, Picture, save_sheet
-from seacrane.figures.overview import overview_sheet
+from seacrane.answers import Report
+from seacrane.answers.measures import energy_closure, speed, worst
+from seacrane.answers.paper_report import Study, study_report
+from seacrane.answers.provenance_section import versions
+from seacrane.pictures import Finding, Picture, save_sheet
+from seacrane.pictures.overview import overview_sheet
 from seacrane.plotting.html import format_value
-from seacrane.reporting import Report
-from seacrane.reporting.measures import energy_closure, speed, worst
-from seacrane.reporting.paper import Study, study_report
-from seacrane.reporting.provenance import versions
 from seacrane.result import Result
 
 SCENE = {"counts": [("bodies", 10), ("joints", 11)], "dropped": [("waves <0.1 %>", [3, 4.5])]}

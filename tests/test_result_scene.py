@@ -28,7 +28,7 @@ from seacrane import (
 from seacrane.cli.command_line import main
 from seacrane.result import kept_scene
 from seacrane.result.kept_scene import NOT_KEPT
-from seacrane.result.netcdf import SCENE, SCENE_DIMENSION
+from seacrane.result.result_file import SCENE, SCENE_DIMENSION
 from seacrane.result.stream import ResultFile
 
 OLD = Path(__file__).with_name("files_0_1")

@@ -40,10 +40,10 @@ from seacrane.description.file import scene_digest
 from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.study import Study, checked_keep
-from seacrane.figures import plot_rao
 from seacrane.hydro import DriftCoefficients, HydroDatabase, MemoryModel, VesselHydrodynamics, fit_memory
 from seacrane.hydro.data.packed import packed
 from seacrane.operability.criterion import Criterion
+from seacrane.pictures import plot_rao
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.sea import jonswap
@@ -288,14 +288,14 @@ def test_allowable_heights_take_the_database_of_the_scene() -> None:
 
 
 def test_a_trade_fits_other_memories_to_the_database_of_the_scene() -> None:
-    from seacrane.trading import rungs
+    from seacrane.trading import simpler_scenes
 
     other = replace(shipped_database(), name="other")
-    kinds = {variant.memory.split()[0] for variant in rungs.variants(afloat(other), quick=False)}
+    kinds = {variant.memory.split()[0] for variant in simpler_scenes.variants(afloat(other), quick=False)}
     assert kinds >= {"convolution", "by-motion", "per-pair", "passive"}
     bare = without_databases(afloat(other))
     assert not {"convolution", "passive"} & {
-        one.memory.split()[0] for one in rungs.variants(bare, quick=False)
+        one.memory.split()[0] for one in simpler_scenes.variants(bare, quick=False)
     }
 
 

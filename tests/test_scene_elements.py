@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Scene, SceneError, cases, simulate
-from seacrane.description.scene import KINDS
+from seacrane.description.description import KINDS
 
 
 def hung() -> Scene:

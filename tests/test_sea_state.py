@@ -14,7 +14,7 @@ from seacrane import Scene, _core, cases, simulate
 from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
-from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.sea import (
     MeasuredWaves,
     SeaState,

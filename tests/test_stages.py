@@ -33,7 +33,7 @@ from seacrane import (
     simulate_stages,
     summary,
 )
-from seacrane.stages import StagedRun, simulate_stages_to_file
+from seacrane.run import StagedRun, simulate_stages_to_file
 
 Array = NDArray[np.float64]
 TWO = [Stage(name="one", duration=2.0), Stage(name="two", duration=3.0)]
@@ -320,7 +320,7 @@ def test_every_kind_of_method_carries_out_stages() -> None:
 
 
 def test_a_condition_located_while_ctrl_c_is_pressed_keeps_what_was_there(monkeypatch: Any) -> None:
-    from seacrane.stages import locate
+    from seacrane.run import locate
 
     def pressed(self: Any, start: State, t_end: float) -> Any:
         raise KeyboardInterrupt
@@ -524,7 +524,7 @@ import json, os, signal, sys, threading
 sys.path.insert(0, sys.argv[1])
 from stage_scenes import swinging
 from seacrane import Stage
-from seacrane.stages import StagedRun
+from seacrane.run import StagedRun
 run = StagedRun(swinging(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
 run.advance()
 threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

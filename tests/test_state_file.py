@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from test_restart import SCENES
 
 from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _core, cases, simulate
-from seacrane.files.state import DIGEST, MAGIC
+from seacrane.inputs.state import DIGEST, MAGIC
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")

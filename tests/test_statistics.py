@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.result.checked_parts import ALWAYS_STATED
-from seacrane.statistics.figure import extremes_sheet
+from seacrane.statistics.extremes_figure import extremes_sheet
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.judged import start_differs
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold

@@ -20,9 +20,9 @@ from test_study_files import LIFT, STUDY
 
 from seacrane import FileFormatError, SceneError, ensemble
 from seacrane.ensembles import Ensemble
-from seacrane.files.atomic import atomic_write
-from seacrane.files.drafts import draft_of
-from seacrane.study_files.study_run import run_study
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.drafts import draft_of
+from seacrane.lift.study_run import run_study
 from seacrane.warnings import LostMembersWarning
 
 zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
@@ -257,7 +257,7 @@ def test_a_study_that_was_killed_as_it_was_made_goes_on(tmp_path: Path) -> None:
 
 
 def test_drafts_are_removed_once_their_process_is_gone(tmp_path: Path) -> None:
-    script = "import os, sys; from seacrane.files.drafts import draft_of; from pathlib import Path\n"
+    script = "import os, sys; from seacrane.inputs.drafts import draft_of; from pathlib import Path\n"
     script += "draft_of(Path(sys.argv[1])).write_text('half'); os._exit(9)"
     target = tmp_path / "run.nc"
     for _ in range(2):

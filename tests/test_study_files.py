@@ -25,10 +25,10 @@ from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
 from seacrane.errors import WorkerVersionError
 from seacrane.lift.schema import schema_path
-from seacrane.study_files.schema import study_schema, study_schema_text
-from seacrane.study_files.shown_study import shown_study
-from seacrane.study_files.study_file import StudyFile
-from seacrane.study_files.study_run import MEMBERS, run_study
+from seacrane.lift.shown_study import shown_study
+from seacrane.lift.study_file import StudyFile
+from seacrane.lift.study_run import MEMBERS, run_study
+from seacrane.lift.study_schema import study_schema, study_schema_text
 
 LIFT = """format = "seacrane lift"
 version = 2

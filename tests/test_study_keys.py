@@ -12,9 +12,9 @@ from seacrane import FileFormatError, Lift, SceneError, simulate
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
 from seacrane.lift.lift import LIFTS
-from seacrane.study_files.lift_keys import KeyPlace, keys_in, with_keys
-from seacrane.study_files.study_file import StudyFile
-from seacrane.study_files.study_run import MEMBERS, run_study
+from seacrane.lift.study_file import StudyFile
+from seacrane.lift.study_run import MEMBERS, run_study
+from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2

@@ -12,7 +12,7 @@ from line_scenes import hung
 from test_result import crane_run, vessel_result
 
 from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, simulate, statics, summary
-from seacrane.figures import plot_summary
+from seacrane.pictures import plot_summary
 from seacrane.result import About
 
 G = 9.80665

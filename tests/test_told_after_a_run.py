@@ -13,10 +13,10 @@ from test_stages import falling
 from seacrane import Result, Scene, Stage, State, Until, simulate, simulate_stages
 from seacrane.cli import main
 from seacrane.cli.run_command import told
+from seacrane.run import StagedRun, locate
 from seacrane.run.outputs import Outputs
+from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.run.to_file import simulate_to_file
-from seacrane.stages import StagedRun, locate
-from seacrane.stages.to_file import simulate_stages_to_file
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 AT_ONCE = Stage(name="look", until=Until.length("hoist", minimum=1.0), maximum_duration=5.0)

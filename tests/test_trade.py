@@ -15,13 +15,13 @@ from seacrane import Method, Run, Scene, SceneError, cases, integrator_names, si
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import compare, quantities_of
-from seacrane.experiment.case import Case
-from seacrane.experiment.measure import measured as measured_row
-from seacrane.experiment.reference import Reference
-from seacrane.experiment.row import Row
-from seacrane.experiment.row_file import RowFile
 from seacrane.inputs.checked import curve_of
-from seacrane.trading import measure, methods, rungs, study
+from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
+from seacrane.trading.case import Case
+from seacrane.trading.measured_case import measured as measured_row
+from seacrane.trading.reference import Reference
+from seacrane.trading.row import Row
+from seacrane.trading.row_file import RowFile
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -160,7 +160,12 @@ def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
     assert (folder / "trade.png").read_bytes()[:4] == b"\x89PNG"
     error = measured.table["error"].sel(quantity="roll").to_numpy()
     assert float(rows[0]["error_roll"]) == pytest.approx(error[0], rel=1e-5)
-    assert {row["rung"] for row in rows} >= {rungs.LOCKED, rungs.PRESCRIBED, rungs.WEIGHT, rungs.LINEAR}
+    assert {row["rung"] for row in rows} >= {
+        simpler_scenes.LOCKED,
+        simpler_scenes.PRESCRIBED,
+        simpler_scenes.WEIGHT,
+        simpler_scenes.LINEAR,
+    }
 
 
 def test_a_later_call_goes_on_and_another_scene_begins_anew(
@@ -175,9 +180,9 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
         called.append("one")
         return measured.rows[-1]
 
-    monkeypatch.setattr(study, "measure", filled)
-    monkeypatch.setattr(study, "measure_variant", filled)
-    monkeypatch.setattr(study, "frequency_domain", filled)
+    monkeypatch.setattr(trade_study, "measure", filled)
+    monkeypatch.setattr(trade_study, "measure_variant", filled)
+    monkeypatch.setattr(trade_study, "frequency_domain", filled)
     again = trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
     assert called == ["one"]
     assert [row.wall_s for row in again.rows] == [row.wall_s for row in measured.rows]
@@ -219,16 +224,19 @@ def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_i
 
 
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
-    names = [v.memory for v in rungs.variants(case2, quick=False) if v.memory.startswith("passive")]
-    assert names == [f"passive r2={r2:g}" for r2 in rungs.R2_LEVELS.all]
-    scenes = [rungs.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
-    assert [rungs.full_memory_name(s, "passive r2=0.9") for s in scenes] == ["passive:12", "passive:20"]
+    names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("passive")]
+    assert names == [f"passive r2={r2:g}" for r2 in simpler_scenes.R2_LEVELS.all]
+    scenes = [simpler_scenes.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
+    assert [simpler_scenes.full_memory_name(s, "passive r2=0.9") for s in scenes] == [
+        "passive:12",
+        "passive:20",
+    ]
     assert [s.compile().memory_states for s in scenes] == [12, 20]
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
     built = cases.case2(memory="passive")
-    changed = rungs.with_memory(case2, "passive")
+    changed = simpler_scenes.with_memory(case2, "passive")
     mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
                "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
     changed.replace("vessel", kind="vessel", **mooring)
@@ -239,7 +247,7 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
 
 def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: Scene) -> None:
     full = simulate(case2, t_end=T_END, **TIGHT)
-    driven = rungs.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
+    driven = simpler_scenes.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
     alone = simulate(driven, t_end=T_END, **TIGHT)
     assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
     assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
@@ -249,7 +257,7 @@ def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(
 def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
     scene = cases.case2(hs=0.0)
     for name in list(scene.actuators):
-        scene.actuators[name] = rungs._core.Actuator(
+        scene.actuators[name] = simpler_scenes._core.Actuator(
             name=name, joint=scene.actuators[name].joint, coordinate=scene.actuators[name].coordinate,
             stiffness=scene.actuators[name].stiffness, damping=scene.actuators[name].damping,
             feed_forward=curve_of("start", scene.actuators[name].feed_forward.evaluate([0.0])[0, 0]),
@@ -258,9 +266,9 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     run = simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
-    bench = measure.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
+    bench = trade_rows.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
     method = Method(integrator="dop853", rtol=1e-9)
-    done = measure.measure(bench, Row(case={"rung": rungs.WEIGHT}, method=method))
+    done = trade_rows.measure(bench, Row(case={"rung": simpler_scenes.WEIGHT}, method=method))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
@@ -269,11 +277,11 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
 def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
     waves = case2.waves
     assert waves is not None
-    half = rungs.strongest(waves, 100)
+    half = simpler_scenes.strongest(waves, 100)
     assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
     load = [np.sum(np.abs(w.hull().transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
     assert load[0] > 0.95 * load[1]
-    assert np.array_equal(rungs.strongest(waves, 200).phase, waves.phase)
+    assert np.array_equal(simpler_scenes.strongest(waves, 200).phase, waves.phase)
 
 
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from line_scenes import G, reeved
 from numpy.testing import assert_allclose
 
 from seacrane import Scene, SceneError, simulate, trade
-from seacrane.trading.line_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
+from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 
 
 def hung(rung: str) -> Scene:

@@ -14,7 +14,7 @@ from seacrane import Curve, Scene, SceneError, simulate
 from seacrane.crane import JointedCrane, Payload, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.errors import FileFormatError
-from seacrane.viewer.bodies import looks
+from seacrane.pictures.drawn_bodies import looks
 from seacrane.warnings import UrdfWarning
 
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")

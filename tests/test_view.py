@@ -23,15 +23,15 @@ from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
-from seacrane.viewer import View
-from seacrane.viewer.bodies import looks
-from seacrane.viewer.drawing import drawing_of
-from seacrane.viewer.hull_shapes import schematic_size
-from seacrane.viewer.motion import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
-from seacrane.viewer.packing import Blob
-from seacrane.viewer.sea import sea_components
-from seacrane.viewer.shapes import BoxShape, HullShape, TubeShape, equivalent_box, framework
-from seacrane.viewer.wires import wires_of
+from seacrane.pictures import View
+from seacrane.pictures.drawing import drawing_of
+from seacrane.pictures.drawn_bodies import looks
+from seacrane.pictures.hull_shapes import schematic_size
+from seacrane.pictures.packing import Blob
+from seacrane.pictures.page_sea import sea_components
+from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
+from seacrane.pictures.shapes import BoxShape, HullShape, TubeShape, equivalent_box, framework
+from seacrane.pictures.wires import wires_of
 
 
 class Page(HTMLParser):
@@ -239,7 +239,7 @@ def test_a_hull_of_ones_own_is_drawn() -> None:
 
 
 def test_a_hull_of_too_many_panels_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.viewer.bodies.LARGEST_HULL", 1000)
+    monkeypatch.setattr("seacrane.pictures.drawn_bodies.LARGEST_HULL", 1000)
     with pytest.raises(SceneError, match=r"has 2278 panels, above 1000; give hull\.remeshed"):
         view(alone(), hulls={"vessel": shipped_hull()})
 

@@ -14,7 +14,7 @@ import view_scenes
 from view_scenes import HTML_NAME, angle_between, case2, pair, thrown
 
 from seacrane import cases, view
-from seacrane.viewer import View
+from seacrane.pictures import View
 
 SHOWN = (
     "case2",  # the one page that `make test` looks at

@@ -28,7 +28,7 @@ def test_the_committed_bundle_is_what_its_sources_make(repository: Path, tmp_pat
     if done.returncode and not installed.is_dir():
         pytest.skip(f"npm cannot install the pinned packages here: {done.stderr.strip()[-200:]}")
     assert done.returncode == 0, done.stderr
-    committed = repository / "python" / "seacrane" / "viewer" / "assets"
+    committed = repository / "python" / "seacrane" / "pictures" / "assets"
     for name in ("viewer.js", "LICENSE.three.txt"):
         same = (made / name).read_bytes() == (committed / name).read_bytes()
         assert same, f"{name} is not what its sources make: run `make viewer` and commit it"
@@ -44,7 +44,7 @@ def test_packages_are_pinned_and_the_lock_names_no_registry(repository: Path) ->
 
 
 def test_the_bundle_and_its_licence_ship(repository: Path) -> None:
-    assets = repository / "python" / "seacrane" / "viewer" / "assets"
+    assets = repository / "python" / "seacrane" / "pictures" / "assets"
     assert (assets / "LICENSE.three.txt").read_text().startswith("The MIT License")
     script = (assets / "viewer.js").read_text(encoding="ascii")
     assert "LICENSE.three.txt" in script[:200]

@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation, Slerp
 from view_scenes import HTML_NAME, angle_between, case2, pair
 
 from seacrane import SceneError, cases, view
-from seacrane.viewer.drawing import drawing_of
-from seacrane.viewer.surfaces import surfaces_of
+from seacrane.pictures.drawing import drawing_of
+from seacrane.pictures.surfaces import surfaces_of
 
 pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
 COMPONENTS = {5126: "<f4", 5125: "<u4"}
@@ -173,7 +173,7 @@ def test_a_model_replaces_an_earlier_one_alone(tmp_path: Path, monkeypatch: pyte
     shown.save_gltf(path, overwrite=True)
     with pytest.raises(SceneError, match=r"writes \.glb; path ends in 'vessel.gltf'"):
         shown.save_gltf(tmp_path / "vessel.gltf")
-    monkeypatch.setattr("seacrane.viewer.gltf.LARGEST", 1000)
+    monkeypatch.setattr("seacrane.pictures.animated_gltf.LARGEST", 1000)
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 1000; save a shorter run"):
         shown.save_gltf(tmp_path / "large.glb")
     assert [one.name for one in tmp_path.iterdir()] == ["vessel.glb"]

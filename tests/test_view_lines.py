@@ -7,9 +7,9 @@ import json
 import pytest
 
 from seacrane import Scene, simulate, view
-from seacrane.figures.overview import overview_sheet
-from seacrane.viewer.bodies import looks
-from seacrane.viewer.shapes import BoxShape
+from seacrane.pictures.drawn_bodies import looks
+from seacrane.pictures.overview import overview_sheet
+from seacrane.pictures.shapes import BoxShape
 
 
 def lifted(falls: int) -> Scene:

@@ -11,7 +11,7 @@ import pytest
 from stage_scenes import on_deck
 
 from seacrane import Result, Stage, simulate_stages, view
-from seacrane.viewer.drawing import drawing_of
+from seacrane.pictures.drawing import drawing_of
 
 
 @lru_cache(maxsize=1)

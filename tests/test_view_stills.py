@@ -15,11 +15,11 @@ from view_scenes import alone, case2, pair, thrown
 
 from seacrane import Scene, SceneError, cases, simulate
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.viewer import still, video
-from seacrane.viewer.camera import MARGIN, OPENING, WHOLE, camera_of
-from seacrane.viewer.drawing import Drawing, drawing_of
-from seacrane.viewer.sea import sea_components
-from seacrane.viewer.stage import Stage, sea_surface, wire_line
+from seacrane.pictures import still, video
+from seacrane.pictures.camera import MARGIN, OPENING, WHOLE, camera_of
+from seacrane.pictures.drawing import Drawing, drawing_of
+from seacrane.pictures.page_sea import sea_components
+from seacrane.pictures.still_drawing import Stage, sea_surface, wire_line
 
 SIZE = (480, 300)
 

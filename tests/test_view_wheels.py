@@ -16,10 +16,10 @@ from view_scenes import case2
 from seacrane import Result, Scene, simulate, view
 from seacrane._core import Line
 from seacrane.description.line_path import described_poses, laid
-from seacrane.viewer.camera import camera_of
-from seacrane.viewer.drawing import drawing_of
-from seacrane.viewer.stage import Stage
-from seacrane.viewer.wheels import Wheel
+from seacrane.pictures.camera import camera_of
+from seacrane.pictures.drawing import drawing_of
+from seacrane.pictures.still_drawing import Stage
+from seacrane.pictures.wheels import Wheel
 
 RADIUS, OVER, RATE = 0.5, 0.6, -0.8
 ACROSS = (0.0, 1.0, 0.0)

@@ -12,8 +12,8 @@ import xarray
 from operability_scenes import HEAVE, PITCH, vessel
 
 from seacrane import FileFormatError, SceneError, allowable_hs, availability, weather_windows
-from seacrane.figures import plot_weather_windows
 from seacrane.operability import AllowableHs, AlphaFactor, ScatterDiagram, WaveHindcast
+from seacrane.pictures import plot_weather_windows
 
 HOUR = np.timedelta64(1, "h")
 START = np.datetime64("2019-01-01T00:00")

@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from seacrane.installation.build import core_file
+from seacrane.cli.built import core_file
 
 ROOT = Path(__file__).resolve().parents[1]
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -61,7 +61,7 @@ def test_sdist_holds_all_that_the_build_needs(sdist: set[str]) -> None:
     left = {name for name in wanted if name.endswith((".so", ".pyd", ".pyc"))}
     assert wanted - left - sdist == set()
     assert {
-        f"python/seacrane/viewer/assets/{name}" for name in ("viewer.js", "page.html", "page.css")
+        f"python/seacrane/pictures/assets/{name}" for name in ("viewer.js", "page.html", "page.css")
     } < sdist
 
 

@@ -15,8 +15,8 @@ import pytest
 import seacrane
 from seacrane import renamed
 from seacrane.lift.keys import Key
+from seacrane.lift.study_keys import DESIGN, KEEP, RANGE, STATISTICS
 from seacrane.lift.tables import TABLES
-from seacrane.study_files.keys import DESIGN, KEEP, RANGE, STATISTICS
 
 
 @pytest.fixture(scope="module")

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from seacrane import Method, cases
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy.quantities import quantities_of
-from seacrane.experiment.case import Case
-from seacrane.experiment.grid import methods
-from seacrane.experiment.measure import channels_of, measured, timed
-from seacrane.experiment.reference import Reference, reference
-from seacrane.experiment.row import Row
-from seacrane.experiment.row_file import RowFile, completed
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
+from seacrane.trading.case import Case
+from seacrane.trading.grid import methods
+from seacrane.trading.measured_case import channels_of, measured, timed
+from seacrane.trading.reference import Reference, reference
+from seacrane.trading.row import Row
+from seacrane.trading.row_file import RowFile, completed
 
 from .section import Section
 

@@ -11,7 +11,7 @@ from typing import Any
 import netCDF4
 
 from seacrane import Result, cases, simulate, view
-from seacrane.result.netcdf import SCENE
+from seacrane.result.result_file import SCENE
 
 from .section import Section
 

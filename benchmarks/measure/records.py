@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
-from seacrane.description.scene import GROUND
+from seacrane.description.description import GROUND
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]

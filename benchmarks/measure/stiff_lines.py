@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Scene, cases
-from seacrane.experiment.case import Case
-from seacrane.experiment.measure import timed
 from seacrane.run.method import Method
+from seacrane.trading.case import Case
+from seacrane.trading.measured_case import timed
 
 from .section import Section
 

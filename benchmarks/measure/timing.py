@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from seacrane import Model, Scene
 from seacrane.analysis import Evaluator
-from seacrane.experiment.case import Case
-from seacrane.experiment.measure import timed
 from seacrane.run.shorthand import settled
+from seacrane.trading.case import Case
+from seacrane.trading.measured_case import timed
 
 Array = NDArray[np.float64]
 

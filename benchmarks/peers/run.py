@@ -20,7 +20,7 @@ from engines import Point, Reference, numpy_points, own_run, peer_points, seacra
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
 
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
 
 HERE = Path(__file__).resolve().parent
 LEVELS = (1e-2, 1e-4, 1e-6)  # m

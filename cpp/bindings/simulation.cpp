@@ -173,7 +173,7 @@ void bind_options(py::module_& m) {
            py::arg("capacity") = py::none());
 }
 
-py::module_ state_file() { return py::module_::import("seacrane.files.state"); }
+py::module_ state_file() { return py::module_::import("seacrane.inputs.state"); }
 
 void bind_record(py::module_& m) {
   using R = RecordHistory;

@@ -37,21 +37,19 @@ from seacrane._core import integrator_names as integrator_names
 from seacrane import run as run
 
 # Run it in stages
-from seacrane.stages.stage import Stage as Stage
-from seacrane.stages.move import Move as Move
-from seacrane.stages.until import Until as Until
-from seacrane.stages.staged_run import simulate_stages as simulate_stages
-from seacrane import stages as stages
+from seacrane.run.stage import Stage as Stage
+from seacrane.run.move import Move as Move
+from seacrane.run.until import Until as Until
+from seacrane.run.staged_run import simulate_stages as simulate_stages
 
 # Look at what came of it
 from seacrane.result.result import Result as Result
 from seacrane.answers.summary import summary as summary
-from seacrane.reporting.report import report as report
-from seacrane.figures.overview import plot_overview as plot_overview
-from seacrane.viewer.view import view as view
+from seacrane.answers.report import report as report
+from seacrane.pictures.overview import plot_overview as plot_overview
+from seacrane.pictures.view import view as view
 from seacrane import result as result
-from seacrane import figures as figures
-from seacrane import viewer as viewer
+from seacrane import pictures as pictures
 
 # Rest, statics, linear theory
 from seacrane.analysis.rest_state import equilibrium as equilibrium
@@ -81,7 +79,7 @@ from seacrane.operability.windows import weather_windows as weather_windows
 from seacrane import operability as operability
 
 # What settings cost and what error they bring
-from seacrane.trading.study import trade as trade
+from seacrane.trading.trade_study import trade as trade
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane import accuracy as accuracy
 

@@ -7,7 +7,7 @@ import numpy as np
 from seacrane import Scene, _core, cases
 from seacrane.analysis.inverse import balance
 from seacrane.crane import Payload
-from seacrane.experiment.case import Case
+from seacrane.trading.case import Case
 from stability_atlas.altered import change_actuator, change_body, scale_body
 from stability_atlas.axis import Axis
 

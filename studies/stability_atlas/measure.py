@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Method, SimulationError
-from seacrane.experiment.case import Case
-from seacrane.experiment.measure import measured, timed
-from seacrane.experiment.reference import Reference, reference
-from seacrane.experiment.row import UNNAMED, Row
+from seacrane.trading.case import Case
+from seacrane.trading.measured_case import measured, timed
+from seacrane.trading.reference import Reference, reference
+from seacrane.trading.row import UNNAMED, Row
 from stability_atlas.methods import TIGHT
 from stability_atlas.points import POINTS, QUANTITIES
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seacrane import SceneError, __version__
-from seacrane.experiment.row import Row
-from seacrane.experiment.row_file import RowFile, completed
+from seacrane.trading.row import Row
+from seacrane.trading.row_file import RowFile, completed
 from stability_atlas import committed
 from stability_atlas.axes import AXES
 from stability_atlas.axis import Axis

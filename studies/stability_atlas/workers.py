@@ -13,9 +13,9 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from seacrane import Method, SeacraneError
-from seacrane.experiment import row as rows
-from seacrane.experiment.reference import Reference
-from seacrane.experiment.row import Row
+from seacrane.trading import row as rows
+from seacrane.trading.reference import Reference
+from seacrane.trading.row import Row
 from stability_atlas.methods import DEFAULT
 
 DEFAULT_LIMIT_S = 20.0  # the default setting must end, not be cut off, on a slow machine too

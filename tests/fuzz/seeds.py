@@ -34,9 +34,9 @@ from fuzz.targets import CORPUS
 from seacrane import Scene, cases, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description import file as scene_file
-from seacrane.files.hdf5_structure import HEAP
 from seacrane.hydro import HydroDatabase, motion_response, shipped_database
-from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.inputs.hdf5_structure import HEAP
 from seacrane.result import Result
 
 G = 9.80665

@@ -21,15 +21,15 @@ from seacrane.crane import JointedCrane, KnuckleBoomCrane
 from seacrane.crane.jointed_file import load as load_jointed
 from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
-from seacrane.files.gltf import read_gltf
-from seacrane.files.hdf5_structure import Structure
-from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
-from seacrane.files.netcdf_limits import NETCDF_ERRORS
-from seacrane.files.state import load_state
 from seacrane.hydro import Hull, HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.inputs.gltf import read_gltf
+from seacrane.inputs.hdf5_structure import Structure
+from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
+from seacrane.inputs.state import load_state
+from seacrane.lift.study_file import StudyFile
 from seacrane.result import Result
-from seacrane.study_files.study_file import StudyFile
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen

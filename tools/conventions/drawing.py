@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from seacrane.figures.pose import hull_lines
+from seacrane.pictures.pose import hull_lines
 
 Array = NDArray[np.float64]
 INK, SHIP, GHOST, SEA = "0.15", "0.4", "0.72", "#0072B2"

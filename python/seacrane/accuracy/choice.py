@@ -34,7 +34,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import settled
 from seacrane.validity.after_run import Finding, require_finite, tried
-from seacrane.validity.range import warn_of
+from seacrane.validity.left_range import warn_of
 
 if TYPE_CHECKING:
     from seacrane import _core

@@ -15,16 +15,16 @@ from seacrane.analysis.inverse import drive_loads, hold_vessel, weight_of
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description
 from seacrane.description.forces import add_point_force
 from seacrane.description.given import given_vessels
 from seacrane.description.outline import ship_size
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.text import text_table
-from seacrane.validity.stability import warn_of_capsize
+from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
 Array = NDArray[np.float64]

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import driven
 from seacrane.description.crane_parts import luffing_ropes
+from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_driver
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 

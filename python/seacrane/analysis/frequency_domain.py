@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.databases import database_of
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
-from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at

@@ -10,10 +10,10 @@ from seacrane import _core
 from seacrane.analysis.inverse import at_rest, locked_at_rest
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description
 from seacrane.description.drives import add_driver
 from seacrane.description.holding import let_go
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, what_of
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 
 

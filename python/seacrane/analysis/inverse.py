@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import GROUND, Description, Some
 from seacrane.description.drives import add_driver
 from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
-from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, path_of
-from seacrane.description.scene import Description
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.one_thread import one_thread
 

@@ -19,8 +19,8 @@ from seacrane.analysis.line_dynamics import with_lengths_of
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.rest_state import equilibrium, held, state_values
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import shaped_of

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.stability import grows, growth_in_words
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.inputs.brief import brief
 from seacrane.inputs.frames import MOTIONS
 from seacrane.one_thread import one_thread

@@ -9,10 +9,10 @@ from seacrane import _core
 from seacrane.analysis.reduced_coordinates import Terms
 from seacrane.analysis.taut_lines import slack_lines
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import lines_of
-from seacrane.description.scene import Description
-from seacrane.validity.range import LARGEST_HEEL
+from seacrane.validity.left_range import LARGEST_HEEL
 
 Array = NDArray[np.float64]
 STILL = 1e-6  # m/s2 and rad/s2: what accelerates less is not what keeps the scene from rest

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import actuator_loads, driven
 from seacrane.analysis.rest_state import held, rest_states
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, vector_of
 from seacrane.inputs.shown import shown

@@ -13,7 +13,7 @@ from seacrane import _core
 from seacrane.analysis.frequency_domain import excitation_of, linear_of
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import natural_modes
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table

@@ -12,8 +12,8 @@ from seacrane import _core
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.analysis.taut_lines import pose_of
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Some
 from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders
-from seacrane.description.scene import Some
 from seacrane.errors import SceneError
 from seacrane.warnings import AssemblyWarning
 

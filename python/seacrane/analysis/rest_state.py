@@ -18,9 +18,9 @@ from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import tips_over, warn_of_rest
 from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
-from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
 from seacrane.one_thread import one_thread

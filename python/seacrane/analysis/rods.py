@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import Description, Some
 from seacrane.description.holding import decided
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
-from seacrane.description.scene import Description, Some
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
 

@@ -11,10 +11,10 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
+from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.holding import Drive, held_drives, with_holds
 from seacrane.description.loads import kind_of, named
-from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.no_rest import most_turned
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.scene import Description
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
-from seacrane.validity.range import LARGEST_HEEL
+from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]

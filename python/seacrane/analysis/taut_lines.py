@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
 from seacrane.description.loads import lines_of
-from seacrane.description.scene import Description, Some
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]

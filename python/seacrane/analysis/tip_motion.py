@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import driven, hold_vessel
 from seacrane.description.compilation import compile_scene
+from seacrane.description.description import GROUND, Description
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import path_of
 from seacrane.description.places import placed
-from seacrane.description.scene import GROUND, Description
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]

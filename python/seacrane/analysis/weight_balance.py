@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from seacrane.analysis.inverse import Balance, balance
+from seacrane.description.description import Description
 from seacrane.description.forces import add_point_force
 from seacrane.description.given import floating_bodies, given_vessels
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 

@@ -6,5 +6,5 @@ from seacrane.answers.statics import statics as statics
 from seacrane.answers.statics import Statics as Statics
 from seacrane.answers.load_chart import load_chart as load_chart
 from seacrane.answers.load_chart import LoadChart as LoadChart
-from seacrane.reporting.report import report as report
-from seacrane.reporting.report import Report as Report
+from seacrane.answers.report import report as report
+from seacrane.answers.report import Report as Report

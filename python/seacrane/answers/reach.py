@@ -11,8 +11,8 @@ from seacrane import _core
 from seacrane.analysis.crane_poses import Place, path_through, places_of, posed
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_reach import tip_radius
+from seacrane.description.description import Description
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 

@@ -17,10 +17,10 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, luffing_ropes, luffs, piston_areas, slews
 from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.cylinder_areas import pressure
+from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.one_thread import one_thread
 from seacrane.run.hook_loads import hook_loads

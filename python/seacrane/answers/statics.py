@@ -15,9 +15,9 @@ from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
 from seacrane.answers.rest_columns import AtRest, columns_of
+from seacrane.description.description import Description
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.plausible import angle_of
@@ -25,7 +25,7 @@ from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
-from seacrane.validity.range import LARGEST_HEEL
+from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.curves import Curve, reported_curves
+from seacrane.answers.reported_curves import Curve, reported_curves
 from seacrane.answers.statics import Statics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from seacrane.answers.curves import Curve, reported_curves
+from seacrane.answers.reported_curves import Curve, reported_curves
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import Line, Panel, Sheet, draw

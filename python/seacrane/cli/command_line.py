@@ -246,7 +246,7 @@ def _complete(parser: argparse.ArgumentParser) -> None:
 
 def _version() -> str:
     """The version, and below it how the package was built."""
-    from seacrane.installation.build import build_facts
+    from seacrane.cli.built import build_facts
     from seacrane.plotting.text import text_table
 
     facts = build_facts()

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
-from seacrane.cli.json_text import to_json
+from seacrane.cli.as_json import to_json
 from seacrane.plotting.text import text_table
 
 Facts = list[tuple[str, str]]
@@ -18,7 +18,7 @@ NUMBER = re.compile(r"\d+")
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the facts; 1 where something that is needed is missing, too old, or does not work."""
-    from seacrane.installation.build import build_facts, core_file
+    from seacrane.cli.built import build_facts, core_file
 
     asked = asked_packages()
     needed = [package for package in asked if not package.extra]
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _speed() -> Facts:
-    from seacrane.installation.pace import SPAN, blas, lane_facts, pace_of_case2, thread_facts
+    from seacrane.cli.pace import SPAN, blas, lane_facts, pace_of_case2, thread_facts
 
     wall, fast = pace_of_case2()
     return [

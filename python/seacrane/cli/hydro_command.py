@@ -6,7 +6,7 @@ import argparse
 import dataclasses
 from typing import TYPE_CHECKING, Any
 
-from seacrane.cli.json_text import to_json
+from seacrane.cli.as_json import to_json
 from seacrane.cli.output_folder import output_folder
 from seacrane.plotting.text import text_table
 

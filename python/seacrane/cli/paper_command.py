@@ -10,7 +10,7 @@ from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
 
 if TYPE_CHECKING:
-    from seacrane.figures import Finding, Picture
+    from seacrane.pictures import Finding, Picture
     from seacrane.result import Result
 
 # Name of the run, of the case that makes its scene, and the case's options.
@@ -77,7 +77,7 @@ def _simulate(name: str) -> Result:
 
 
 def _pace(result: Result) -> str:
-    from seacrane.reporting.measures import speed
+    from seacrane.answers.measures import speed
 
     fast = speed(result)
     pace = f", {fast:.0f} times real time" if fast is not None else ""
@@ -86,7 +86,7 @@ def _pace(result: Result) -> str:
 
 def draw(runs: dict[str, Result], folder: Path) -> tuple[list[Picture], list[Finding]]:
     """Figures 3 to 10 in a folder, and the findings."""
-    from seacrane.figures import PaperRuns, paper_findings, save_paper_figures
+    from seacrane.pictures import PaperRuns, paper_findings, save_paper_figures
 
     paper_runs = PaperRuns(**runs)
     pictures = save_paper_figures(runs=paper_runs, folder=folder)
@@ -97,7 +97,7 @@ def _write_report(
     folder: Path, runs: dict[str, Result], pictures: list[Picture], findings: list[Finding]
 ) -> Path:
     import seacrane.cases as cases
-    from seacrane.reporting.paper import Study, study_report
+    from seacrane.answers.paper_report import Study, study_report
 
     study = Study(
         title=TITLE,

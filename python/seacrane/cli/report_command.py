@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from seacrane.cli.json_text import to_json
+from seacrane.cli.as_json import to_json
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import is_result, load_scene
 from seacrane.errors import SceneError
@@ -31,7 +31,7 @@ def _write(arguments: argparse.Namespace, path: Path) -> int:
         )
     if arguments.out is None:
         raise SceneError(f"{path} holds results; name the folder of its report by --out DIR")
-    from seacrane.reporting import report
+    from seacrane.answers import report
     from seacrane.result import Result
 
     page = report(Result.load(path))

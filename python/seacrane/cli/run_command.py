@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
     """One run, written as it is stepped; what reads of it what the summary needs, and where it is."""
-    from seacrane.answers.curves import CHANNELS
+    from seacrane.answers.reported_curves import CHANNELS
     from seacrane.run.to_file import simulate_to_file
 
     method, outputs = _settings(arguments, source)
@@ -62,7 +62,7 @@ def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[C
 
 def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
     """The stages of a lift, written after each of them."""
-    from seacrane.stages.to_file import simulate_stages_to_file
+    from seacrane.run.stages_to_file import simulate_stages_to_file
 
     method, outputs = _settings(arguments, source)
     result = simulate_stages_to_file(
@@ -106,7 +106,7 @@ def stage_table(result: Result) -> str:
 
 def costs(result: Result) -> str:
     """What a run cost and how well it kept its invariants, in a few lines."""
-    from seacrane.reporting.measures import energy_closure, speed, worst
+    from seacrane.answers.measures import energy_closure, speed, worst
 
     stats = result.stats
     fast = speed(result)

@@ -17,8 +17,8 @@ from seacrane.errors import SceneError
 if TYPE_CHECKING:
     from seacrane.run.method import Method
     from seacrane.run.outputs import Outputs
+    from seacrane.run.stage import Stage
     from seacrane.scene.scene import Scene
-    from seacrane.stages.stage import Stage
 
 CASES = ("case1", "case2", "case3", "vessel")
 RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on

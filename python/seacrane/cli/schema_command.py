@@ -8,7 +8,7 @@ import argparse
 def run(arguments: argparse.Namespace) -> int:
     """Print the schema, or its path."""
     from seacrane.lift.schema import schema_path, schema_text
-    from seacrane.study_files.schema import study_schema_text
+    from seacrane.lift.study_schema import study_schema_text
 
     if arguments.path:
         print(schema_path("study" if arguments.study else "lift"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from seacrane.cli.json_text import to_json
+from seacrane.cli.as_json import to_json
 from seacrane.cli.output_folder import output_folder
 from seacrane.errors import SceneError
 
@@ -47,9 +47,9 @@ def _study(arguments: argparse.Namespace) -> int:
 
 def show_study(study: str, out: str | None) -> None:
     """Print the tables of a study, and write them and their figures into a folder, by default its own."""
+    from seacrane.lift.shown_study import shown_study
+    from seacrane.lift.study_figures import study_sheets
     from seacrane.plotting.panel import draw, save_figure, save_table
-    from seacrane.study_files.shown_study import shown_study
-    from seacrane.study_files.study_figures import study_sheets
 
     shown = shown_study(study)
     print(shown)

@@ -20,7 +20,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise IsADirectoryError(f"--out {page} is a folder; name the page, such as {page / 'lift.html'}")
     if page.exists() and not arguments.overwrite:
         raise FileExistsError(f"--out {page} is there already; give another name, or --overwrite")
-    from seacrane.viewer.view import view
+    from seacrane.pictures.view import view
 
     shown = view(_subject(arguments))
     print(f"saved {shown.save(page, overwrite=arguments.overwrite)}")

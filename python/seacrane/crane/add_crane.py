@@ -19,13 +19,13 @@ from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.bodies import add_body
 from seacrane.description.crane_parts import add_roles
 from seacrane.description.damping import add_air_drag, add_pendulum_damping
+from seacrane.description.description import Description
 from seacrane.description.drives import add_driver
 from seacrane.description.joints import add_joint
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.meshes import add_mesh
 from seacrane.description.recorded import add_range
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix

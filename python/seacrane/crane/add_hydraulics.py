@@ -12,8 +12,8 @@ from seacrane.crane.jointed import JointedCrane
 from seacrane.crane.jointed_cylinder import ends_of, static_force
 from seacrane.crane.mass_properties import Member, Tube
 from seacrane.description.cylinder_areas import Areas
+from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import place_cylinder
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 

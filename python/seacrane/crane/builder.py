@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from seacrane.crane import data_file, statics
+from seacrane.crane import crane_weight, data_file
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.crane.parts import CraneParts
@@ -90,7 +90,7 @@ class KnuckleBoomCrane:
         self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
     ) -> Array:
         """Common centre of mass of the eight bodies in the vessel frame, shape (3,), m."""
-        center = statics.center_of_mass(self.geometry, self.mass_properties, theta=theta, s1=s1, s2=s2)
+        center = crane_weight.center_of_mass(self.geometry, self.mass_properties, theta=theta, s1=s1, s2=s2)
         return _vector("foot", foot) + center
 
     def static_cylinder_forces(
@@ -99,13 +99,13 @@ class KnuckleBoomCrane:
         s1: float,
         s2: float,
         payload_mass: float = 0.0,
-        gravity: float = statics.STANDARD_GRAVITY,
+        gravity: float = crane_weight.STANDARD_GRAVITY,
     ) -> Array:
         """Forces of the main and the knuckle cylinder at rest on a level base, N, positive when they push.
 
-        See `seacrane.crane.statics.static_cylinder_forces`.
+        See `seacrane.crane.crane_weight.static_cylinder_forces`.
         """
-        return statics.static_cylinder_forces(
+        return crane_weight.static_cylinder_forces(
             self.geometry, self.mass_properties, s1=s1, s2=s2, payload_mass=payload_mass, gravity=gravity
         )
 

@@ -12,8 +12,8 @@ from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.capacity import Capacity, capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_of
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.whole_file import read_whole
 from seacrane.inputs.shown import shown
+from seacrane.inputs.whole_file import read_whole
 
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with

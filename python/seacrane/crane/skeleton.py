@@ -30,7 +30,7 @@ BARRELS = tuple(f"{cylinder}_barrel" for cylinder in CYLINDERS)  # drawn thick
 def crane_skeleton(
     crane: KnuckleBoomCrane | None = None, *, foot: tuple[float, float, float] | None = None
 ) -> dict[str, list[Array]]:
-    """Lines of the eight crane bodies for `seacrane.figures.pose`.
+    """Lines of the eight crane bodies for `seacrane.pictures.pose`.
 
     Parameters
     ----------

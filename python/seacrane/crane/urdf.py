@@ -20,9 +20,9 @@ from seacrane.crane.mass_properties import MassProperties
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
 from seacrane.crane.urdf_visuals import meshes_of
 from seacrane.errors import FileFormatError
-from seacrane.files.whole_file import read_whole
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.whole_file import read_whole
 from seacrane.warnings import UrdfWarning
 
 Array = NDArray[np.float64]

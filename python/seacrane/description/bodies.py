@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Description, insert
+from seacrane.description.description import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, numbers_of, shaped_of
 from seacrane.inputs.plausible import warn_of_density

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.scene import GROUND, Description, insert
+from seacrane.description.description import GROUND, Description, insert
 from seacrane.errors import SceneError
-from seacrane.files.node import Node
 from seacrane.inputs.checked import name_of, shaped_of, text_of, texts_of
+from seacrane.inputs.node import Node
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]

@@ -6,10 +6,10 @@ import warnings
 
 from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
+from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_heavy_winch
 from seacrane.description.rungs import compiled_loads
-from seacrane.description.scene import Description
 from seacrane.description.wave_loads import compiled_waves
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of

@@ -13,10 +13,10 @@ import numpy as np
 
 from seacrane.description.capacity import capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_by_label
+from seacrane.description.description import GROUND, Description, coordinate_of
 from seacrane.description.given import floating_bodies
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.roles import CraneRoles, Vector
-from seacrane.description.scene import GROUND, Description, coordinate_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, shaped_of, text_of
 from seacrane.inputs.shown import shown

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.description import Description
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.forces import add_load
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of, name_of, not_negative_of, number_of, shaped_of, text_of
 from seacrane.inputs.plausible import direction_of

@@ -9,14 +9,14 @@ import zlib
 from functools import lru_cache
 from typing import Any, TypeVar
 
+from seacrane.description.description import Description
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.scene import Description
 from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics, alike
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.node import Node
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
+from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
 
 LARGEST = 256 * 2**20  # bytes; 1,000 frequencies x 72 headings take 20 MiB

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from seacrane import _core
 from seacrane.description.crane_parts import drive_named
-from seacrane.description.scene import Description, coordinate_of, insert
+from seacrane.description.description import Description, coordinate_of, insert
 from seacrane.inputs.checked import curve_of, name_of, text_of
 
 

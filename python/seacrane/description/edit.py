@@ -7,9 +7,9 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.databases import require_alike
+from seacrane.description.description import ELEMENTS, KINDS, Description
 from seacrane.description.loads import named
 from seacrane.description.range import Range
-from seacrane.description.scene import ELEMENTS, KINDS, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown

@@ -20,6 +20,7 @@ from seacrane import _core
 from seacrane.description.bodies import add_body
 from seacrane.description.clearances import clearances_from_node, clearances_to_data
 from seacrane.description.databases import databases_from_node, databases_to_data
+from seacrane.description.description import Description
 from seacrane.description.drives import add_actuator, add_driver
 from seacrane.description.file_elements import (
     element_from_node,
@@ -43,12 +44,11 @@ from seacrane.description.limit_states import limit_states_from_node, limit_stat
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_point, add_range, record_coordinate
-from seacrane.description.scene import Description
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.atomic import atomic_write
-from seacrane.files.node import Node
-from seacrane.files.plain_data import notes_from_node, plain_data
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.node import Node
+from seacrane.inputs.plain_data import notes_from_node, plain_data
 
 FORMAT = "seacrane scene"
 VERSION = 1

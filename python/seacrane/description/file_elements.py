@@ -11,7 +11,7 @@ from seacrane import _core
 from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError
-from seacrane.files.node import Node
+from seacrane.inputs.node import Node
 
 # Entries that came after files with elements of their kind: written where they are not as usual, so that
 # older scenes keep their digests.

@@ -6,13 +6,13 @@ from dataclasses import asdict
 from typing import Any
 
 from seacrane.description.crane_parts import add_roles
+from seacrane.description.description import Description
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.provenance import SEA_KINDS, SeaProvenance, VesselProvenance
 from seacrane.description.roles import CraneRoles, Vector
-from seacrane.description.scene import Description
 from seacrane.errors import FileFormatError
-from seacrane.files.node import Node
-from seacrane.files.plain_data import notes_from_node, plain_data
+from seacrane.inputs.node import Node
+from seacrane.inputs.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
 # older files lack them

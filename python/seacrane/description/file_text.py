@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError
-from seacrane.files.json_text import json_of
-from seacrane.files.looks_like import looks_like
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import shown
+from seacrane.inputs.whole_file import read_whole
 
 LARGEST_FILE = 32 * 2**20  # bytes
 

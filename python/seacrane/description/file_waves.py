@@ -12,8 +12,8 @@ from seacrane.description.file_origin import sea_from_node, sea_to_data
 from seacrane.description.old_files import sea_of
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import ByHeading, HullLoads, Waves
-from seacrane.files.node import Node
-from seacrane.files.plain_data import notes_from_node
+from seacrane.inputs.node import Node
+from seacrane.inputs.plain_data import notes_from_node
 
 OLD = "information"  # what version 0.1 calls the provenance
 _ARRAYS = ("omega", "amplitude", "phase", "direction")

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.description import KINDS, LOADS, Description, insert
 from seacrane.description.loads import kind_of, make_load
-from seacrane.description.scene import KINDS, LOADS, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 

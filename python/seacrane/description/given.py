@@ -9,7 +9,7 @@ from seacrane.errors import SceneError
 USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 
 def floating_bodies(scene: Description) -> set[str]:

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from seacrane import _core
+from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_driver
 from seacrane.description.loads import LOAD_KINDS, named, springs_of
 from seacrane.description.roles import CraneRoles
-from seacrane.description.scene import Description, Some
 
 PASSIVE = ("limit", "friction", "soft stop")  # loads that name a joint and do not hold it where it is
 Drive = tuple[str, str, str]  # label, joint and coordinate

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.description import GROUND, Description, Some
 from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
 from seacrane.description.holding import decided
 from seacrane.description.places import placed
-from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from seacrane.description.scene import Description, insert
+from seacrane.description.description import Description, insert
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of

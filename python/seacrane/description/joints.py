@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import GROUND, Description, insert
+from seacrane.description.description import GROUND, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, shaped_of, text_of
 from seacrane.inputs.frames import axes_across, axes_along, rotation_matrix

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+from seacrane.description.description import Description, insert
 from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import pick_of
-from seacrane.description.scene import Description, insert
 from seacrane.errors import SceneError
-from seacrane.files.node import Node
 from seacrane.inputs.checked import name_of, number_of
+from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]

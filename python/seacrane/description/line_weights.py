@@ -9,7 +9,7 @@ from seacrane.description.given import floating_bodies
 from seacrane.description.loads import lines_of
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 
 def line_weights(scene: Description) -> dict[str, tuple[float, int]]:

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Description, insert
+from seacrane.description.description import Description, insert
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.gltf import read_gltf
-from seacrane.files.node import Node
-from seacrane.files.stl import read_stl
 from seacrane.inputs.checked import name_of, number_of, numbers_of, text_of
+from seacrane.inputs.gltf import read_gltf
+from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
+from seacrane.inputs.stl import read_stl
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]

@@ -11,6 +11,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from seacrane.description.crane_parts import add_roles
+from seacrane.description.description import Description
 from seacrane.description.provenance import (
     NUMBER,
     SEA_KINDS,
@@ -18,7 +19,6 @@ from seacrane.description.provenance import (
     SeaProvenance,
     VesselProvenance,
 )
-from seacrane.description.scene import Description
 
 SLEW, LINK, PAYLOAD = "A", "link", "payload"
 CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from seacrane.description.description import Description
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.scene import Description
-from seacrane.files.plain_data import plain_data
+from seacrane.inputs.plain_data import plain_data
 
 
 def origin_settings(scene: Description) -> dict[str, Any]:

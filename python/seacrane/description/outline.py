@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import GROUND, Description
 from seacrane.description.given import floating_bodies, given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.range import Range
-from seacrane.description.scene import GROUND, Description
 
 Array = NDArray[np.float64]
 NO_BOUND = 1e7  # m or rad: a bound here or beyond is none

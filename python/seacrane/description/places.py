@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.scene import GROUND, Description
+from seacrane.description.description import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix

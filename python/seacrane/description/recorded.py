@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.description import Description, coordinate_of, insert
 from seacrane.description.range import Range
-from seacrane.description.scene import Description, coordinate_of, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of
 

@@ -18,8 +18,8 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import DriverImpulseWarning
 
 if TYPE_CHECKING:
+    from seacrane.description.description import Description
     from seacrane.description.range import Range
-    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 JUMP = 1e-6  # m or rad: what projection closes without a word

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 from seacrane import _core
+from seacrane.description.description import Description, Some
 from seacrane.description.loads import changed, lines_of
-from seacrane.description.scene import Description, Some
 
 RIGID, QUASI_STATIC, ELASTIC, AUTO, WITH_MASS = "rigid", "quasi-static", "elastic", "auto", "with mass"
 Rung = Literal["rigid", "quasi-static", "elastic", "auto", "with mass"]

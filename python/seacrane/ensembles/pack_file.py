@@ -13,9 +13,9 @@ from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.variables import TEXTS
 from seacrane.errors import FileFormatError
-from seacrane.files.atomic import atomic_write
-from seacrane.files.json_text import json_of
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 
 LARGEST_FILE = 2**32  # bytes of arrays
 

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from seacrane.description.scene import ELEMENTS, KINDS
+from seacrane.description.description import ELEMENTS, KINDS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.scene.scene import Scene

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.atomic import atomic_write
-from seacrane.files.drafts import is_draft, remove_all
-from seacrane.files.json_text import json_of
-from seacrane.files.sole_writer import claim, opened
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.drafts import is_draft, remove_all
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.sole_writer import claim, opened
+from seacrane.inputs.whole_file import read_whole
 
 STUDY, LOCK = "study.json", "writer.lock"
 ZARR = ".zarr"

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from seacrane.errors import FileFormatError
-from seacrane.files.json_text import json_of
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.whole_file import read_whole
 
 LARGEST_MARK = 2**26  # bytes
 LARGEST_CHUNK = 2**31  # bytes

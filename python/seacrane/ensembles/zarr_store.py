@@ -34,7 +34,7 @@ from seacrane.ensembles.zarr_chunks import (
     wrong,
 )
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.atomic import atomic_write, space_left
+from seacrane.inputs.atomic import atomic_write, space_left
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import LostMembersWarning
 

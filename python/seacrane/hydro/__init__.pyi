@@ -1,7 +1,7 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
-from seacrane.files.stl import read_stl as read_stl
-from seacrane.hydro.data.drift import DriftCoefficients as DriftCoefficients
+from seacrane.inputs.stl import read_stl as read_stl
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients as DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices as AdditionalMatrices
 from seacrane.hydro.data.hydro_data import RollDamping as RollDamping
 from seacrane.hydro.data.memory_model import FitRow as FitRow
@@ -48,7 +48,7 @@ from seacrane.hydro.readers.veres_hydrostatics import read_veres_hydrostatics as
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
 from seacrane.hydro.vessel.parameters import RigidPart as RigidPart
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters
-from seacrane.hydro.vessel.time_domain import vessel_parameters as vessel_parameters
+from seacrane.hydro.vessel.vessel_parameters import vessel_parameters as vessel_parameters
 from seacrane._core import RetardationFunctions as RetardationFunctions
 from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory

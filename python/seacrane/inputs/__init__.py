@@ -1,1 +1,1 @@
-"""Values from outside: their checks, how they are shown, frames, and the line of the caller."""
+"""Values and files from outside, checked and bounded; frames; files written whole."""

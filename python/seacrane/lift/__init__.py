@@ -1,1 +1,1 @@
-"""Lifts as files that a person writes: TOML in and out, and the schema that editors read."""
+"""Lifts and studies as files that a person writes: TOML in and out, and the schemas that editors read."""

@@ -13,11 +13,11 @@ from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
 from seacrane.lift.calls import Caller, Keywords, keywords
-from seacrane.lift.check import Entry, plain
+from seacrane.lift.check_keys import Entry, plain
 from seacrane.lift.control import feed_forward_of, gains_of
 from seacrane.lift.document import Document
 from seacrane.lift.keys import Key
-from seacrane.lift.lines import Place
+from seacrane.lift.text_lines import Place
 from seacrane.scene.scene import Scene
 
 LAST = ("heave_compensation",)  # what refers to commands

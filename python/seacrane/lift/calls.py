@@ -12,12 +12,12 @@ from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, JointedCrane, Payload, load_crane
 from seacrane.description.channels import CHANNELS
 from seacrane.description.databases import source_of
-from seacrane.description.scene import coordinate_of
+from seacrane.description.description import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.check import SHIPPED
-from seacrane.lift.curves import curve_from
+from seacrane.lift.check_keys import SHIPPED
+from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
 from seacrane.result.units import unit_of

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from seacrane.errors import FileFormatError
-from seacrane.files.looks_like import looks_like
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import shown
-from seacrane.lift.lines import Place, lines_of
+from seacrane.inputs.whole_file import read_whole
+from seacrane.lift.text_lines import Place, lines_of
 
 VERSION = 2
 READ = (1, VERSION)  # 1: of seacrane 0.1 and 0.2

@@ -11,19 +11,19 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.errors import SceneError
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
 from seacrane.lift.build import made, scene_of
-from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
+from seacrane.lift.check_keys import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.stages import check_stages, stages_of
-from seacrane.lift.text import toml_text
+from seacrane.lift.toml_text import toml_text
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.run.stage import Stage
+from seacrane.run.staged_run import simulate_stages
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
-from seacrane.stages.stage import Stage
-from seacrane.stages.staged_run import simulate_stages
 
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 LIFTS = ("case1", "case2", "case3", "vessel")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from seacrane.description.channels import CHANNELS
 from seacrane.lift.keys import EITHER, Key, keys_of
 from seacrane.result.units import units_of
-from seacrane.stages.stage import Stage
+from seacrane.run.stage import Stage
 
 CHANNEL_UNITS = EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))
 COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m", "1", "m2"))

@@ -5,23 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from seacrane.description.description import coordinate_of
 from seacrane.description.holding import with_holds
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
 from seacrane.lift.calls import require_unit_of_channel
-from seacrane.lift.check import Entry
-from seacrane.lift.curves import curve_from
+from seacrane.lift.check_keys import Entry
+from seacrane.lift.curve_text import curve_from
 from seacrane.lift.document import Document
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.stage_keys import STAGE, WAITS
+from seacrane.run.commands import HOLE, Command, targets
+from seacrane.run.move import Move
+from seacrane.run.plan import checked_stages
+from seacrane.run.stage import Stage
+from seacrane.run.until import Condition, Until
 from seacrane.scene.scene import Scene
-from seacrane.stages.commands import HOLE, Command, targets
-from seacrane.stages.move import Move
-from seacrane.stages.plan import checked_stages
-from seacrane.stages.stage import Stage
-from seacrane.stages.until import Condition, Until
 
 LIMITED = {"tension": "line_tension", "length": "line_unstretched_length"}
 WAYS = ("to", "by", "value", "curve")

@@ -26,13 +26,14 @@ from seacrane.description import (
     recorded,
 )
 from seacrane.description.curves import spline_curve
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
+from seacrane.run.stage import Stage
 from seacrane.scene import (
     bridles,
     given_vessel,
@@ -52,7 +53,6 @@ from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
-from seacrane.stages.stage import Stage
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},

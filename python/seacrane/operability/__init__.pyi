@@ -1,7 +1,7 @@
 """In which seas a lift may go ahead: allowable Hs, availability, weather windows, waiting for them."""
 
 from seacrane.operability.allowable import allowable_hs as allowable_hs
-from seacrane.operability.table import AllowableHs as AllowableHs
+from seacrane.operability.allowable_table import AllowableHs as AllowableHs
 from seacrane.operability.criterion import Criterion as Criterion
 from seacrane.operability.alpha import AlphaFactor as AlphaFactor
 from seacrane.operability.availability import availability as availability

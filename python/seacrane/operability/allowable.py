@@ -17,6 +17,7 @@ from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.shown import shown
+from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
@@ -24,7 +25,6 @@ from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.steady_start import steady_start
-from seacrane.operability.table import AllowableHs
 from seacrane.operability.time_domain import Cell, Storms
 from seacrane.renamed import refusing
 from seacrane.run.advance import finished

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of
 from seacrane.inputs.shown import shown
+from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.scatter import ScatterDiagram
-from seacrane.operability.table import AllowableHs
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.files.whole_file import read_whole
 from seacrane.inputs.checked import number_of, numbers_of, text_of
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
+from seacrane.inputs.whole_file import read_whole
 
 if TYPE_CHECKING:
     import xarray

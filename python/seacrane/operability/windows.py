@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
-from seacrane.operability.table import AllowableHs
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.files.atomic import atomic_write
+from seacrane.inputs.atomic import atomic_write
 from seacrane.plotting.figure import new_figure
 
 if TYPE_CHECKING:

@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS, NAMED
 from seacrane.errors import FileFormatError
-from seacrane.files import sole_writer
-from seacrane.files.state import state_from_bytes
+from seacrane.inputs import sole_writer
+from seacrane.inputs.state import state_from_bytes
 from seacrane.result.about import About, parted
 from seacrane.result.events import Event
 from seacrane.result.kept_scene import KeptScene

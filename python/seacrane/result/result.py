@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
-from seacrane.files.atomic import atomic_write
-from seacrane.files.netcdf_limits import NETCDF_ERRORS
-from seacrane.files.state import state_to_bytes
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
+from seacrane.inputs.state import state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.result.about import About, StageSpan
 from seacrane.result.checked_parts import (
@@ -33,9 +33,9 @@ from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
-from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
-from seacrane.result.table import as_html, as_text
+from seacrane.result.result_file import Contents, read_arrays, write_netcdf
+from seacrane.result.result_table import as_html, as_text
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:

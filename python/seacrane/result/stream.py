@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS
 from seacrane.errors import FileFormatError
-from seacrane.files.atomic import atomic_write, require_replaceable, space_left
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.files.state import state_to_bytes
+from seacrane.inputs.atomic import atomic_write, require_replaceable, space_left
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.inputs.state import state_to_bytes
 from seacrane.result.about import About, parted
 from seacrane.result.events import Event
-from seacrane.result.netcdf import Contents, write_netcdf
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
 from seacrane.result.result import Result
+from seacrane.result.result_file import Contents, write_netcdf
 
 Array = NDArray[np.float64]
 LARGEST_PIECE = 2**21  # bytes

@@ -1,4 +1,4 @@
-"""A run: settings, stepping, outputs to memory or to a file."""
+"""Runs, at once or in stages: settings, stepping, outputs to memory or to a file."""
 
 from seacrane.lazy import face
 

@@ -1,4 +1,4 @@
-"""A run: settings, stepping, outputs to memory or to a file."""
+"""Runs, at once or in stages: settings, stepping, outputs to memory or to a file."""
 
 from seacrane.simulation import simulate as simulate
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
@@ -9,3 +9,9 @@ from seacrane.run.sampled_controller import SampledController as SampledControll
 from seacrane._core import Model as Model
 from seacrane._core import State as State
 from seacrane._core import integrator_names as integrator_names
+from seacrane.run.stage import Stage as Stage
+from seacrane.run.move import Move as Move
+from seacrane.run.until import Until as Until
+from seacrane.run.staged_run import simulate_stages as simulate_stages
+from seacrane.run.stages_to_file import simulate_stages_to_file as simulate_stages_to_file
+from seacrane.run.staged_run import StagedRun as StagedRun

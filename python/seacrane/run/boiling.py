@@ -12,7 +12,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.warnings import BoilingOilWarning
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
     from seacrane.result.events import Event
 
 Channels = Mapping[str, NDArray[np.float64]]

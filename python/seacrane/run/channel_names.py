@@ -21,7 +21,7 @@ from seacrane.run.hook_loads import hook_loads, suspensions
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 NEEDED = ("position", "quaternion")

@@ -12,7 +12,7 @@ from seacrane.description.crane_parts import tips
 from seacrane.description.roles import CraneRoles
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 POSE = ("position", "quaternion")

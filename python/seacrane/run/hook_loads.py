@@ -14,7 +14,7 @@ from seacrane.description.loads import lines_of, path_of
 from seacrane.run.hanging import position_of
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 NEEDED = ("position", "quaternion")

@@ -20,9 +20,9 @@ from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError
-from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import About
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
@@ -56,9 +56,9 @@ from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, setting
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
-from seacrane.validity.lines import bound_findings
-from seacrane.validity.plausible import warn_of_description
-from seacrane.validity.range import Finding, as_text, findings
+from seacrane.validity.implausible import warn_of_description
+from seacrane.validity.left_range import Finding, as_text, findings
+from seacrane.validity.line_checks import bound_findings
 from seacrane.warnings import LineRungWarning
 
 if TYPE_CHECKING:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.scene import Description
 from seacrane.result.events import Event
 
 

@@ -12,7 +12,7 @@ from seacrane.description.origin import origin_settings, sea_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.description.provenance import SEA_SETTINGS
 from seacrane.description.waves import Waves
-from seacrane.files.plain_data import plain_notes
+from seacrane.inputs.plain_data import plain_notes
 from seacrane.result.about import About
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method

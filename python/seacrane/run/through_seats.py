@@ -9,7 +9,7 @@ from seacrane.result.events import Event
 from seacrane.warnings import ThroughSeatWarning
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Finding = tuple[type[Warning], str]
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.files.state import state_from_bytes, state_to_bytes
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.result.about import About
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
@@ -29,7 +29,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.validity.range import Finding, as_text, warn_of
+from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.version import __version__
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.scene import Description
 from seacrane.one_thread import one_thread
-from seacrane.validity.range import Finding
+from seacrane.validity.left_range import Finding
 from seacrane.warnings import UnsteadyOilWarning
 
 Array = NDArray[np.float64]

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.line_path import described_poses
 from seacrane.description.rungs import StretchingRung
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, rows_of, shaped_of, text_of, vector_of
 from seacrane.inputs.shown import shown

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from seacrane import _core
 from seacrane.description import compilation
-from seacrane.description.scene import Description
-from seacrane.validity.stability import warn_of_capsize
+from seacrane.description.description import Description
+from seacrane.validity.unstable import warn_of_capsize
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:

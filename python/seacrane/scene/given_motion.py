@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.linear_system import linear_model
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase

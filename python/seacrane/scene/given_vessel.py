@@ -11,9 +11,9 @@ from seacrane import _core
 from seacrane.analysis.inverse import SIX, hold_vessel
 from seacrane.description.bodies import add_body
 from seacrane.description.databases import source_of
+from seacrane.description.description import Description
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.scene import Description
 from seacrane.description.sum_of_cosines import curves_of_sum
 from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics
 from seacrane.description.waves import HullLoads, Waves

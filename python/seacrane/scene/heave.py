@@ -8,11 +8,11 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.tip_motion import falls_of, tip_rate
+from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.places import placed
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
 

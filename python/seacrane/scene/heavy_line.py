@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
+from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
-from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix

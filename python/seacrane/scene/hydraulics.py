@@ -6,9 +6,9 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.analysis.holding_force import holding_force, holding_forces
+from seacrane.description.description import Description
 from seacrane.description.edit import replace_element
 from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders, place_cylinder
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
 

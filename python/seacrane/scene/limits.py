@@ -7,8 +7,8 @@ located in time by the integrator; see docs/events.md.
 from __future__ import annotations
 
 from seacrane import _core
+from seacrane.description.description import Description, coordinate_of
 from seacrane.description.forces import add_load
-from seacrane.description.scene import Description, coordinate_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, text_of
 

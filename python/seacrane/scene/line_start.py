@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.description.description import GROUND, Description
 from seacrane.description.line_path import path_length
-from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.description.damping import AIR
+from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import changed, lines_of, refuse_heavy_winch, whole_of
@@ -23,7 +24,6 @@ from seacrane.description.rungs import (
     Rung,
     StretchingRung,
 )
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown

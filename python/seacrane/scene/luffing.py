@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import luffing_ropes, luffs
+from seacrane.description.description import GROUND, Description
 from seacrane.description.line_path import Pose, described_poses, laid
 from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
-from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_spring
-from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.caller import warn_caller

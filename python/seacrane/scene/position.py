@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.databases import database_of
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.description.waves import ByHeading, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase

@@ -23,7 +23,7 @@ from seacrane.description import (
     places,
     recorded,
 )
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
 from seacrane.renamed import METHODS
 from seacrane.scene import (

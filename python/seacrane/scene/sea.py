@@ -8,9 +8,9 @@ from typing import Any, Literal
 import numpy as np
 
 from seacrane.description.databases import database_of, source_of
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import SeaProvenance
-from seacrane.description.scene import Description
 from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.scene import Description
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of

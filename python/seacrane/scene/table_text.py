@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import wrap
 
 from seacrane.analysis.scene_report import elements_of
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.plotting.html import notebook_table
 
 WIDTH = 100  # characters of a line of text

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.bodies import add_body
+from seacrane.description.description import Description
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.scene import Description
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.damping import AIR
+from seacrane.description.description import Description
 from seacrane.description.forces import add_load
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from seacrane.trading.study import Trade, trade
+from seacrane.trading.trade_study import Trade, trade
 
 __all__ = ["Trade", "trade"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from seacrane._core import Integrator, integrator
-from seacrane.experiment.grid import methods
 from seacrane.run.method import Method
+from seacrane.trading.grid import methods
 
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
 MIDDLE = (*COARSE, 1e-5, 1e-6)

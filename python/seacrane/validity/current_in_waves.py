@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Description
+from seacrane.description.description import Description
 from seacrane.validity.energy import Finding
 from seacrane.validity.hull_range import LARGEST_SHIFT, Peak
 from seacrane.warnings import CurrentInWavesWarning

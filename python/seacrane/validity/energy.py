@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane.warnings import EnergyErrorWarning
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]

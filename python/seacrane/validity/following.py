@@ -14,7 +14,7 @@ from seacrane.warnings import FullTurnWarning, OutsideRangeWarning, SoftGainsWar
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]

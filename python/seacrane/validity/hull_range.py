@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from seacrane import _core
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
     from seacrane.description.waves import HullLoads, Waves
 
 Array = NDArray[np.float64]

@@ -20,8 +20,8 @@ from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarn
 
 if TYPE_CHECKING:
     from seacrane import _core
+    from seacrane.description.description import Description
     from seacrane.description.roles import CraneRoles
-    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]

@@ -13,11 +13,11 @@ from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of
 from seacrane.inputs.caller import warn_caller
-from seacrane.validity.lines import STRONGEST
+from seacrane.validity.line_checks import STRONGEST
 from seacrane.warnings import LiftedStartWarning, WinchLimitWarning
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 LARGEST_LIFT = 1.5  # of a body's weight, by its lines

@@ -16,7 +16,7 @@ from seacrane.description.line_weights import line_weights
 from seacrane.description.places import placed
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 FAST_WATER = 5.0  # m/s

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
 

@@ -17,11 +17,11 @@ from seacrane.hydro.data.relations import (
     resolved_by_headings,
 )
 from seacrane.hydro.data.trusted_band import in_trusted_band
-from seacrane.hydro.database.table import metacentric_height
+from seacrane.hydro.database.facts import metacentric_height
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.hydro.vessel.stability import largest_growth_rate
+from seacrane.hydro.vessel.memory_stability import largest_growth_rate
 from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]

@@ -16,10 +16,10 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
 from seacrane.hydro.database.check import CheckRow, check_database
+from seacrane.hydro.database.facts import as_html, as_line, as_text
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
 from seacrane.hydro.database.selection import Choice, selected_database
-from seacrane.hydro.database.table import as_html, as_line, as_text
 from seacrane.hydro.database.transform import mirrored_database, moved_database
 from seacrane.inputs.checked import not_negative_of
 

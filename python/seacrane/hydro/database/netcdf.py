@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from seacrane.errors import FileFormatError
-from seacrane.files.atomic import atomic_write
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import (
     FitRow,
@@ -22,7 +20,9 @@ from seacrane.hydro.data.memory_model import (
     MotionFit,
     Passivity,
 )
+from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 
 if TYPE_CHECKING:
     import xarray

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.memory.transform import mirrored_memory, moved_memory
+from seacrane.hydro.memory.moved_memory import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import QuadraticDampingWarning

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.files.stl import read_stl
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
@@ -20,6 +19,7 @@ from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
+from seacrane.inputs.stl import read_stl
 
 FloatArray = NDArray[np.float64]
 

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.files.whole_file import read_whole
 from seacrane.hydro.hull.panels import end_cap, lofted
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
+from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 

@@ -19,10 +19,10 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.files.atomic import atomic_write
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
+from seacrane.inputs.atomic import atomic_write
 
 VERSION = 2  # raised with every change of a fit
 VARIABLE, OFF = "SEACRANE_CACHE", "off"

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_hdf5
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.band_of_data import with_band_of_data
@@ -25,6 +24,7 @@ from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
 
 FloatArray = NDArray[np.float64]
 

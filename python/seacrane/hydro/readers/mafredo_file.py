@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.warnings import AssumedSymmetryWarning
 
 FloatArray = NDArray[np.float64]

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.files.whole_file import read_whole
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.band_of_data import with_band_of_data
@@ -27,6 +26,7 @@ from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.whole_file import read_whole
 from seacrane.warnings import AssumedDensityWarning
 
 FloatArray = NDArray[np.float64]

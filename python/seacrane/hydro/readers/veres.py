@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.encounter import one_function
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
 from seacrane.hydro.data.motion import force_of_motion

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.hydro.vessel.memory_stability import growth_rate
 from seacrane.hydro.vessel.parameters import VesselParameters
-from seacrane.hydro.vessel.stability import growth_rate
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import NonPassiveMemoryWarning
 

@@ -1,0 +1,190 @@
+"""The limits that the scene has, and whether they held."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from seacrane.answers.blocks import note, verdict
+from seacrane.answers.section import Section
+from seacrane.result import Result
+from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
+
+OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judged:
+    """A limit, what was reached, and whether it held; None where nothing recorded tells it."""
+
+    name: str
+    kind: str
+    bound: str
+    reached: str
+    held: bool | None
+    words: str
+
+
+def judged_bounds(result: Result) -> list[Judged]:
+    """Every limit of a scene: wires, stops, seats, ranges, and links that may only pull."""
+    described = result.about.bounds
+    return [_judged(result, bound) for bound in described] + _links(result, described)
+
+
+def _judged(result: Result, bound: Mapping[str, Any]) -> Judged:
+    judge = {"wire": _contact, "seat": _contact, "stop": _stop, "soft stop": _bounded, "range": _bounded}
+    return judge[bound["kind"]](result, bound)
+
+
+def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
+    """A wire that is to stay taut, or a seat that is to stay pressed."""
+    wire, name = bound["kind"] == "wire", str(bound["name"])
+    closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
+    mine = [event for event in result.events if event.name == name]
+    count = sum(event.kind in ("release", "rebound") for event in mine)
+    starts_open = _force_at_start(result, name) == 0.0
+    fallen = sum(event.kind == "through" for event in mine)
+    words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
+    hardest = max((abs(event.impulse) for event in mine), default=0.0)
+    if hardest > 0.0:
+        words += f", hardest snatch {hardest:.3g} N s"
+    if fallen:
+        words += f", then through it {_often(fallen)}"
+    return Judged(
+        name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
+        reached=_forces(result, name), held=not count and not starts_open, words=words,
+    )  # fmt: skip
+
+
+def _often(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
+
+
+def _stop(result: Result, bound: Mapping[str, Any]) -> Judged:
+    base = _bounded(result, bound)
+    name = str(bound["name"])
+    hits = [
+        event
+        for event in result.events
+        if event.name.removesuffix(".minimum").removesuffix(".maximum") == name
+        and event.kind in ("contact", "rebound")
+    ]
+    words = (
+        f"hit {_often(len(hits))}, fastest {max(e.speed for e in hits):.3g} m/s or rad/s"
+        if hits
+        else "not hit"
+    )
+    return Judged(name=name, kind="stop", bound=base.bound, reached=base.reached, held=not hits, words=words)
+
+
+def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
+    """A coordinate that is to stay between two values."""
+    angular = bound["coordinate"] in ANGLES
+    factor, unit = shown_unit("rad" if angular else "m", [])
+    low, high = (None if bound[end] is None else factor * bound[end] + 0.0 for end in ("minimum", "maximum"))
+    limits = f"{'' if low is None else f'{low:.4g}'} to {'' if high is None else f'{high:.4g}'} {unit}"
+    values = _coordinate(result, bound["recorded"])
+    if values is None:
+        return Judged(
+            name=str(bound["name"]), kind=str(bound["kind"]), bound=limits, reached="", held=None,
+            words="coordinate not recorded",
+        )  # fmt: skip
+    least, most = (_settled(float(factor * value)) for value in (values.min(), values.max()))
+    beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
+    held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
+    words = f"held, {0.0 - beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
+    if held and beyond > 0.0:
+        words = f"held, overshot by {beyond:.1g} {unit}"
+    return Judged(
+        name=str(bound["name"]), kind=str(bound["kind"]), bound=limits,
+        reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words,
+    )  # fmt: skip
+
+
+def _settled(value: float) -> float:
+    """Zero where it is so up to rounding, m or deg."""
+    return 0.0 if abs(value) < NO_MOTION else value
+
+
+def _coordinate(result: Result, recorded: str | None) -> Any:
+    if recorded is None or "coordinate" not in result.channels:
+        return None
+    return _finite(result.select("coordinate", joint_coordinate=recorded))
+
+
+def _finite(values: Any) -> Any:
+    """Without what an interrupted run left open; None where nothing is left."""
+    kept = values[np.isfinite(values)]
+    return kept if kept.size else None
+
+
+def _force(result: Result, name: str) -> Any:
+    if "limit_force" not in result.channels or name not in result.coords["limit"]:
+        return None
+    return _finite(result.select("limit_force", limit=name))
+
+
+def _force_at_start(result: Result, name: str) -> float | None:
+    force = _force(result, name)
+    return None if force is None else float(force[0])
+
+
+def _forces(result: Result, name: str) -> str:
+    force = _force(result, name)
+    if force is None:
+        return ""
+    factor, unit = shown_unit("N", [force])
+    return f"{factor * force.min():.4g} to {factor * force.max():.4g} {unit}"
+
+
+def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judged]:
+    """Links that a payload hangs on and that are no wires: they are rods, and must not push."""
+    wired = {bound["joint"] for bound in described if bound["kind"] == "wire"}
+    cranes = result.about.cranes
+    names = [crane["link"] for crane in cranes if crane["link"] and crane["link"] not in wired]
+    found = []
+    for name in names:
+        if "tension" not in result.channels or name not in result.coords["link"]:
+            continue
+        tension = _finite(result.select("tension", link=name))
+        if tension is None:
+            continue
+        factor, unit = shown_unit("N", [tension])
+        least, most = float(factor * tension.min()), float(factor * tension.max())
+        pushed = tension.min() < -1e-9 * np.abs(tension).max()
+        words = "pushed: a wire would have gone slack" if pushed else "pulled throughout"
+        found.append(
+            Judged(
+                name=name,
+                kind="link",
+                bound="must pull",
+                reached=f"{least:.4g} to {most:.4g} {unit}",
+                held=not pushed,
+                words=words,
+            )
+        )
+    return found
+
+
+def _row(judged: Judged) -> str:
+    texts = (judged.name, judged.kind, judged.bound, judged.reached)
+    cells = "".join(f"<td>{escape(text)}</td>" for text in texts)
+    return f"<tr>{cells}<td>{verdict(judged.held, judged.words)}</td></tr>"
+
+
+def _html(result: Result) -> str:
+    head = "".join(f"<th>{name}</th>" for name in ("limit", "kind", "bound", "reached", "held?"))
+    rows = "\n".join(map(_row, judged_bounds(result)))
+    return f"<table><thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table>" + note(
+        "Reached values are those at the outputs. Capacities of structure and wire are limit states: see the "
+        "summary."
+    )
+
+
+LIMITS: Section[Result] = Section(
+    title="Limits", applies=lambda result: bool(judged_bounds(result)), html=_html
+)

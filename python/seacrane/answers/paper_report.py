@@ -1,0 +1,110 @@
+"""The paper's report: findings and figures of its five runs, then the numbers of case 2 and of all runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any
+
+from seacrane.answers.blocks import picture_block
+from seacrane.answers.checks import constraint_rows, counter_rows, energy_rows, side_by_side
+from seacrane.answers.measures import findings_of
+from seacrane.answers.provenance_section import settings_block, versions_block
+from seacrane.answers.report import Report
+from seacrane.answers.section import Section, compose
+from seacrane.inputs.frames import AXES_NOTE
+from seacrane.pictures.findings import Finding
+from seacrane.plotting.html import table
+from seacrane.plotting.panel import Picture
+from seacrane.result import Result
+
+SceneReport = Mapping[str, Sequence[tuple[str, Any]]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """Several runs that a report compares.
+
+    Attributes
+    ----------
+    title : str
+        Heading.
+    summary : sequence of str
+        What was computed, one paragraph each.
+    runs : mapping of str to Result
+        Runs by the names that heads of columns show.
+    pictures : sequence of Picture
+        Figures on disk; their images are embedded.
+    scene : mapping of str to sequence of (name, value)
+        What the compiled model holds, as ``scene.report()`` gives it.
+    findings : sequence of Finding
+        The paper's findings, measured.
+    """
+
+    title: str
+    runs: Mapping[str, Result]
+    summary: Sequence[str] = ()
+    pictures: Sequence[Picture] = ()
+    scene: SceneReport = field(default_factory=dict)
+    findings: Sequence[Finding] = ()
+
+
+def study_report(study: Study) -> Report:
+    """The page about several runs.
+
+    Raises
+    ------
+    OSError
+        If the image of a picture cannot be read.
+    """
+    paragraphs = [f"<p>{escape(text)}</p>" for text in (*study.summary, AXES_NOTE)]
+    paragraphs += [
+        f"<p><strong>Interrupted:</strong> run {escape(name)} ended at {run.time[-1]:g} s.</p>"
+        for name, run in study.runs.items()
+        if run.interrupted
+    ]
+    paragraphs += [
+        f"<p><strong>Out of range:</strong> run {escape(name)}: {escape(text)}.</p>"
+        for name, run in study.runs.items()
+        for text in findings_of(run)
+    ]
+    page = compose(title=study.title, lead="\n".join(paragraphs), sections=SECTIONS, subject=study)
+    return Report(title=study.title, html=page)
+
+
+def _findings(study: Study) -> str:
+    rows = [(item.finding, item.number, item.expected, item.verdict) for item in study.findings]
+    return table(("finding", "measured", "expected", "verdict"), rows)
+
+
+def _accuracy(study: Study) -> str:
+    return (
+        f"<h3>Worst constraint errors</h3>{side_by_side(study.runs, constraint_rows)}"
+        f"<h3>Energy balance</h3>{side_by_side(study.runs, energy_rows)}"
+    )
+
+
+def _scene(study: Study) -> str:
+    return "\n".join(
+        f"<h3>{escape(section)}</h3>{table(('item', 'value'), rows)}" for section, rows in study.scene.items()
+    )
+
+
+def _settings(study: Study) -> str:
+    return "\n".join(f"<h3>{escape(name)}</h3>{settings_block(run)}" for name, run in study.runs.items())
+
+
+SECTIONS: tuple[Section[Study], ...] = (
+    Section(title="Findings", applies=lambda study: bool(study.findings), html=_findings),
+    Section(
+        title="Figures",
+        applies=lambda study: bool(study.pictures),
+        html=lambda study: "\n".join(map(picture_block, study.pictures)),
+    ),
+    Section(title="Accuracy", applies=lambda _: True, html=_accuracy),
+    Section(title="Cost", applies=lambda _: True, html=lambda study: side_by_side(study.runs, counter_rows)),
+    Section(title="Scene", applies=lambda study: bool(study.scene), html=_scene),
+    Section(title="Settings", applies=lambda _: True, html=_settings),
+    Section(title="Versions", applies=lambda _: True, html=lambda _: versions_block()),
+)

@@ -1,1 +1,0 @@
-"""Cases times methods make rows, with errors against a reference: under trades, atlas and benchmarks."""

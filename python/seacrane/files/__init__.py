@@ -1,1 +1,0 @@
-"""Files read and written safely: whole, bounded, atomic."""

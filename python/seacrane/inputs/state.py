@@ -1,0 +1,223 @@
+"""State files: everything a run needs to continue, as plain numbers. Reading one runs no code.
+
+A file is the line "seacrane state", a line of JSON (the header), the arrays that the header lists as
+little-endian doubles, one after the other, and the SHA-256 of all before. No array is made before the counts
+in the header have been found to fill the file exactly.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import FileFormatError
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.shown import shown
+from seacrane.inputs.state_parts import require_parts
+
+Array = NDArray[np.float64]
+MAGIC = b"seacrane state\n"
+VERSION = 1
+DIGEST = hashlib.sha256().digest_size
+LARGEST_FILE = 2**30  # bytes: a million states take less
+LARGEST_HEADER = 2**22  # bytes
+_RECORD = ("start_energy", "start_work", "residual", "impact_loss")
+_ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
+_KINK = "kink"  # an array of states that have one
+
+
+class Compilable(Protocol):
+    """A `seacrane.Scene`, as far as a state needs one."""
+
+    def compile(self) -> _core.Model:
+        """The scene in the form that is stepped."""
+
+
+def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
+    """Write a state: complete under its name, or not at all.
+
+    Raises
+    ------
+    FileExistsError
+        If the name is that of another kind of file, such as a result.
+    OSError
+        If it cannot be written; an older file of that name stays.
+    """
+    path = Path(path)
+    if path.is_file() and path.stat().st_size and not _is_state(path):
+        raise FileExistsError(f"{path} is there and is not a state file; give another name")
+    with atomic_write(path) as draft:
+        draft.write_bytes(state_to_bytes(state))
+
+
+def _is_state(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def state_to_bytes(state: _core.State) -> bytes:
+    """The contents of a state file."""
+    steps, record = state.steps, state.record
+    arrays: dict[str, Any] = {
+        "time": [state.time],
+        "values": state.values,
+        "inputs": state.inputs,
+        "steps": steps.values,
+        "rate": steps.rate,
+        "record": [] if record is None else [getattr(record, name) for name in _RECORD],
+        "quaternions": [] if record is None else record.quaternions,
+    }
+    if steps.kink is not None:
+        arrays[_KINK] = [steps.kink]
+    for i, history in enumerate(state.histories):
+        arrays |= {
+            f"history {i} start": [history.start],
+            f"history {i} recent": history.recent,
+            f"history {i} quadrature": history.quadrature,
+        }
+    flat = {name: np.asarray(values, dtype="<f8").ravel() for name, values in arrays.items()}
+    header = {
+        "version": VERSION,
+        "formulation": steps.formulation,
+        "integrator": steps.integrator,
+        "parts": state.parts,
+        "closed": state.closed,
+        "intervals": [history.intervals for history in state.histories],
+        "arrays": [[name, values.size] for name, values in flat.items()],
+    }
+    body = b"".join(
+        [MAGIC, json.dumps(header).encode("ascii"), b"\n", *(values.tobytes() for values in flat.values())]
+    )
+    return body + hashlib.sha256(body).digest()
+
+
+def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None) -> _core.State:
+    """Read what `save_state` wrote, bit for bit.
+
+    Parameters
+    ----------
+    path : path-like
+    scene : Scene, optional
+        The scene that is to continue from it.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    FileFormatError
+        If it is not a state file, is truncated or damaged, is of a later version, or belongs to a scene of
+        other bodies, memory or inputs than `scene`.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise FileNotFoundError(f"no state file {path}")
+    size = path.stat().st_size
+    if size > LARGEST_FILE:
+        raise FileFormatError(f"{path}: has {size} bytes, a state file no more than {LARGEST_FILE}")
+    state = state_from_bytes(path.read_bytes(), path)
+    if scene is not None:
+        require_parts(path, state.parts, scene.compile())
+    return state
+
+
+def state_from_bytes(data: bytes, path: Path) -> _core.State:
+    """What `state_to_bytes` made, found in a file; raises FileFormatError."""
+    header, arrays = _checked(data, path)
+    try:
+        return _state(header, arrays)
+    except (KeyError, TypeError, ValueError) as error:
+        raise FileFormatError(f"{path}: is not a state: {error}; save the state again") from error
+
+
+def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
+    """Header and arrays of a state that is whole."""
+    if not data.startswith(MAGIC):
+        raise FileFormatError(f"{path}: is not a state file; give one that State.save wrote")
+    body, digest = memoryview(data)[:-DIGEST], data[-DIGEST:]
+    if hashlib.sha256(body).digest() != digest:
+        raise FileFormatError(
+            f"{path}: is truncated or damaged (its checksum does not fit); go on from an older state"
+        )
+    end = data.find(b"\n", len(MAGIC), len(MAGIC) + LARGEST_HEADER)
+    try:
+        header = json.loads(data[len(MAGIC) : end] if end > 0 else b"")
+        counts = _counts(header, len(body) - end - 1)
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
+        raise FileFormatError(f"{path}: has an unreadable header: {error}; save the state again") from error
+    arrays, at = {}, end + 1
+    for name, count in counts.items():
+        arrays[name] = np.frombuffer(body, "<f8", count, at).astype(np.float64)
+        at += 8 * count
+        if not np.isfinite(arrays[name]).all():
+            raise FileFormatError(
+                f"{path}: {shown(name)} holds a value that is not finite; save the state again"
+            )
+    return header, arrays
+
+
+def _counts(header: Any, room: int) -> dict[str, int]:
+    """Numbers in each array; ValueError unless they fill the room of so many bytes."""
+    if not isinstance(header, dict):
+        raise ValueError("it is not an object")
+    version = header["version"]
+    if version != VERSION:
+        raise ValueError(f"version {shown(version)}, and this seacrane reads version {VERSION}")
+    counts: dict[str, int] = {}
+    for name, count in header["arrays"]:
+        if not isinstance(name, str) or name in counts or type(count) is not int or not 0 <= count <= room:
+            raise ValueError(f"array {shown(name)} of {shown(count)} numbers does not fit the file")
+        counts[name] = count
+    if 8 * sum(counts.values()) != room:
+        raise ValueError(f"arrays of {sum(counts.values())} numbers do not fill the {room} bytes of the file")
+    return counts
+
+
+def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
+    intervals, parts = header["intervals"], header["parts"]
+    expected = {*_ARRAYS, *(f"history {i} {key}" for i in range(len(intervals))
+                            for key in ("start", "recent", "quadrature"))}  # fmt: skip
+    if set(arrays) - {_KINK} != expected:
+        raise ValueError(f"has arrays {shown(list(arrays))}")
+    if not all(type(n) is int and 0 <= n < 2**62 for n in intervals):
+        raise ValueError(f"intervals are {shown(intervals)}")
+    closed = header["closed"]
+    if not all(isinstance(text, str) for text in [*parts, *(closed or [])]):
+        raise ValueError("parts or closed limits are not texts")
+    record = None
+    if arrays["record"].size:
+        numbers = dict(zip(_RECORD, arrays["record"], strict=True))
+        record = _core.RecordHistory(quaternions=arrays["quaternions"], **numbers)
+    return _core.State(
+        time=_one(arrays["time"]),
+        values=arrays["values"],
+        inputs=arrays["inputs"],
+        histories=[
+            _core.TwistHistory(
+                start=_one(arrays[f"history {i} start"]),
+                intervals=count,
+                recent=arrays[f"history {i} recent"].reshape(3, 6),
+                quadrature=arrays[f"history {i} quadrature"].reshape(-1, 6),
+            )
+            for i, count in enumerate(intervals)
+        ],
+        steps=_core.StepHistory(
+            formulation=header["formulation"], integrator=header["integrator"],
+            values=arrays["steps"], rate=arrays["rate"],
+            kink=_one(arrays[_KINK]) if _KINK in arrays else None,
+        ),
+        closed=closed,
+        record=record,
+        parts=parts,
+    )  # fmt: skip
+
+
+def _one(values: Array) -> float:
+    (value,) = values
+    return float(value)

@@ -1,1 +1,0 @@
-"""What is installed, how it was built, and how fast it is here."""

@@ -1,0 +1,299 @@
+"""The tables of a document against the tables of the API: every key known, every value of its type."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.node import Node
+from seacrane.inputs.plain_data import plain_notes
+from seacrane.inputs.shown import shown
+from seacrane.lift.document import VERSION, Document
+from seacrane.lift.keys import Key
+from seacrane.lift.tables import CURVES, FROM, TABLES, Table
+from seacrane.lift.text_lines import Place
+from seacrane.lift.toml_text import toml_value
+from seacrane.renamed import LIFT_DEFAULTS, LIFT_KEYS, LIFT_TABLES, new_spelling
+from seacrane.warnings import RenamedKeysWarning
+
+LONGEST_NAME = 60  # characters of a name that is compared with those that are known
+SHIPPED = ("hull_115",)  # databases that come with the package, by their names
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One table of a file: its keys as they are spelled, and where it stands."""
+
+    table: Table
+    values: Mapping[str, Any]
+    path: Place = field(default=(), compare=False)
+
+    @property
+    def title(self) -> str:
+        """As the file has it, with its place among several."""
+        return titled(self.path)
+
+
+def titled(path: Place) -> str:
+    """A path of tables as a file has it."""
+    name = ".".join(str(part) for part in path if isinstance(part, str))
+    places = [part for part in path if isinstance(part, int)]
+    return f"[[{name}]] {places[-1] + 1}" if places and isinstance(path[-1], int) else f"[{name}]"
+
+
+def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
+    """All tables of a document, in the order in which they are added to a scene.
+
+    Paths of files become absolute, from `folder`.
+
+    Raises
+    ------
+    FileFormatError
+        With file, line, key and the nearest name.
+    """
+    document.require_version()
+    checker = Checker(document, folder, LIFT_KEYS)
+    known = ("format", "version", *TABLES)
+    for name in document.data:
+        if name not in known:
+            checker.require_older_table(name)
+    entries = tuple(entry for table in TABLES.values() for entry in _entries(checker, table))
+    checker.tell()
+    return entries
+
+
+def _entries(checker: Checker, table: Table) -> Iterable[Entry]:
+    """Of a table, and of those that were called otherwise."""
+    older = {old: more for old, (new, more) in LIFT_TABLES.items() if new == table.name}
+    names: dict[str, dict[str, Any]] = {table.name: {}, **older}
+    for name, more in names.items():
+        if name in checker.document.data:
+            for path, given in _given(checker.document, table, name):
+                yield Entry(table, checker.table(path, table.keys, given, more), path)
+
+
+def _given(document: Document, table: Table, name: str) -> Iterable[tuple[Place, Any]]:
+    """Each of the tables of a name, with its place."""
+    given = document.data[name]
+    if isinstance(given, Mapping):
+        yield (name,), given
+    elif table.several and isinstance(given, list):
+        yield from (((name, i), one) for i, one in enumerate(given))
+    else:
+        more = f", or [[{name}]] for each of several" if table.several else ", once"
+        document.fail((name,), f"{name} is {shown(given)}; write [{name}]{more}")
+
+
+@dataclass(frozen=True)
+class Checker:
+    """Tables of a document, checked key by key; paths of files are taken from a folder.
+
+    Attributes
+    ----------
+    document : Document
+    folder : Path
+    renamed : mapping
+        Keys that were called otherwise, by table.
+    older : dict
+        Those that were found, with what they are now.
+    """
+
+    document: Document
+    folder: Path
+    renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    older: dict[str, str] = field(default_factory=dict)
+
+    def require_older_table(self, name: str) -> None:
+        """Refuse a table that is none, and one of a file of now that was called so."""
+        if name not in LIFT_TABLES:
+            self.document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, tuple(TABLES))}")
+        table, more = LIFT_TABLES[name]
+        new = f"[{table}]" + "".join(f" with {key} = {toml_value(value)}" for key, value in more.items())
+        self._renamed((name,), f"[{name}]", new)
+
+    def tell(self) -> None:
+        """Warn once of all that was called otherwise."""
+        if self.older and not self.document.told:
+            listed = ", ".join(f"{old} is {new}" for old, new in self.older.items())
+            warn_caller(
+                f"{self.document.source}: is of before 0.3; since then {listed}. Change these and write "
+                f"version = {VERSION}",
+                RenamedKeysWarning,
+            )
+
+    def _renamed(self, path: Place, old: str, new: str) -> None:
+        if not self.document.older:
+            self.document.fail(path, f"{old} is {new} since 0.3")
+        self.older[old] = new
+
+    def table(
+        self, path: Place, keys: Iterable[Key], given: Any, more: Mapping[str, Any] = MappingProxyType({})
+    ) -> Mapping[str, Any]:
+        """The table with what it holds checked, and more keys that its old name says."""
+        if not isinstance(given, Mapping):
+            self.document.fail(path, f"{titled(path)} is {shown(given)}; give a table of keys and values")
+        keys = tuple(keys)
+        if any(key.type == "notes" for key in keys):
+            return self._notes(path, given)
+        spelled = {spelling: key for key in keys for spelling in key.spellings}
+        found: dict[str, Any] = dict(more)
+        name = ".".join(part for part in path if isinstance(part, str))
+        for spelling, value in given.items():
+            new = spelling if spelling in spelled else self._new_spelling(path, name, spelling, spelled)
+            if new in found:
+                self.document.fail((*path, spelling), f"{spelling} stands beside {new}; leave it out")
+            found[new] = self._value((*path, spelling), spelled[new], value)
+        if self.document.older:
+            found = LIFT_DEFAULTS.get(name, {}) | found
+        for key in keys:
+            self._once(path, key, found)
+        return MappingProxyType(found)
+
+    def _new_spelling(self, path: Place, table: str, spelling: str, known: Mapping[str, Key]) -> str:
+        """What an old key is called now; a FileFormatError for one that never was."""
+        new = new_spelling(self.renamed, table, spelling, known)
+        if new is None:
+            near = nearest(spelling, tuple(known))
+            self.document.fail((*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}")
+        self._renamed((*path, spelling), f"{spelling} of [{table}]", new)
+        return new
+
+    def _once(self, path: Place, key: Key, found: Mapping[str, Any]) -> None:
+        """One of a key's spellings where it is required, and no two of them."""
+        present = [spelling for spelling in key.spellings if spelling in found]
+        if len(present) > 1:
+            self.document.fail(
+                (*path, present[1]), f"{present[1]} stands beside {present[0]} in {titled(path)}; give one"
+            )
+        if key.required and not present:
+            self.document.fail(path, f"{titled(path)} has no {' or '.join(key.spellings)}; add it")
+
+    def _value(self, path: Place, key: Key, value: Any) -> Any:
+        if key.type == "table":
+            return self.table(path, key.keys, value)
+        if key.type == "tables":
+            listed = enumerate(self._list(path, value))
+            return tuple(self.table((*path, i), key.keys, one) for i, one in listed)
+        if key.type == "curve" and isinstance(value, Mapping | list):
+            return self._curve(path, value, of_speed=key.unit == "m/s")
+        node = self._node(path, value)
+        if key.type == "names":
+            items = value.items() if isinstance(value, Mapping) else node.fail("give a table of names")
+            return MappingProxyType({name: self._node((*path, name), one).text() for name, one in items})
+        return _checked(node, key, self.folder)
+
+    def _node(self, path: Place, value: Any) -> Node:
+        where = titled(path[:-1]) if path[:-1] else "the file"
+        return Node(value, f"{self.document.place(path)}: {short(str(path[-1]))} in {where}")
+
+    def _list(self, path: Place, value: Any) -> list[Any]:
+        if not isinstance(value, list):
+            self._node(path, value).fail("give a list of tables")
+        return value
+
+    def _curve(self, path: Place, value: Any, *, of_speed: bool) -> Any:
+        """One piece, or several with the time from which each after the first holds."""
+        if isinstance(value, Mapping):
+            return self._piece(path, value, first=True, of_speed=of_speed)
+        if not value:
+            self._node(path, value).fail("give a number or a table for each of its pieces")
+        return tuple(
+            self._piece((*path, i), one, first=i == 0, of_speed=of_speed) for i, one in enumerate(value)
+        )
+
+    def _piece(self, path: Place, value: Any, *, first: bool, of_speed: bool) -> Mapping[str, Any]:
+        kinds = tuple(kind for kind in CURVES if of_speed or kind != "gust")
+        kind = value.get("kind") if isinstance(value, Mapping) else None
+        if kind not in kinds:
+            self.document.fail(path, f"{titled(path)} has kind {shown(kind)}; give one of {', '.join(kinds)}")
+        word = Key(name="kind", type="text", choices=kinds, required=True)
+        return self.table(path, (word, *(() if first else (FROM,)), *CURVES[kind]), value)
+
+    def _notes(self, path: Place, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        try:
+            plain_notes(self.document.source, given)
+            return MappingProxyType(dict(given))
+        except SceneError as error:
+            self.document.fail(path, str(error))
+
+
+def _checked(node: Node, key: Key, folder: Path) -> Any:
+    """A value that is no table."""
+    match key.type:
+        case "text":
+            return _chosen(node, key)
+        case "number" | "curve":
+            return node.value if node.value in key.choices else _number(node, key)
+        case "whole":
+            return node.whole()
+        case "flag":
+            return node.flag()
+        case "array":
+            return _array(node, key)
+        case "texts":
+            return tuple(item.text() for item in node.items())
+        case "file":
+            return _file(node, folder)
+    raise TypeError(f"no lift file holds a {key.type}")
+
+
+def _number(node: Node, key: Key) -> float:
+    """Infinity too, where it stands for none or for deep water; TOML has a word for it."""
+    if node.value == float("inf") and key.name in ("mooring_period", "depth"):
+        return float("inf")
+    return node.number()
+
+
+def _chosen(node: Node, key: Key) -> str:
+    text = node.text()
+    if key.choices and text not in key.choices:
+        node.fail(nearest(text, key.choices))
+    return text
+
+
+def _array(node: Node, key: Key) -> Any:
+    """Of the shape that fits; lists become tuples, so that what is checked stays as it is."""
+    shapes = [shape for shape in key.shapes if _deep(node.value) == len(shape)] or key.shapes
+    array = node.array(shapes[0])
+    return _fixed(array.tolist())
+
+
+def _deep(value: Any) -> int:
+    return 1 + _deep(value[0]) if isinstance(value, list) and value else int(isinstance(value, list))
+
+
+def _fixed(value: Any) -> Any:
+    return tuple(map(_fixed, value)) if isinstance(value, list) else value
+
+
+def _file(node: Node, folder: Path) -> str:
+    """A path from the folder of the lift file, or the name of a database that comes with the package."""
+    text = node.text()
+    if not text or not text.isprintable():
+        node.fail("give the path of a file")
+    return text if text in SHIPPED else os.path.normpath(folder.absolute() / text)
+
+
+def nearest(name: str, known: tuple[str, ...]) -> str:
+    """What a message adds to an unknown name."""
+    near = difflib.get_close_matches(name[:LONGEST_NAME], known, n=1, cutoff=0.5)
+    return f"nearest: {near[0]}" if near else f"known are {', '.join(known)}"
+
+
+def plain(value: Any) -> Any:
+    """A checked value as new dicts and lists."""
+    if isinstance(value, Mapping):
+        return {key: plain(item) for key, item in value.items()}
+    return [plain(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def short(name: str) -> str:
+    """A name that a file gave, as messages show it."""
+    return name if name.isprintable() and len(name) <= LONGEST_NAME else shown(name)

@@ -1,0 +1,284 @@
+"""What the members of a study say so far: tables of numbers over seeds, or of the members themselves."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.ensembles.certainty import Certainty, known
+from seacrane.ensembles.ensemble import Ensemble
+from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.members import Value
+from seacrane.ensembles.study_folder import study_in
+from seacrane.ensembles.targets import EXTREMES, targets_of
+from seacrane.ensembles.variables import NOT_RUN
+from seacrane.errors import SceneError
+from seacrane.lift.study_file import StudyFile
+from seacrane.lift.study_run import FILE, MEMBERS
+from seacrane.plotting.text import text_table
+from seacrane.statistics.estimate import Estimate
+from seacrane.statistics.seeds import FEWEST, SeedExtremes, seed_extremes
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+MOST_ROWS = 60  # that are printed; files hold all
+MOST_FAILURES = 3  # that are told
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """What is kept under one name, for one combination of parameters.
+
+    Attributes
+    ----------
+    parameters : mapping
+        All but the seed.
+    failed : int
+        Seeds that failed: intervals would not hold for them.
+    values : ndarray, shape (k,)
+        Of the seeds, or of the one member; without those that failed or were not run.
+    sign : float
+        -1 for smallest values.
+    extremes : SeedExtremes or None
+        Of the values times the sign, where they are extremes of several seeds.
+    """
+
+    parameters: Mapping[str, Value]
+    values: Array
+    failed: int = 0
+    sign: float = 1.0
+    extremes: SeedExtremes | None = None
+
+    @property
+    def mean(self) -> float:
+        """Over the seeds."""
+        return float(self.values.mean()) if self.values.size else math.nan
+
+    @property
+    def scatter(self) -> float:
+        """Standard deviation over the seeds."""
+        return float(self.values.std(ddof=1)) if self.values.size > 1 else math.nan
+
+    def numbers(self, name: str) -> list[float]:
+        """Value, low and high end of "mpm" or "p90"."""
+        if self.extremes is None:
+            return [math.nan] * 3
+        found: Estimate = getattr(self.extremes.maximum, name)
+        ends = [math.nan] * 2 if self.failed else sorted([self.sign * found.low, self.sign * found.high])
+        return [self.sign * found.value, *ends]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """A table about what is kept under one name.
+
+    Attributes
+    ----------
+    name, unit, what : str
+        `what` is a sentence.
+    over_seeds : bool
+        Whether cells hold seeds.
+    exposure : float
+        s, of extremes.
+    cells : tuple of Cell
+    """
+
+    name: str
+    unit: str
+    what: str
+    over_seeds: bool
+    exposure: float
+    cells: tuple[Cell, ...]
+
+    @property
+    def extremes(self) -> bool:
+        """Whether it is of largest or smallest values over seeds."""
+        return any(cell.extremes is not None for cell in self.cells)
+
+    def head(self) -> list[str]:
+        """Column names with units."""
+        unit = f" [{self.unit}]"
+        numbers = ["seeds", f"mean{unit}", f"scatter{unit}"] if self.over_seeds else [f"value{unit}"]
+        names = ["most probable", "low", "high", "P90", "low", "high"] if self.extremes else []
+        return [*self.cells[0].parameters, *numbers, *(f"{name}{unit}" for name in names)]
+
+    def rows(self) -> Iterator[list[Any]]:
+        """Numbers and texts of every cell."""
+        for cell in self.cells:
+            row: list[Any] = list(cell.parameters.values())
+            row += [cell.values.size, cell.mean, cell.scatter] if self.over_seeds else [cell.mean]
+            yield row + [number for name in ("mpm", "p90") if self.extremes for number in cell.numbers(name)]
+
+    def __str__(self) -> str:
+        rows = [[_short(value) for value in row] for row in self.rows()]
+        more = len(rows) - MOST_ROWS
+        head = self.head()
+        lines = [f"{self.name}: {self.what}", text_table(head, rows[:MOST_ROWS], right=range(len(head)))]
+        if self.extremes:
+            lines.append(f"Maximum in {self.exposure:g} s by Gumbel's distribution, 95 % intervals.")
+        if self.over_seeds and any(cell.failed for cell in self.cells):
+            lines.append("Of seeds that did not fail; where some did, no interval holds for all.")
+        return "\n".join([*lines, *([f"and {more} rows more"] if more > 0 else [])])
+
+
+def _short(value: Any) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShownStudy:
+    """A study as far as it has been run.
+
+    Attributes
+    ----------
+    members, failed, not_run : int
+        How many there are; with `until` so far, and those not run may not be needed.
+    tables : tuple of Told
+    not_told : tuple of str
+        What is kept and is no single number.
+    failures : tuple of str
+        Why members failed, each reason once.
+    certainty : tuple of Certainty
+        Of the statistics that `until` names.
+    """
+
+    members: int
+    failed: int
+    not_run: int
+    tables: tuple[Told, ...]
+    not_told: tuple[str, ...]
+    failures: tuple[str, ...]
+    certainty: tuple[Certainty, ...]
+
+    def __str__(self) -> str:
+        counts = f"{self.members - self.not_run} of {self.members} members run, {self.failed} failed"
+        blocks = [counts, *(f"failed: {text}" for text in self.failures[:MOST_FAILURES])]
+        if self.not_told:
+            blocks.append(f"series, in the members alone: {', '.join(self.not_told)}")
+        told = [f"{one}, asked for +-{100.0 * one.asked:.2g} %" for one in self.certainty]
+        return "\n\n".join(["\n".join(blocks), *map(str, self.tables), *(["\n".join(told)] if told else [])])
+
+
+def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
+    """What is in the folder of a study.
+
+    Raises
+    ------
+    FileFormatError
+        If it is none, or damaged.
+    SceneError
+        If no member has been run.
+    """
+    path = Path(folder)
+    if not (path / FILE).is_file():
+        raise SceneError(f"{path} is no folder of a study; give the DIR of `seacrane study --out DIR`")
+    file, done = StudyFile.load(path / FILE), Ensemble.load(path / MEMBERS)
+    length = float(study_in(path / MEMBERS)["identity"]["t_end"])
+    failure = done.dataset.failure.to_numpy()
+    left = int((failure == "not run").sum())
+    if left == failure.size:
+        raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
+    scalar = [name for name in file.keep if name in done.dataset and _single(done.dataset[name], done)]
+    return ShownStudy(
+        members=failure.size,
+        failed=len(done.failures),
+        not_run=left,
+        tables=tuple(_told(name, file, done, length) for name in scalar),
+        not_told=tuple(name for name in file.keep if name not in scalar),
+        failures=tuple(dict.fromkeys(done.failures.values())),
+        certainty=tuple(_certainty(file, done)),
+    )
+
+
+def _certainty(file: StudyFile, done: Ensemble) -> Iterator[Certainty]:
+    """How narrowly the statistics of `until` are known so far."""
+    for target in targets_of(file.until, file.keep) if file.until else ():
+        if target.variable not in done.dataset:
+            continue
+        lost = _cells(_failed(done), done)
+        statics = iter(()) if target.static is None else _cells(done.dataset[target.static], done)
+        for parameters, values in _cells(done.dataset[target.variable], done):
+            static = next(statics, ({}, np.zeros(1)))[1]
+            failed = next(lost)[1].size
+            if values.size or failed:
+                yield known(target, values, failed, static=_mean(static), parameters=parameters)
+
+
+def _failed(done: Ensemble) -> xarray.DataArray:
+    """One where a member failed, not a number elsewhere."""
+    failure: xarray.DataArray = done.dataset.failure
+    told = failure.to_numpy()
+    return failure.copy(data=np.where((told == "") | (told == NOT_RUN), np.nan, 1.0))
+
+
+def _mean(values: Array) -> float:
+    return float(values.mean()) if values.size else 0.0
+
+
+def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
+    return set(map(str, variable.dims)) == set(done.members.shape)
+
+
+def _told(name: str, file: StudyFile, done: Ensemble, length: float) -> Told:
+    what = file.keep[name]
+    variable = done.dataset[name]
+    seeds = "seed" in variable.dims
+    span = length - what.after
+    exposure = span if file.exposure is None else file.exposure
+    several = seeds and what.what in EXTREMES
+    cells = tuple(
+        Cell(
+            parameters=parameters,
+            values=values,
+            failed=lost.size,
+            sign=-1.0 if what.what == "minimum" else 1.0,
+            extremes=_extremes(what, values, span, exposure) if several else None,
+        )
+        for (parameters, values), (_, lost) in zip(
+            _cells(variable, done), _cells(_failed(done), done), strict=True
+        )
+    )
+    about = str(variable.attrs.get("long_name", what.channel))
+    at = ", ".join(what.names.values())
+    return Told(
+        name=name, unit=str(variable.attrs.get("units", "-")), what=f"{about}{f' ({at})' if at else ''}",
+        over_seeds=seeds, exposure=exposure, cells=cells,
+    )  # fmt: skip
+
+
+def _cells(variable: xarray.DataArray, done: Ensemble) -> Iterator[tuple[dict[str, Value], Array]]:
+    """Parameters and values over seeds of every combination."""
+    if not done.members.grid:
+        for index, value in enumerate(variable.to_numpy()):
+            yield done.parameters(index), _finite(np.array([value]))
+        return
+    axes = {name: values for name, values in done.members.axes.items() if name != "seed"}
+    order = [*axes, *(["seed"] if "seed" in variable.dims else [])]
+    values = variable.transpose(*order).to_numpy().reshape(math.prod(map(len, axes.values())), -1)
+    for combination, row in zip(itertools.product(*axes.values()), values, strict=True):
+        yield dict(zip(axes, combination, strict=True)), _finite(row)
+
+
+def _finite(values: Array) -> Array:
+    return values[np.isfinite(values)]
+
+
+def _extremes(what: Kept, values: Array, span: float, exposure: float) -> SeedExtremes | None:
+    """Of largest values, or of smallest ones with their sign changed; None for too few."""
+    if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
+        return None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        sign = -1.0 if what.what == "minimum" else 1.0
+        return seed_extremes(sign * values, duration=span, exposure=exposure, name=what.channel)

@@ -1,0 +1,263 @@
+"""A drawing as an animated glTF model: a node for each body, wheel and wire."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.pictures.drawing import Drawing
+from seacrane.pictures.palette import WIRES, rgb
+from seacrane.pictures.pose_curves import quaternion_rate
+from seacrane.pictures.surfaces import Surface, surfaces_of, tube
+from seacrane.pictures.wheels import turns
+from seacrane.version import __version__
+
+Array = NDArray[np.float64]
+
+GENERATOR = '"generator":"seacrane '  # what the head of every model says
+UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # z up becomes glTF's y up; quaternion x, y, z, w
+SMALLEST = 1e-6  # m: shorter wires have no direction
+FLOAT, UNSIGNED = 5126, 5125
+VERTICES, INDICES = 34962, 34963
+TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+HEADER, CHUNK = struct.Struct("<4sII"), struct.Struct("<I4s")
+LARGEST = 2**32 - 2**20  # bytes: lengths have 32 bits
+
+
+def gltf_of(drawing: Drawing) -> bytes:
+    """The model as a .glb file.
+
+    Under one node, which turns z up into glTF's y up, every body is a node of its name at its centre of mass,
+    in the axes and metres of the result. Its animation is a cubic spline with the velocities of the run, from
+    0 s at the first output; `extras` of the scene tell the time of that. Wires and links are nodes that turn
+    and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
+    The sea is left out.
+
+    Raises
+    ------
+    SceneError
+        For a run too long for one file.
+    """
+    model = _Model(drawing)
+    model.bodies()
+    model.wheels()
+    model.wires()
+    try:
+        return model.glb.to_bytes()
+    except ValueError as error:
+        raise SceneError(f"view: the glTF model of {drawing.title!r} {error}; save a shorter run") from error
+
+
+class _Model:
+    """The document as it is made."""
+
+    def __init__(self, drawing: Drawing) -> None:
+        self.drawing, self.motion = drawing, drawing.motion
+        self.nodes: list[dict[str, Any]] = [
+            {"name": drawing.title, "rotation": UPRIGHT, "children": []},
+        ]
+        self.materials: dict[str, int] = {}
+        self.meshes: list[dict[str, Any]] = []
+        self.channels: list[dict[str, Any]] = []
+        self.samplers: list[dict[str, Any]] = []
+        self.glb = Glb(
+            {
+                "asset": {"version": "2.0", "generator": f"seacrane {__version__}"},
+                "scene": 0,
+                "scenes": [{"nodes": [0], "extras": {"start_s": self.motion.start}}],
+                "nodes": self.nodes,
+                "meshes": self.meshes,
+                "materials": [],
+            }
+        )
+        self.times = -1
+        if len(self.motion.times) > 1:
+            self.times = self.glb.add(self.motion.times - self.motion.start, bounds=True)
+            self.glb.document["animations"] = [
+                {"name": "run", "channels": self.channels, "samplers": self.samplers}
+            ]
+
+    def bodies(self) -> None:
+        """Every body with its shapes, at its centre of mass."""
+        motion, drawing = self.motion, self.drawing
+        rate = quaternion_rate(motion.quaternion, motion.angular_velocity)
+        for i, name in enumerate(motion.bodies):
+            mesh = self._mesh(name, surfaces_of(drawing.looks[name], i))
+            place, turn = motion.position[:, i], _xyzw(motion.quaternion[:, i])
+            node = self._node(name, mesh, translation=place[0], rotation=turn[0])
+            self.nodes[node]["extras"] = {"role": drawing.looks[name].role}
+            self._cubic(node, "translation", place, motion.velocity[:, i])
+            self._cubic(node, "rotation", turn, _xyzw(rate[:, i]))
+
+    def wheels(self) -> None:
+        """Sheaves and drums, below the nodes of their bodies."""
+        for wheel in self.drawing.wheels:
+            number, *centre = wheel.at
+            mesh = self._mesh(wheel.name, surfaces_of(wheel.look, 0))
+            node = self._node(wheel.name, mesh, below=1 + int(number), translation=np.array(centre))
+            if wheel.angle is not None:
+                turn = _xyzw(turns(wheel.axis, wheel.angle))
+                self.nodes[node]["rotation"] = turn[0].tolist()
+                self._sampler(node, "rotation", turn, "LINEAR")
+
+    def wires(self) -> None:
+        """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
+        drawing, motion = self.drawing, self.motion
+        for wire in drawing.wires:
+            vertices, faces = tube(np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.radius_of(wire), 8)
+            bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
+            start, end = drawing.ends_of(wire, motion.position, motion.quaternion)
+            length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
+            turn = _from_z((end - start) / length[:, None])
+            there = np.where(drawing.absent(wire, motion.times), SMALLEST, 1.0)
+            scale = np.column_stack([there, there, there * length])
+            node = self._node(
+                wire["name"], self._mesh(wire["name"], [bar]), translation=start[0], rotation=turn[0],
+                scale=scale[0],
+            )  # fmt: skip
+            for path, values in (("translation", start), ("rotation", turn), ("scale", scale)):
+                self._sampler(node, path, values, "LINEAR")
+
+    def _node(self, name: str, mesh: int, *, below: int = 0, **pose: Array) -> int:
+        self.nodes[below].setdefault("children", []).append(len(self.nodes))
+        self.nodes.append({"name": name, "mesh": mesh} | {key: value.tolist() for key, value in pose.items()})
+        return len(self.nodes) - 1
+
+    def _mesh(self, name: str, surfaces: Sequence[Surface]) -> int:
+        """Without normals: faces are then flat."""
+        primitives = [
+            {
+                "attributes": {"POSITION": self.glb.add(one.vertices, target=VERTICES, bounds=True)},
+                "indices": self.glb.add(np.ravel(one.faces), target=INDICES),
+                "material": self._material(one.colour),
+            }
+            for one in map(_used, surfaces)
+        ]
+        self.meshes.append({"name": name, "primitives": primitives})
+        return len(self.meshes) - 1
+
+    def _material(self, colour: str) -> int:
+        if colour not in self.materials:
+            self.materials[colour] = len(self.materials)
+            paint = {"baseColorFactor": [*map(_linear, rgb(colour)), 1.0], "metallicFactor": 0.0,
+                     "roughnessFactor": 0.8}  # fmt: skip
+            self.glb.document["materials"].append(
+                {"name": colour, "pbrMetallicRoughness": paint, "doubleSided": True}
+            )
+        return self.materials[colour]
+
+    def _cubic(self, node: int, path: str, values: Array, rates: Array) -> None:
+        """Tangent, value, tangent at each time: the Hermite curves of the page."""
+        knots = np.stack([rates, values, rates], axis=1).reshape(-1, values.shape[1])
+        self._sampler(node, path, knots, "CUBICSPLINE")
+
+    def _sampler(self, node: int, path: str, values: Array, interpolation: str) -> None:
+        if self.times < 0:
+            return
+        self.channels.append({"sampler": len(self.samplers), "target": {"node": node, "path": path}})
+        self.samplers.append(
+            {"input": self.times, "output": self.glb.add(values), "interpolation": interpolation}
+        )
+
+
+def _used(surface: Surface) -> Surface:
+    """Without vertices of other surfaces."""
+    kept, faces = np.unique(surface.faces, return_inverse=True)
+    return Surface(vertices=surface.vertices[kept], faces=faces.reshape(-1, 3), colour=surface.colour)
+
+
+def _xyzw(quaternion: Array) -> Array:
+    return np.roll(quaternion, -1, axis=-1)
+
+
+def _linear(value: float) -> float:
+    """Of sRGB."""
+    return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 6)
+
+
+def _from_z(direction: Array) -> Array:
+    """Quaternions (n, 4), x y z w, that turn z into unit vectors (n, 3).
+
+    The shortest way to the first of them, and from there the shortest: no jump unless a wire turns round.
+    """
+    first = _shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0]
+    turn = _product(_shortest(direction[0], direction), first)
+    flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)
+    return np.asarray(turn * np.cumprod(np.concatenate([[1.0], flips]))[:, None])
+
+
+def _shortest(start: Array, ends: Array) -> Array:
+    """Quaternions that turn a unit vector (3,) into others (n, 3)."""
+    half = np.column_stack([np.cross(start, ends), 1.0 + ends @ start])
+    across = np.cross(start, np.eye(3)[int(np.argmin(np.abs(start)))])
+    half[np.linalg.norm(half, axis=1) < 1e-6] = (*across, 0.0)
+    return np.asarray(half / np.linalg.norm(half, axis=1, keepdims=True))
+
+
+def _product(p: Array, q: Array) -> Array:
+    """Of quaternions (n, 4) with one (4,), which turns first."""
+    v, w = p[:, :3], p[:, 3:]
+    vector = w * q[:3] + q[3] * v + np.cross(v, q[:3])
+    return np.column_stack([vector, w[:, 0] * q[3] - v @ q[:3]])
+
+
+@dataclass
+class Glb:
+    """A document that grows: it holds lists of glTF, and `add` stores numbers and gives their accessor."""
+
+    document: dict[str, Any]
+    parts: list[bytes] = field(default_factory=list)
+    size: int = 0
+
+    def add(self, values: Any, *, target: int | None = None, bounds: bool = False) -> int:
+        """Numbers (n,) or (n, 3 or 4) in single precision, or as indices if they are whole.
+
+        Parameters
+        ----------
+        values : array_like
+        target : int, optional
+            VERTICES or INDICES.
+        bounds : bool
+            Whether to tell the lowest and highest, as glTF demands of positions and times.
+        """
+        array = np.asarray(values)
+        whole = array.dtype.kind in "iu"
+        array = array.astype("<u4" if whole else "<f4")
+        data = array.tobytes()
+        view = {"buffer": 0, "byteOffset": self.size, "byteLength": len(data)}
+        self._list("bufferViews").append(view | ({} if target is None else {"target": target}))
+        accessor = {
+            "bufferView": len(self._list("bufferViews")) - 1,
+            "componentType": UNSIGNED if whole else FLOAT,
+            "count": len(array),
+            "type": TYPES[1 if array.ndim == 1 else array.shape[1]],
+        }
+        if bounds:
+            rows = array.reshape(len(array), -1)
+            accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+        self._list("accessors").append(accessor)
+        self.parts.append(data)
+        self.size += len(data)
+        return len(self._list("accessors")) - 1
+
+    def _list(self, key: str) -> list[Any]:
+        found: list[Any] = self.document.setdefault(key, [])
+        return found
+
+    def to_bytes(self) -> bytes:
+        """The file; ValueError where it would be too large for the format."""
+        document = self.document | {"buffers": [{"byteLength": self.size}]}
+        text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode("ascii")
+        text += b" " * (-len(text) % 4)
+        total = HEADER.size + 2 * CHUNK.size + len(text) + self.size
+        if total > LARGEST:
+            raise ValueError(f"takes {total} bytes, above {LARGEST}")
+        chunks = [CHUNK.pack(len(text), b"JSON"), text, CHUNK.pack(self.size, b"BIN\0"), *self.parts]
+        return b"".join([HEADER.pack(b"glTF", 2, total), *chunks])

@@ -1,0 +1,105 @@
+"""What the page says in words: which scene, which run, how accurate, what is drawn and what is made up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from seacrane.description.description import Description
+from seacrane.description.file import scene_digest
+from seacrane.pictures.drawn_bodies import Look
+from seacrane.pictures.page_sea import sea_words
+from seacrane.pictures.pose_curves import Motion
+from seacrane.result import Result
+from seacrane.result.kept_scene import NOT_KEPT
+
+AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
+ESTIMATE = "error_estimate_"
+
+
+def caption(
+    scene: Description, result: Result | None, motion: Motion, looks: Mapping[str, Look]
+) -> list[tuple[str, str]]:
+    """Rows of what and its words; rows without words are left out."""
+    rows = [
+        ("scene hash", scene_digest(scene)[:12]),
+        ("left out", _left_out(result)),
+        ("sea", sea_words(scene)),
+    ]
+    seed = None if scene.waves is None else scene.waves.provenance.seed
+    rows += [("seed", str(seed))] if seed is not None else []
+    rows += _run_rows(result, motion) if result is not None else [("run", "none: the scene at its start")]
+    rows += [("axes", AXES), ("drawn", _drawn(looks))]
+    return [(what, words) for what, words in rows if words]
+
+
+def _left_out(result: Result | None) -> str:
+    """What of the scene its file does not hold."""
+    return "" if result is None or result.scene is None else str(result.stats.get(NOT_KEPT, ""))
+
+
+def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:
+    distance, angle = motion.error
+    stopped = ", interrupted" if result.interrupted else ""
+    return [
+        (
+            "run",
+            f"{motion.start:g} to {motion.end:g} s{stopped}, seacrane {result.stats['seacrane_version']}",
+        ),
+        ("method", _method(result)),
+        ("accuracy", _accuracy(result)),
+        ("energy balance", _energy(result)),
+        (
+            "shown",
+            f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm "
+            f"and {np.degrees(angle):.2g} deg of the run",
+        ),
+    ]
+
+
+def _method(result: Result) -> str:
+    settings = result.settings
+    words = [str(result.stats["integrator"]), str(result.stats["formulation"])]
+    for key, name, unit in (("rtol", "tolerance", ""), ("dt", "step", " s")):
+        if settings.get(key) is not None:
+            words.append(f"{name} {settings[key]:g}{unit}")
+    return ", ".join(words)
+
+
+def _accuracy(result: Result) -> str:
+    """Estimated errors by quantity, and the joints' residual."""
+    words = [
+        f"{name.removeprefix(ESTIMATE).replace('_', ' ')}: estimated error {float(value):.2g}"
+        for name, value in result.stats.items()
+        if name.startswith(ESTIMATE) and not isinstance(value, str)
+    ]
+    if "constraint_error" in result.channels and int(result.stats["constraints"]) > 0:
+        words.append(f"joints closed to {_largest(result, 'constraint_error'):.2g} m or rad")
+    return ", ".join(words)
+
+
+def _energy(result: Result) -> str:
+    if not {"energy_balance", "absolute_work"} <= set(result.channels):
+        return ""
+    balance, work = _largest(result, "energy_balance"), _largest(result, "absolute_work")
+    share = f", {balance / work:.2g} of the absolute work {work:.3g} J" if work > 0.0 else ""
+    return f"closes to {balance:.2g} J{share}"
+
+
+def _largest(result: Result, channel: str) -> float:
+    values = np.abs(result[channel])
+    return float(values[np.isfinite(values)].max(initial=0.0))
+
+
+def _drawn(looks: Mapping[str, Look]) -> str:
+    """Which shapes stand for something, by what they are."""
+    by_note: dict[str, list[str]] = {}
+    for name, look in looks.items():
+        if look.note:
+            by_note.setdefault(look.note, []).append(name)
+    return "; ".join(f"{_few(names)}: {note}" for note, names in by_note.items())
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")

@@ -1,0 +1,277 @@
+"""What each body of a scene looks like, and what is said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane import Crane, KnuckleBoomCrane, load_crane, shipped_cranes
+from seacrane.crane.geometry import BODIES, plane_axes
+from seacrane.crane.mass_properties import MassProperties, Member, Tube, member_axes
+from seacrane.description import crane_parts
+from seacrane.description.description import Description
+from seacrane.description.given import USUAL_SIZE, floating_bodies, given_vessels, shown_size
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.description.loads import lines_of, path_of
+from seacrane.errors import SceneError
+from seacrane.hydro import Hull
+from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
+from seacrane.inputs.shown import shown
+from seacrane.pictures.hull_shapes import box_hull, hull_shape, schematic_hull
+from seacrane.pictures.shapes import (
+    BoxShape,
+    HullShape,
+    MeshShape,
+    Shape,
+    TubeShape,
+    distinct,
+    equivalent_box,
+    framework,
+)
+
+Array = NDArray[np.float64]
+
+SLENDER = 0.02  # radius of a generic body's tubes over its extent
+SMALLEST = 0.02  # edge of a box over the scene's extent
+SHIPPED = "hull_115"
+LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
+COLOURS = {
+    "tower": "tower",
+    "pedestal": "tower",
+    "main_barrel": "barrel",
+    "main_rod": "rod",
+    "knuckle_barrel": "barrel",
+    "knuckle_rod": "rod",
+    "barrel": "barrel",
+    "rod": "rod",
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Look:
+    """Of one body.
+
+    Attributes
+    ----------
+    role : str
+        "vessel", "payload", "crane" or "body".
+    shapes : list of Shape
+        Relative to the centre of mass, body axes, m.
+    note : str
+        What the shapes stand for, where they are no more than that.
+    """
+
+    role: str
+    shapes: list[Shape] = field(default_factory=list)
+    note: str = ""
+
+    @property
+    def points(self) -> Array:
+        """(n, 3), what the shapes reach."""
+        return np.concatenate([shape.points for shape in self.shapes])
+
+
+def looks(
+    scene: Description, *, hulls: Mapping[str, Hull] | None = None, crane: Crane | None = None
+) -> dict[str, Look]:
+    """The look of every body, by name.
+
+    Raises
+    ------
+    SceneError
+        For a hull that is none, or of a body that is no vessel.
+    """
+    floating = floating_bodies(scene)
+    given = _checked_hulls(hulls or {}, floating)
+    members = crane_shapes(scene, crane)
+    hanging = {*crane_parts.payloads(scene).values(), *_on_lines(scene, floating | members.keys())}
+    found: dict[str, Look] = {}
+    extent = _extent(scene)
+    meshed = {mesh.body for mesh in scene.meshes.values()}
+    of_cranes = crane_parts.crane_bodies(scene) if meshed else set()
+    for name in scene.bodies:
+        if name in meshed and name not in given:
+            role = "payload" if name in hanging else "crane" if name in of_cranes else "body"
+            found[name] = _by_meshes(scene, name, "vessel" if name in floating else role)
+        elif name in floating:
+            found[name] = _vessel(scene, name, given.get(name))
+        elif name in members:
+            found[name] = Look(role="crane", shapes=members[name])
+        else:
+            found[name] = _generic(scene, name, "payload" if name in hanging else "body", extent)
+    return found
+
+
+def _on_lines(scene: Description, holding: Set[str]) -> Iterator[str]:
+    """Of each elastic line the last body on its path that is none of those that hold lines."""
+    for line in lines_of(scene.loads).values():
+        free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
+        yield from free[-1:]
+
+
+def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, Hull]:
+    if not isinstance(hulls, Mapping):
+        raise SceneError(
+            f"view: hulls is {shown(hulls)}; give hulls by the vessel's body, such as {{'vessel': hull}}"
+        )
+    for name, hull in hulls.items():
+        if name not in floating:
+            known = ", ".join(map(repr, sorted(floating))) or "none"
+            raise SceneError(f"view: hulls names {shown(name)}; the vessels of the scene are {known}")
+        if not isinstance(hull, Hull):
+            raise SceneError(f"view: the hull of {name!r} is {shown(hull)}; give a seacrane.hydro.Hull")
+        if len(hull.panels) > LARGEST_HULL:
+            raise SceneError(
+                f"view: the hull of {name!r} has {len(hull.panels)} panels, above {LARGEST_HULL}; give "
+                "hull.remeshed(stations=60, girth=20)"
+            )
+    return dict(hulls)
+
+
+def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
+    body = scene.bodies[name]
+    centre = np.asarray(body.center_of_mass, dtype=float)
+    above = [point[2] for point in body_points(scene, name) if point[2] > 0.0]
+    deck = float(np.median(above)) if above else None
+    if hull is None and _is_shipped(scene, name):
+        hull = shipped_hull()
+    if hull is not None:
+        level = deck if deck is not None else 0.6 * hull.draught
+        note = f"hull {hull.name!r} below the water, straight sides above"
+        return Look(role="vessel", shapes=[hull_shape(hull, level, centre)], note=note)
+    if name in given_vessels(scene):
+        size = shown_size(scene, name)
+        note = "schematic hull, whose size nobody gave" if size == USUAL_SIZE else "schematic hull"
+        return Look(role="vessel", shapes=[box_hull(*size, deck, centre)], note=note)
+    shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
+    return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
+
+
+def _by_meshes(scene: Description, name: str, role: str) -> Look:
+    """The user's own triangles; of a vessel with the still waterline."""
+    centre = np.asarray(scene.bodies[name].center_of_mass, dtype=float)
+    shapes: list[Shape] = []
+    for mesh in scene.meshes.values():
+        if mesh.body == name:
+            points = mesh.vertices - centre
+            shapes.append(
+                HullShape(vertices=points, faces=mesh.faces, waterline=-float(centre[2]))
+                if role == "vessel"
+                else MeshShape(vertices=points, faces=mesh.faces, colour=_part(scene, name, role))
+            )
+    return Look(role=role, shapes=shapes)
+
+
+def _part(scene: Description, name: str, role: str) -> str:
+    """What a body of a crane is called without the crane's prefix, as far as that has a colour."""
+    names = [name.removeprefix(prefix) for prefix in scene.roles] if role == "crane" else []
+    return next((COLOURS[one] for one in names if one in COLOURS), "")
+
+
+def _is_shipped(scene: Description, name: str) -> bool:
+    """Whether the vessel comes from the shipped database by its record, and weighs what that displaces."""
+    known = scene.provenance.get(name)
+    if known is None or known.database != SHIPPED:
+        return False
+    return known.motion is not None or bool(np.isclose(scene.bodies[name].mass, 1025.0 * VOLUME, rtol=1e-6))
+
+
+def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
+    """Tubes between the points at which other bodies take hold of it; with fewer than two, a box."""
+    body = scene.bodies[name]
+    points = distinct([point - np.asarray(body.center_of_mass) for point in body_points(scene, name)])
+    span = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    if role != "payload" and len(points) > 1 and span > SMALLEST * extent:
+        tubes: list[Shape] = list(framework(points, SLENDER * span))
+        return Look(role=role, shapes=tubes, note="bars between its joints")
+    box = equivalent_box(body.mass, np.asarray(body.inertia))
+    size = np.maximum(box.size, SMALLEST * extent)
+    return Look(
+        role=role, shapes=[BoxShape(centre=box.centre, axes=box.axes, size=size)],
+        note="the uniform box with its mass and inertia",
+    )  # fmt: skip
+
+
+def body_points(scene: Description, name: str) -> list[Array]:
+    """Where joints, springs, cylinders and cranes take hold of a body, in its coordinates, m."""
+    points = []
+    for joint in scene.joints.values():
+        points += [joint.first_frame.point] if joint.first == name else []
+        points += [joint.second_frame.point] if joint.second == name else []
+    for spring in scene.springs.values():
+        points += [spring.first_point] if spring.first == name else []
+        points += [spring.second_point] if spring.second == name else []
+    for line in lines_of(scene.loads).values():
+        points += [point for body, point in path_of(line) if body == name]
+    for cylinder in hydraulic_cylinders(scene).values():
+        points += [cylinder.first_point] if cylinder.first == name else []
+        points += [cylinder.second_point] if cylinder.second == name else []
+    points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
+    return [np.asarray(point, dtype=float).reshape(3) for point in points]
+
+
+def _extent(scene: Description) -> float:
+    """How far the described bodies and their joints lie apart, m; 1 for a single point."""
+    points = [np.asarray(body.position).reshape(3) for body in scene.bodies.values()]
+    points += [
+        np.asarray(joint.first_frame.point).reshape(3) for joint in scene.joints.values()
+        if joint.first not in scene.bodies
+    ]  # fmt: skip
+    points += [np.asarray(scene.bodies[name].position).reshape(3) + point
+               for name in scene.bodies for point in body_points(scene, name)]  # fmt: skip
+    spread = float(np.ptp(np.array(points), axis=0).max()) if points else 0.0
+    return spread or 1.0
+
+
+def crane_shapes(scene: Description, crane: Crane | None) -> dict[str, list[Shape]]:
+    """Members of the bodies that are this crane's (default: those that come with seacrane) by their mass,
+    centre of mass and inertia, in every crane of the scene."""
+    if not scene.roles:
+        return {}
+    known = list(_known(crane))
+    shapes: dict[str, list[Shape]] = {}
+    for prefix in scene.roles:
+        for one, members in known:
+            for name, parts in members.items():
+                properties = one.mass_properties[name]
+                if _is(scene, prefix + name, properties):
+                    centre = properties.center_of_mass
+                    shapes[prefix + name] = [_shape(name, part, one, centre) for part in parts]
+    return shapes
+
+
+def _known(crane: Crane | None) -> Iterator[tuple[Crane, dict[str, tuple[Member, ...]]]]:
+    for one in [crane] if crane is not None else map(load_crane, shipped_cranes()):
+        if isinstance(one, KnuckleBoomCrane):
+            yield one, {name: one.data.members()[name] for name in BODIES}
+        else:
+            yield one, one.members()
+
+
+def _is(scene: Description, body: str, wanted: MassProperties) -> bool:
+    if body not in scene.bodies:
+        return False
+    there = scene.bodies[body]
+    pairs = [(getattr(there, key), getattr(wanted, key)) for key in ("mass", "center_of_mass", "inertia")]
+    return all(np.allclose(a, b, rtol=1e-9, atol=1e-9 * float(np.abs(b).max())) for a, b in pairs)
+
+
+def _shape(name: str, member: Member, crane: Crane, centre: Array) -> Shape:
+    """A member relative to the body's centre of mass, body axes."""
+    ends = [np.array(point) for point in (member.start, member.end)]
+    if isinstance(crane, KnuckleBoomCrane):
+        ends = [plane_axes(name) @ point for point in ends]
+    start, end = (point - centre for point in ends)
+    colour = COLOURS.get(name, "crane")
+    if isinstance(member, Tube):
+        return TubeShape(start=start, end=end, radius=0.5 * member.outer_diameter, colour=colour)
+    along = (end - start) / np.linalg.norm(end - start)
+    across = np.array([0.0, 1.0, 0.0])
+    if not isinstance(crane, KnuckleBoomCrane):
+        across = member_axes(member)[1]
+    size = np.array([float(np.linalg.norm(end - start)), member.width, member.depth])
+    axes = np.column_stack([along, across, np.cross(along, across)])
+    return BoxShape(centre=0.5 * (start + end), axes=axes, size=size, colour=colour)

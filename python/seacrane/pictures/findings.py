@@ -1,0 +1,211 @@
+"""The paper's findings as numbers, from the runs its figures show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.pictures.paper_figures import PaperRuns, motion_of, require_same_times
+from seacrane.result import MOTIONS, Result
+
+Array = NDArray[np.float64]
+
+OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0
+CLEAR_CHANGE = 0.1  # share of a motion's own size from which a change counts as clear
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """One finding of the paper, what our runs give for it, and whether they agree.
+
+    Attributes
+    ----------
+    finding : str
+        In our words.
+    number : str
+        What was measured, with units.
+    expected : str
+        The condition the verdict was taken from.
+    verdict : str
+        "reproduced", "not reproduced", or "measured" where the paper makes no statement to agree with.
+    """
+
+    finding: str
+    number: str
+    expected: str
+    verdict: str
+
+
+def _verdict(agrees: bool) -> str:
+    return "reproduced" if agrees else "not reproduced"
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def mean_after(result: Result, motion: str, start: float) -> float:
+    """Mean of a motion from `start` s on, m or degrees."""
+    late = result.time >= start
+    if not late.any():
+        raise ValueError(f"run {result.stats['scene']!r} ends at {result.time[-1]:g} s, before {start:g} s")
+    return float(np.mean(motion_of(result, motion)[late]))
+
+
+def slew_stop(result: Result, *, share: float = 0.99) -> float:
+    """Time from which the slew angle stays within 1 - `share` of its total change from its last value, s.
+
+    The controlled angle gives way to the ship's motion by hundredths of a degree: 1 % of a quarter turn is
+    above that ripple, 0.1 % is not.
+    """
+    angle = result["slew_angle"]
+    change = angle[-1] - angle[0]
+    outside = np.flatnonzero(np.abs(angle - angle[-1]) > (1 - share) * abs(change))
+    return float(result.time[min(outside[-1] + 1, angle.size - 1)]) if outside.size else float(result.time[0])
+
+
+def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> float:
+    """Amplitude of the component of one period, by least squares with a mean and a trend, from `start` s on.
+
+    Parameters
+    ----------
+    time, values : ndarray, shape (n,)
+        s, and any unit.
+    period, start : float
+        s; at least two periods must follow the start.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two periods follow the start.
+    """
+    late = time >= start
+    if not late.any() or time[-1] - time[late][0] < 2 * period:
+        raise ValueError(
+            f"less than two periods of {period:g} s follow {start:g} s in a run to {time[-1]:g} s"
+        )
+    t, phase = time[late] - start, 2 * np.pi * (time[late] - start) / period
+    columns = np.column_stack([np.cos(phase), np.sin(phase), np.ones_like(t), t])
+    cosine, sine, _, _ = np.linalg.lstsq(columns, values[late], rcond=None)[0]
+    return float(np.hypot(cosine, sine))
+
+
+def memory_effect(runs: PaperRuns) -> Finding:
+    """How much leaving memory out changes the vessel alone (figure 3)."""
+    changes = {}
+    for motion in MOTIONS:
+        with_memory = motion_of(runs.vessel, motion)
+        size = _rms(with_memory)
+        if size > 0:
+            changes[motion] = _rms(motion_of(runs.vessel_without_memory, motion) - with_memory) / size
+    return Finding(
+        finding="Fluid memory changes the vessel's response clearly",
+        number="rms change over rms: " + ", ".join(f"{m} {100 * c:.0f} %" for m, c in changes.items()),
+        expected=f"largest above {100 * CLEAR_CHANGE:.0f} %",
+        verdict=_verdict(max(changes.values(), default=0.0) > CLEAR_CHANGE),
+    )
+
+
+def memory_cost(runs: PaperRuns) -> Finding:
+    """What the memory states cost (the paper calls it significant)."""
+    ratio = {
+        name: float(runs.vessel.stats[name]) / float(runs.vessel_without_memory.stats[name])
+        for name in ("states", "evaluations", "wall_s")
+    }
+    return Finding(
+        finding="Leaving memory out is cheaper",
+        number=f"with over without memory: states x {ratio['states']:.2f}, "
+        f"evaluations x {ratio['evaluations']:.2f}, time on this machine x {ratio['wall_s']:.2f}",
+        expected="the paper says significantly slower with memory; no number",
+        verdict="measured",
+    )
+
+
+def roll_shows_most(before: Result, after: Result, what: str, where: str) -> Finding:
+    """Which rotation of the vessel an addition changes most."""
+    require_same_times(before, after)
+    change = {m: _rms(motion_of(after, m) - motion_of(before, m)) for m in ("roll", "pitch", "yaw")}
+    return Finding(
+        finding=f"{what} shows most in roll ({where})",
+        number="rms change " + ", ".join(f"{motion} {value:.3g} deg" for motion, value in change.items()),
+        expected="roll largest of the three rotations",
+        verdict=_verdict(change["roll"] == max(change.values()) > 0),
+    )
+
+
+def mean_heel(runs: PaperRuns) -> Finding:
+    """Mean heel after the swing-out, against the vessel alone."""
+    alone = mean_after(runs.vessel, "roll", OSCILLATION_START)
+    heel = [mean_after(run, "roll", OSCILLATION_START) - alone for run in (runs.case1, runs.case2)]
+    return Finding(
+        finding="The swing-out changes the mean heel, with payload more than without",
+        number=f"case 1 {heel[0]:+.3f} deg, case 2 {heel[1]:+.3f} deg, against the vessel alone",
+        expected="to port, case 2 beyond case 1",
+        # The crane moves out to port: port down is a negative roll about x forward.
+        verdict=_verdict(heel[1] < heel[0] < 0),
+    )
+
+
+def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
+    """Yaw rate of case 1 over the vessel alone, late in the slew and after it has stopped."""
+    require_same_times(runs.case1, runs.vessel)
+    time, stop = runs.case1.time, slew_stop(runs.case1)
+    rate = np.gradient(motion_of(runs.case1, "yaw") - motion_of(runs.vessel, "yaw"), time)
+    moving = float(np.mean(rate[(time >= 0.5 * stop) & (time <= 0.9 * stop)]))
+    stopped = float(np.mean(rate[(time >= stop) & (time <= 1.4 * stop)]))
+    return Finding(
+        finding="Yaw reacts when the slew stops",
+        number=f"mean yaw rate {moving:+.4f} deg/s late in the slew, {stopped:+.4f} deg/s after {stop:.1f} s",
+        expected="changes by more than half of its value when the slew stops",
+        verdict=_verdict(abs(stopped - moving) > 0.5 * max(abs(moving), abs(stopped)) > 0),
+    )
+
+
+def oscillation(runs: PaperRuns) -> Finding:
+    """The 5 s component that case 3 adds to case 1, in each motion."""
+    require_same_times(runs.case3, runs.case1)
+    added = {
+        motion: amplitude_at(
+            runs.case1.time,
+            motion_of(runs.case3, motion) - motion_of(runs.case1, motion),
+            period=OSCILLATION_PERIOD,
+            start=OSCILLATION_START,
+        )
+        for motion in MOTIONS
+    }
+    units = dict.fromkeys(MOTIONS[:3], "m") | dict.fromkeys(MOTIONS[3:], "deg")
+    clear = all(added[motion] > 0 for motion in ("sway", "heave", "roll"))
+    rotations = added["roll"] == max(added[motion] for motion in MOTIONS[3:])
+    return Finding(
+        finding="Case 3's 5 s oscillation shows in sway, roll and heave, hardly in surge",
+        number="5 s amplitude " + ", ".join(f"{m} {a:.2g} {units[m]}" for m, a in added.items()),
+        expected="surge below a quarter of sway; sway the largest translation, roll the largest rotation",
+        verdict=_verdict(
+            clear and rotations and added["surge"] < 0.25 * added["sway"] and added["sway"] > added["heave"]
+        ),
+    )
+
+
+FINDINGS: tuple[Callable[[PaperRuns], Finding], ...] = (
+    memory_effect,
+    memory_cost,
+    lambda runs: roll_shows_most(runs.vessel, runs.case1, "The crane", "figures 3 and 6"),
+    lambda runs: roll_shows_most(runs.case1, runs.case2, "The payload", "case 1 against 2"),
+    mean_heel,
+    yaw_at_slew_stop,
+    oscillation,
+)
+
+
+def paper_findings(runs: PaperRuns) -> list[Finding]:
+    """Every finding of the paper, measured on five runs of at least 60 s.
+
+    Raises
+    ------
+    ValueError
+        If the runs differ in output times, or end too early to judge.
+    """
+    return [measure(runs) for measure in FINDINGS]

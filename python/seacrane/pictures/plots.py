@@ -1,0 +1,295 @@
+"""One picture of a run by one call: histories, spectra, tracks, reactions; and the RAOs of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.analysis.frequency_domain import excitation_of, linear_of, motion_rao
+from seacrane.errors import SceneError
+from seacrane.inputs.frames import AXES_NOTE, MOTIONS
+from seacrane.pictures.overview import payload_bodies, resultants
+from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.renamed import refusing
+from seacrane.result import Result
+from seacrane.result.history import marks_of, panels_of, title_of, wanted_traces
+from seacrane.result.traces import Trace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seacrane.analysis.linear_system import LinearModel
+    from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+FEWEST_OUTPUTS = 64  # of a spectrum
+SEGMENTS = 8  # of a long record, half overlapping, that a spectrum is averaged over
+RESOLVED = 100.0  # s: shorter segments are not taken where the record is longer
+SHOWN = 0.999  # of the variance of every curve is drawn
+VIEWS = ((0, 1, "from above"), (0, 2, "from starboard"), (1, 2, "from ahead"))
+HEADINGS_DEG = (0.0, 45.0, 90.0, 135.0, 180.0)
+
+
+@refusing
+def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
+    """Draw the variance of channels over frequency, by averaged periodograms (Welch).
+
+    Parameters
+    ----------
+    result : Result
+        At least 64 outputs, evenly spaced.
+    *channels : str
+    after : float
+        Leave out what comes before, s.
+    **names : str
+        As of `Result.plot`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One-sided densities over omega: the area below a curve is the variance about the mean.
+
+    Raises
+    ------
+    SceneError
+        For a channel or name that the result does not hold, or a record that is too short or uneven.
+    """
+    return draw(spectrum_sheet(result, *channels, after=after, **names))
+
+
+def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: str) -> Sheet:
+    """The panels of `plot_spectrum` with their numbers."""
+    from scipy.signal import welch
+
+    found = wanted_traces(result, channels, names)
+    kept = _even_part(result, after)
+    step = float(result.time[kept][1] - result.time[kept][0])
+    count = kept.stop - kept.start
+    length = min(count, max(2 * count // (SEGMENTS + 1), round(RESOLVED / step), FEWEST_OUTPUTS))
+    spectra = {
+        (channel, one): welch(one.values[kept], 1.0 / step, nperseg=length)
+        for channel, every in found.items()
+        for one in every
+    }
+    omega = 2.0 * np.pi * next(iter(spectra.values()))[0]
+    last = _last_shown([density for _, density in spectra.values()])
+    omega = omega[:last]
+    panels = [
+        panel
+        for channel in found
+        for panel in panels_of(
+            f"S, {channel.replace('_', ' ')}",
+            [
+                Trace(
+                    channel=channel, names=one.names, unit=_squared(one.unit),
+                    values=density[:last] / (2.0 * np.pi),
+                )
+                for (of, one), (_, density) in spectra.items()
+                if of == channel
+            ],
+        )
+    ]  # fmt: skip
+    return Sheet(
+        title=f"{title_of(result)}: spectra from {result.time[kept][0]:g} s on",
+        caption="One-sided densities; the area below a curve is the variance about the mean.",
+        abscissa=omega, abscissa_name="omega", abscissa_unit="rad/s", panels=tuple(panels),
+        columns=2 if len(panels) > 3 else 1,
+    )  # fmt: skip
+
+
+def _last_shown(densities: Sequence[Array]) -> int:
+    """One past the frequency up to which every curve has shown nearly all of its variance."""
+    sums = [np.cumsum(density) for density in densities if density.sum() > 0.0]
+    most = max((int(np.searchsorted(one, SHOWN * one[-1])) for one in sums), default=densities[0].size)
+    return min(densities[0].size, most + 3 + most // 3)
+
+
+def _squared(unit: str) -> str:
+    return f"{unit}2 s/rad" if unit.isalpha() else f"({unit})2 s/rad"
+
+
+def _even_part(result: Result, after: float) -> slice:
+    """Outputs from a time on; without the last where it is early."""
+    first = int(np.searchsorted(result.time, after))
+    step = np.diff(result.time[first:])
+    last = result.time.size - int(step.size > 1 and abs(step[-1] - step[0]) > 1e-6 * step[0])
+    even = step[: last - first - 1]
+    if last - first < FEWEST_OUTPUTS or np.ptp(even) > 1e-6 * even[0]:
+        raise SceneError(
+            f"after is {after:g} s: a spectrum takes {FEWEST_OUTPUTS} evenly spaced outputs or more, and "
+            f"{max(last - first, 0)} follow; run longer, record more often, or start earlier"
+        )
+    return slice(first, last)
+
+
+def plot_track(result: Result, *bodies: str) -> Figure:
+    """Draw where centres of mass went, seen from above, from starboard and from ahead.
+
+    Parameters
+    ----------
+    result : Result
+        A run with `position`.
+    *bodies : str
+        Default: what hangs, or all bodies where nothing does.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A circle marks the start, a square the end; both axes of a view have the same scale.
+
+    Raises
+    ------
+    SceneError
+        For a body that is not in the result, or a result without `position`.
+    """
+    figure = draw_track(result, *bodies)
+    write_note(figure, AXES_NOTE)
+    return figure
+
+
+def draw_track(result: Result, *bodies: str) -> Figure:
+    """The figure of `plot_track` for a page that says its axes itself."""
+    if "position" not in result.channels:
+        raise SceneError("channel 'position' is not in this result; record it to draw tracks")
+    chosen = bodies or tuple(payload_bodies(result)) or result.coords["body"]
+    for body in chosen:
+        if body not in result.coords["body"]:
+            raise SceneError(
+                f"body {body!r} is not in this result; it holds {', '.join(result.coords['body'])}"
+            )
+    figure = new_figure(figsize=(12.0, 4.6), layout="constrained")
+    for cell, (across, up, view) in zip(figure.subplots(1, 3), VIEWS, strict=True):
+        for i, body in enumerate(chosen):
+            place, colour = result.select("position", body=body), COLOURS[i % len(COLOURS)]
+            x, y = place[:, across], place[:, up]
+            cell.plot(x, y, color=colour, linewidth=1.1, label=plain(body))
+            cell.plot(x[0], y[0], "o", color=colour, markersize=5, markerfacecolor="white")
+            cell.plot(x[-1], y[-1], "s", color=colour, markersize=6, markeredgecolor="black", zorder=4)
+        cell.set(xlabel=f"{'xyz'[across]} [m]", ylabel=f"{'xyz'[up]} [m]", title=view)
+        cell.set_aspect("equal", adjustable="datalim")
+        cell.title.set_fontsize(9)
+        cell.grid(True, linewidth=0.4, alpha=0.6)
+    handles = cell.get_legend_handles_labels()[0]
+    if len(handles) <= MOST_NAMED:
+        figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
+    figure.suptitle(plain(f"{title_of(result)}: tracks, circle at the start, square at the end"), fontsize=11)
+    return figure
+
+
+def plot_reactions(result: Result, *joints: str) -> Figure:
+    """Draw the size of joint forces and moments over time.
+
+    Parameters
+    ----------
+    result : Result
+        A run with `reaction_force`, and `reaction_moment` where it is drawn too.
+    *joints : str
+        Default: all.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    SceneError
+        For a joint that is not in the result, or a result without reactions.
+    """
+    return draw(reaction_sheet(result, *joints))
+
+
+def reaction_sheet(result: Result, *joints: str) -> Sheet:
+    """The panels of `plot_reactions` with their numbers."""
+    held = [name for name in ("reaction_force", "reaction_moment") if name in result.channels]
+    if not held:
+        raise SceneError("channel 'reaction_force' is not in this result; record it to draw reactions")
+    for joint in joints:
+        if joint not in result.coords["joint"]:
+            known = ", ".join(result.coords["joint"])
+            raise SceneError(f"joint {joint!r} is not in this result; it holds {known}")
+    panels = [
+        panel
+        for name in held
+        for panel in panels_of(
+            name.replace("_", " "),
+            [one for one in resultants(result, name) if not joints or one.names[0] in joints],
+        )
+    ]
+    return Sheet(
+        title=f"{title_of(result)}: reactions", caption="Sizes of what each joint exerts on its second body.",
+        abscissa=result.time, panels=tuple(panels), marks=marks_of(result), extremes=True,
+    )  # fmt: skip
+
+
+@refusing
+def plot_rao(
+    scene: Scene | LinearModel,
+    *,
+    body: str,
+    point: Any = (0.0, 0.0, 0.0),
+    headings_deg: Sequence[float] = HEADINGS_DEG,
+    omega: Any = None,
+) -> Figure:
+    """Draw the motion of a point of any body per metre of wave amplitude, over frequency.
+
+    ``database.plot("motion")`` draws those of the vessel alone. A ship at a forward speed comes as a
+    `linear_model` of its database.
+
+    Parameters
+    ----------
+    scene, body, point
+        As `motion_rao`.
+    headings_deg : sequence of float
+        Directions that the waves travel to, deg; 0 following.
+    omega : array_like, shape (n,), optional
+        rad/s; default: the database's.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    SceneError
+        As `motion_rao`.
+    """
+    return draw(rao_sheet(scene, body, point, headings_deg, omega))
+
+
+def rao_sheet(
+    scene: Scene | LinearModel,
+    body: str,
+    point: Any,
+    headings_deg: Sequence[float],
+    omega: Any,
+) -> Sheet:
+    """The panels of `plot_rao` with their numbers."""
+    linear = linear_of(scene, None)
+    database = excitation_of(linear, None)
+    frequency = np.asarray(database.omega if omega is None else omega, dtype=float)
+    heading = np.deg2rad(np.asarray(headings_deg, dtype=float))
+    motion = np.abs(motion_rao(linear, omega=frequency, heading=heading[:, None], body=body, point=point))
+    motion[..., 3:] = np.rad2deg(motion[..., 3:])
+    rotations = ("about x", "about y", "about z")
+    panels = tuple(
+        Panel(
+            quantity=name,
+            unit="m/m" if i < 3 else "deg/m",
+            lines=tuple(
+                Line(label=f"{angle:g} deg", values=motion[j, :, i], colour=j)
+                for j, angle in enumerate(headings_deg)
+            ),
+        )
+        for i, name in enumerate(("x", "y", "z", *rotations))
+    )
+    return Sheet(
+        title=f"Motion of {body} per metre of wave amplitude",
+        caption=f"Linear response about rest; {', '.join(MOTIONS)} of a body that heads along x. The angle "
+        "is the direction the waves travel to, 0 following.",
+        abscissa=frequency, abscissa_name="omega", abscissa_unit="rad/s", panels=panels, columns=2,
+        shaded=database.trusted_band,
+    )  # fmt: skip

@@ -1,0 +1,166 @@
+"""Poses of all bodies at even times, such that cubic curves between them follow the run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.pictures.packing import rounded
+from seacrane.result import Result
+
+Array = NDArray[np.float64]
+
+POSES = ("position", "quaternion", "velocity", "angular_velocity")
+STEPS = {"position": 1e-4, "quaternion": 1e-6, "velocity": 1e-3, "angular_velocity": 1e-5}  # m, 1, m/s, rad/s
+INTERVALS = (0.2, 0.1)  # s, coarse first
+LARGEST_ERROR = (0.01, 2e-3)  # m, rad: beyond these the finer interval is taken
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Motion:
+    """Poses and twists of bodies at even times.
+
+    Attributes
+    ----------
+    start, interval : float
+        s.
+    bodies : tuple of str
+    position, quaternion, velocity, angular_velocity : ndarray, shape (frames, bodies, 3 or 4)
+        Of centres of mass, as in a result, rounded to `STEPS`.
+    error : (float, float)
+        Largest distance (m) and angle (rad) between the curves and the run's outputs.
+    """
+
+    start: float
+    interval: float
+    bodies: tuple[str, ...]
+    position: Array
+    quaternion: Array
+    velocity: Array
+    angular_velocity: Array
+    error: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def times(self) -> Array:
+        """s, of the frames."""
+        return np.asarray(self.start + self.interval * np.arange(len(self.position)), dtype=np.float64)
+
+    @property
+    def end(self) -> float:
+        """s."""
+        return float(self.times[-1])
+
+    def at(self, times: Any) -> tuple[Array, Array]:
+        """Positions (n, bodies, 3), m, and unit quaternions (n, bodies, 4) at times within the run, s."""
+        return poses_between(
+            np.asarray(times, dtype=float), self.times, self.position, self.quaternion, self.velocity,
+            self.angular_velocity,
+        )  # fmt: skip
+
+
+def motion_of(result: Result) -> Motion:
+    """The motion of a result, at 5 Hz where that keeps to `LARGEST_ERROR`, else at 10 Hz; never more often
+    than it was recorded.
+
+    Raises
+    ------
+    SceneError
+        If the result holds no poses, or none that are finite.
+    """
+    missing = [name for name in POSES if name not in result.channels]
+    if missing:
+        raise SceneError(
+            f"view: result of {result.stats['scene']!r} does not hold {', '.join(missing)}; to be seen it "
+            f"needs {', '.join(POSES)}: leave channels= out of the run, or add these to it"
+        )
+    channels = {name: result[name] for name in POSES}
+    good = np.all([np.isfinite(array).all(axis=(1, 2)) for array in channels.values()], axis=0)
+    if not good.any():
+        raise SceneError(f"view: result of {result.stats['scene']!r} holds no pose that is finite")
+    time = result.time[good]
+    channels = {name: array[good] for name, array in channels.items()}
+    spacing = float(np.median(np.diff(time))) if len(time) > 1 else INTERVALS[0]
+    for interval in INTERVALS:
+        motion = _sampled(time, channels, result.coords["body"], max(interval, spacing))
+        if all(np.less_equal(motion.error, LARGEST_ERROR)):
+            break
+    return motion
+
+
+def _sampled(time: Array, channels: dict[str, Array], bodies: Sequence[str], interval: float) -> Motion:
+    """Frames about so far apart, from the first output to the last."""
+    span = float(time[-1] - time[0])
+    frames = max(1, round(span / interval)) + 1
+    step = span / (frames - 1) if span > 0.0 else interval
+    at = np.minimum(time[0] + step * np.arange(frames), time[-1])
+    position, quaternion = poses_between(at, time, *(channels[name] for name in POSES))
+    velocity, turning = (_linear(at, time, channels[name]) for name in POSES[2:])
+    motion = Motion(
+        start=float(time[0]), interval=step, bodies=tuple(bodies),
+        position=rounded(position, STEPS["position"]), quaternion=rounded(quaternion, STEPS["quaternion"]),
+        velocity=rounded(velocity, STEPS["velocity"]),
+        angular_velocity=rounded(turning, STEPS["angular_velocity"]),
+    )  # fmt: skip
+    return _with_error(motion, time, channels["position"], channels["quaternion"])
+
+
+def _with_error(motion: Motion, time: Array, position: Array, quaternion: Array) -> Motion:
+    found, turned = motion.at(np.minimum(time, motion.end))
+    distance = float(np.linalg.norm(found - position, axis=-1).max(initial=0.0))
+    chord = np.minimum(*(np.linalg.norm(turned - sign * quaternion, axis=-1) for sign in (1.0, -1.0)))
+    angle = float(4.0 * np.arcsin(np.clip(chord.max(initial=0.0) / 2.0, 0.0, 1.0)))
+    return replace(motion, error=(distance, angle))
+
+
+def poses_between(
+    times: Array, knots: Array, position: Array, quaternion: Array, velocity: Array, angular_velocity: Array
+) -> tuple[Array, Array]:
+    """Cubic Hermite curves through poses with their rates; quaternions component by component, made unit."""
+    rate = quaternion_rate(quaternion, angular_velocity)
+    where = hermite(times, knots, position, velocity)
+    turn = hermite(times, knots, quaternion, rate)
+    return where, turn / np.linalg.norm(turn, axis=-1, keepdims=True)
+
+
+def quaternion_rate(quaternion: Array, angular_velocity: Array) -> Array:
+    """(..., 4): half the product of (0, w) and q, with w in inertial axes."""
+    w, v = quaternion[..., :1], quaternion[..., 1:]
+    scalar = -np.sum(angular_velocity * v, axis=-1, keepdims=True)
+    vector = w * angular_velocity + np.cross(angular_velocity, v)
+    return np.asarray(0.5 * np.concatenate([scalar, vector], axis=-1))
+
+
+def hermite(times: Array, knots: Array, values: Array, rates: Array) -> Array:
+    """Values (n, ...) at times within the knots, from values and rates at the knots."""
+    if len(knots) == 1:
+        return np.repeat(values, len(times), axis=0)
+    i, u, h = _place(times, knots, values.ndim)
+    first = (1 + 2 * u) * (1 - u) ** 2 * values[i] + u * (1 - u) ** 2 * h * rates[i]
+    second = u**2 * (3 - 2 * u) * values[i + 1] + u**2 * (u - 1) * h * rates[i + 1]
+    return np.asarray(first + second)
+
+
+def _linear(times: Array, knots: Array, values: Array) -> Array:
+    if len(knots) == 1:
+        return np.repeat(values, len(times), axis=0)
+    i, u, _ = _place(times, knots, values.ndim)
+    return np.asarray((1 - u) * values[i] + u * values[i + 1])
+
+
+def _place(times: Array, knots: Array, axes: int) -> tuple[NDArray[np.intp], Array, Array]:
+    """Interval of each time, how far it is in it, and the interval's length, with that many axes."""
+    i = np.clip(np.searchsorted(knots, times, side="right") - 1, 0, len(knots) - 2)
+    h = knots[i + 1] - knots[i]
+    more = (slice(None), *(None,) * (axes - 1))
+    return i, ((times - knots[i]) / h)[more], h[more]
+
+
+def linear_rows(motion: Motion, time: Array, values: Array) -> Array:
+    """Any recorded values (n, ...) at the frames, as rows (k, frames), with what is not finite as zero."""
+    rows = np.nan_to_num(_linear(np.minimum(motion.times, time[-1]), time, values), posinf=0.0, neginf=0.0)
+    return np.asarray(rows.reshape(len(rows), -1).T)

@@ -1,0 +1,286 @@
+"""`view`: a result or a scene as a page in three dimensions; `View`, that page."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from seacrane.crane import Crane
+from seacrane.errors import SceneError
+from seacrane.hydro import Hull
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.checked import flag_of, number_of
+from seacrane.inputs.earlier import GENERATOR, check_replaceable
+from seacrane.inputs.shown import shown
+from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
+from seacrane.pictures.animated_gltf import gltf_of
+from seacrane.pictures.arrows import arrows_of
+from seacrane.pictures.caption import caption
+from seacrane.pictures.drawing import Drawing, drawing_of
+from seacrane.pictures.drawn_bodies import Look
+from seacrane.pictures.packing import Blob
+from seacrane.pictures.page_sea import sea_components, without_sea
+from seacrane.pictures.palette import HULL, SLACK, TRACKS, WIRES, body_colour
+from seacrane.pictures.pose_curves import STEPS, Motion
+from seacrane.pictures.shapes import HullShape, MeshShape
+from seacrane.pictures.strip import Choice, strip_of
+from seacrane.pictures.wheels import Wheel
+from seacrane.result import Result
+from seacrane.scene.scene import Scene
+
+SCENE_ALONE = 60.0  # s that the sea of a scene without a run is shown
+LOWEST, HIGHEST = 200, 4000  # pixels
+ANGLE_STEP = 1e-3  # rad, of a drum
+SLOT = re.compile(r"@@(\w+)@@")
+INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class View:
+    """A page that shows a scene or a result in three dimensions.
+
+    The last expression of a notebook cell shows it there; `save` writes it as a file that any browser opens
+    from disk, without network.
+
+    Attributes
+    ----------
+    title : str
+    html : str
+        The whole page.
+    motion : Motion
+        The poses that it shows.
+    drawing : Drawing
+        What it draws.
+    height : int
+        Of the frame in a notebook, pixels.
+    """
+
+    title: str
+    html: str
+    motion: Motion = field(compare=False)
+    drawing: Drawing = field(compare=False)
+    height: int = 640
+
+    def __repr__(self) -> str:
+        return f"<View of {self.title!r}: {len(self.html) / 1e6:.2f} MB>"
+
+    def _repr_html_(self) -> str:
+        frame = f"width:100%;height:{self.height}px;border:1px solid #c9d2d9"
+        return (
+            f'<iframe title="{escape(self.title)}" srcdoc="{escape(self.html)}" style="{frame}" '
+            'allow="fullscreen"></iframe>'
+        )
+
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
+        """Write the page: complete under its name, or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Target, such as "lift.html"; its folder must exist.
+        overwrite : bool, optional
+            By default an earlier page of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        FileExistsError
+            If there is a file of that name that is to stay.
+        OSError
+            If it cannot be written.
+        """
+        return _written(path, self.html.encode("utf-8"), overwrite, mark=GENERATOR)
+
+    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
+        """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
+
+        A node for each body, by its name, at its centre of mass; its animation is exact to what the page
+        shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.
+
+        Parameters
+        ----------
+        path : path
+            Target, such as "lift.glb"; its folder must exist.
+        overwrite : bool, optional
+            By default an earlier model of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        SceneError
+            For another ending than .glb, and for a run too long for one file.
+        FileExistsError
+            If there is a file of that name that is to stay.
+        OSError
+            If it cannot be written.
+        """
+        if Path(path).suffix.lower() != ".glb":
+            raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
+        return _written(path, gltf_of(self.drawing), overwrite, mark=GLTF_GENERATOR)
+
+
+def _written(path: str | os.PathLike[str], data: bytes, overwrite: bool | None, *, mark: str) -> Path:
+    """Complete under its name, or not at all."""
+    path = Path(path)
+    asked = None if overwrite is None else flag_of("overwrite", overwrite)
+    check_replaceable(path, asked, mark=mark)
+    with atomic_write(path) as draft:
+        draft.write_bytes(data)
+    return path
+
+
+def view(
+    what: Result | Scene,
+    *,
+    scene: Scene | None = None,
+    channels: Sequence[Choice] | None = None,
+    hulls: Mapping[str, Hull] | None = None,
+    crane: Crane | None = None,
+    height: int = 640,
+) -> View:
+    """Show a result, or a scene at its start, as an interactive page in three dimensions.
+
+    The page holds all that it needs: bodies, wires, forces, tracks, channels over time, and the sea, which it
+    sums from the wave components that load the vessels. Axes: x forward, y to port, z up.
+
+    Parameters
+    ----------
+    what : Result or Scene
+        Of a scene, bodies stand at their assembled start, in a moving sea.
+    scene : Scene, optional
+        That the result belongs to; needed for a result that holds none: a copy, a file of version 0.1.
+    channels : sequence, optional
+        What is drawn over time: names of channels, or tuples of a channel and names along its dimensions,
+        such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default:
+        tensions, roll and heave, and what else the result has of the usual; () for none.
+    hulls : mapping of str to Hull, optional
+        Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a
+        schematic one from mass and inertia, which the caption says.
+    crane : KnuckleBoomCrane or JointedCrane, optional
+        Whose members are drawn for bodies with the same mass and inertia; default: the cranes that come with
+        seacrane. Other bodies are drawn as bars between their joints, payloads as boxes.
+    height : int
+        Of the frame in a notebook, pixels.
+
+    Returns
+    -------
+    View
+        Shown by a notebook, saved by `View.save`.
+
+    Raises
+    ------
+    SceneError
+        For a result without poses, a scene that is missing or another one, a hull of no vessel, or a channel
+        that is not there.
+    """
+    size = round(number_of("view: height", height))
+    if not LOWEST <= size <= HIGHEST:
+        raise SceneError(f"view: height is {height}; give pixels from {LOWEST} to {HIGHEST}")
+    result = what if isinstance(what, Result) else None
+    drawing = drawing_of(what, scene=scene, hulls=hulls, crane=crane)
+    motion, shown_scene = drawing.motion, drawing.scene
+    blob = Blob()
+    data = {
+        "motion": _motion_data(motion, blob),
+        "least": SCENE_ALONE if result is None and shown_scene.waves is not None else 0.0,
+        "bodies": [_body_data(name, i, drawing.looks[name], blob) for i, name in enumerate(motion.bodies)],
+        "wheels": [_wheel_data(wheel, blob) for wheel in drawing.wheels],
+        "sea": None if without_sea(shown_scene) else blob.floats(sea_components(shown_scene)),
+        "wires": [wire | {"colours": [WIRES[wire["kind"]], SLACK]} for wire in drawing.wires],
+        "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
+        "arrows": arrows_of(shown_scene, result, motion, motion.bodies, blob),
+        "strip": strip_of(result, channels, motion, blob),
+    }
+    rows = caption(shown_scene, result, motion, drawing.looks)
+    html = page(title=drawing.title, caption=rows, data=data, blob=blob.text())
+    return View(title=drawing.title, html=html, motion=motion, drawing=drawing, height=size)
+
+
+def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
+    frames = len(motion.position)
+    rows = {name: getattr(motion, name).reshape(frames, -1).T for name in STEPS}
+    series = {name: blob.series(values, STEPS[name]) for name, values in rows.items()}
+    return {"start": motion.start, "interval": motion.interval, **series}
+
+
+def _mesh(shape: HullShape | MeshShape, blob: Blob) -> dict[str, Any]:
+    return {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
+
+
+def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]:
+    shapes = []
+    for shape in look.shapes:
+        if isinstance(shape, HullShape):
+            told = {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
+            shapes.append(told)
+            continue
+        told = {"kind": "mesh", **_mesh(shape, blob)} if isinstance(shape, MeshShape) else shape.data()
+        shapes.append(told | {"colour": body_colour(shape.colour, look.role, number)})
+    return {"name": name, "role": look.role, "shapes": shapes}
+
+
+def _wheel_data(wheel: Wheel, blob: Blob) -> dict[str, Any]:
+    told = _body_data(wheel.name, 0, wheel.look, blob)
+    angle = None if wheel.angle is None else blob.series(wheel.angle[None], ANGLE_STEP)
+    return told | {"at": wheel.at, "axis": [round(float(x), 6) for x in wheel.axis], "angle": angle}
+
+
+def page(*, title: str, caption: Sequence[tuple[str, str]], data: Mapping[str, Any], blob: str) -> str:
+    """One page with everything inside; all names in it appear as text.
+
+    Parameters
+    ----------
+    title : str
+    caption : sequence of (str, str)
+        Rows of what and its words.
+    data : mapping
+        Plain data for the script.
+    blob : str
+        Its arrays, base64.
+    """
+    rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(words)}</td></tr>" for what, words in caption)
+    filled = {
+        "title": escape(title),
+        "style": _asset("page.css"),
+        "caption": rows,
+        "data": json_text(data),
+        "blob": blob,
+        "script": script(),
+    }
+    return SLOT.sub(lambda slot: filled[slot[1]], _asset("page.html"))
+
+
+def json_text(data: Any) -> str:
+    """JSON that no HTML parser takes for markup, wherever it stands."""
+    text = json.dumps(data, allow_nan=False, separators=(",", ":"))
+    return re.sub("[<>&\u2028\u2029]", lambda found: INSIDE_SCRIPT[found[0]], text)
+
+
+def script() -> str:
+    """The bundle, with what would end its element escaped."""
+    return re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE).replace(
+        "<!--", "<\\!--"
+    )
+
+
+@cache
+def _asset(name: str) -> str:
+    return (files("seacrane") / "viewer" / "assets" / name).read_text(encoding="utf-8")

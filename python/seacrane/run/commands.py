@@ -1,0 +1,127 @@
+"""What a stage commands: curves of winches, lines, cylinders, actuators, drivers, changed from a time on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from seacrane import _core
+from seacrane.description.description import Some
+from seacrane.description.edit import replace_element
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.description.loads import lines_of
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import finite_of
+from seacrane.inputs.shown import shown
+from seacrane.run.move import Move
+from seacrane.scene.scene import Scene
+
+RATE_TIME = 1.0  # s, in which a rate, a force or a brake that is commanded by a number is reached
+JUMP = 1e-6  # m or rad, of a commanded place
+HOLE = "rupture_area"  # of a hose that a stage lets burst: no curve, it opens at once
+
+Command = Move | _core.Curve | float
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a command changes: an attribute of an element, and whether it is a place, which may not jump."""
+
+    kind: str
+    element: str
+    attribute: str
+    place: bool
+
+
+def targets(scene: Scene) -> dict[str, Target]:
+    """What may be commanded, by name; inputs of a run have the same names, but for tensions and brakes."""
+    found = {}
+    for name, line in lines_of(scene.loads).items():
+        attribute = "rate" if line.winch else "length"
+        found[f"{name}.{attribute}"] = Target("load", name, attribute, not line.winch)
+        if line.tension_gain > 0.0:
+            found[f"{name}.tension"] = Target("load", name, "tension", False)
+        if line.brake_capacity > 0.0:
+            found[f"{name}.brake"] = Target("load", name, "brake", False)
+    for name, cylinder in hydraulic_cylinders(scene).items():
+        if cylinder.rated_flow > 0.0:
+            found[f"{name}.command"] = Target("load", name, "command", False)
+        if cylinder.gain > 0.0:
+            found[f"{name}.reference"] = Target("load", name, "reference", True)
+        if cylinder.rupture_area == 0.0:
+            found[f"{name}.rupture"] = Target("load", name, HOLE, False)
+    for name in scene.actuators:
+        found[f"{name}.reference"] = Target("actuator", name, "reference", True)
+        found[f"{name}.force"] = Target("actuator", name, "feed_forward", False)
+    return found | {name: Target("driver", name, "curve", True) for name in scene.drivers}
+
+
+def check_command(what: str, name: str, value: object, known: Mapping[str, Target]) -> None:
+    """Raise SceneError for a command of what is not there, or one that is none."""
+    if name not in known:
+        raise SceneError(
+            f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}"
+        )
+    if isinstance(value, (Move, _core.Curve)):
+        if known[name].attribute == HOLE:
+            raise SceneError(f"{what}: command {name!r} is {shown(value)}; a hose bursts at once: give m2")
+        return
+    number = finite_of(f"{what}: command {name!r}", value)
+    if known[name].attribute == HOLE and not number > 0.0:
+        raise SceneError(f"{what}: command {name!r} is {number:g} m2; give the area of the hole, above zero")
+    if known[name].place:
+        raise SceneError(
+            f"{what}: command {name!r} is {shown(value)}, a place to go to in no stated time; give "
+            f"Move(to={number:g}, over=...) with its seconds, or a Curve"
+        )
+
+
+def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: float) -> Some:
+    """The scene with commands that begin at a time, s; the curves until then stay.
+
+    Raises
+    ------
+    SceneError
+        For a curve that does not begin where the command stands.
+    """
+    out = scene.copy()
+    known = targets(out)  # type: ignore[arg-type]
+    for name, value in commands.items():
+        target = known[name]
+        if target.attribute == HOLE:
+            burst = {"rupture_time": time, HOLE: float(value)}  # type: ignore[arg-type]
+            replace_element(out, target.element, kind=target.kind, **burst)
+            continue
+        old = present(out, target)
+        if isinstance(value, _core.Curve):
+            new = old.then(time=time, curve=_begun(value, time))
+            _check_start(what, name, target, old, new, time)
+        else:
+            move = value if isinstance(value, Move) else Move(to=value, over=RATE_TIME)
+            new = move.from_where_it_is(old, time)
+        replace_element(out, target.element, kind=target.kind, **{target.attribute: new})
+    return out
+
+
+def present(scene: Scene | Some, target: Target) -> _core.Curve:
+    """The curve that a command would change."""
+    tables = {"load": scene.loads, "actuator": scene.actuators, "driver": scene.drivers}
+    curve: _core.Curve = getattr(tables[target.kind][target.element], target.attribute)
+    return curve
+
+
+def _begun(curve: _core.Curve, time: float) -> _core.Curve:
+    """A curve of the stage's own clock, 0 where it begins, on the clock of the run."""
+    pieces = curve.to_pieces()
+    return _core.Curve.pieces(**pieces | {"starts": [start + time for start in pieces["starts"]]})
+
+
+def _check_start(
+    what: str, name: str, target: Target, old: _core.Curve, new: _core.Curve, time: float
+) -> None:
+    before, after = (float(curve.evaluate([time])[0, 0]) for curve in (old, new))
+    if target.place and abs(after - before) > JUMP:
+        raise SceneError(
+            f"{what}: command {name!r} begins at {after:.6g} where it stands at {before:.6g} (t = {time:.6g} "
+            "s): that is a jump. Begin the curve there, or give Move(to=..., over=...)"
+        )

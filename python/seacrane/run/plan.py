@@ -1,0 +1,164 @@
+"""The stages of a lift looked at together, before any of them is run."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any
+
+from seacrane import _core
+from seacrane.description.edit import replace_element
+from seacrane.description.loads import lines_of
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
+from seacrane.run.commands import HOLE, Command, check_command, commanded, targets
+from seacrane.run.connections import table_of, without
+from seacrane.run.move import Move
+from seacrane.run.stage import Stage
+from seacrane.run.unreachable import check_bounds, check_limits
+from seacrane.run.until import Contact, Level
+from seacrane.scene.scene import Scene
+
+LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
+
+
+def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
+    """The stages, which fit the scene and each other.
+
+    Raises
+    ------
+    SceneError
+        For names given twice, connections of what is there and releases of what is not, commands and
+        conditions of what is not there in their stage.
+    """
+    stages = tuple(given) if isinstance(given, Iterable) else (given,)
+    for one in stages:
+        if not isinstance(one, Stage):
+            raise SceneError(f"stages hold {shown(one)}; give a list of seacrane.Stage")
+    if not stages:
+        raise SceneError("stages: there are none; give at least one seacrane.Stage")
+    seen: set[str] = set()
+    absent, burst = waiting(stages), dict[str, str]()
+    for stage in stages:
+        try:
+            if stage.name in seen:
+                raise SceneError(f"{stage.title}: the name is used twice; names of stages must differ")
+            seen.add(stage.name)
+            _check(scene, stage, absent, burst)
+        except SceneError as error:
+            error.name = stage.name
+            raise
+    return stages
+
+
+def _check(scene: Scene, stage: Stage, absent: set[str], burst: dict[str, str]) -> None:
+    """A stage after those before it, which changes what is absent, and which hoses burst in which stage."""
+    _change(scene, stage, absent)
+    there = without(scene, absent)
+    known = targets(there)
+    for name, value in stage.commands.items():
+        check_command(stage.title, name, value, known)
+        if known[name].attribute == HOLE and burst.setdefault(name, stage.name) != stage.name:
+            raise SceneError(
+                f"{stage.title}: commands {name!r}, and that hose bursts in stage {burst[name]!r}; leave "
+                "one of them out"
+            )
+    check_limits(stage, there)
+    check_bounds(stage, there)
+    _check_names(stage, there)
+
+
+def waiting(stages: Sequence[Stage]) -> set[str]:
+    """What is absent at the start: what a stage connects before any releases it."""
+    released: set[str] = set()
+    out: set[str] = set()
+    for stage in stages:
+        released |= set(stage.release)
+        out |= set(stage.connect) - released
+    return out
+
+
+def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
+    """Carry out a stage's connections on the set of absent ones."""
+    for name in stage.release:
+        table_of(scene, f"{stage.title} releases", name)
+        if name in absent:
+            raise SceneError(f"{stage.title}: releases {name!r}, which is not connected then; leave it out")
+        absent.add(name)
+    for name in stage.connect:
+        table_of(scene, f"{stage.title} connects", name)
+        if name not in absent:
+            raise SceneError(
+                f"{stage.title}: connects {name!r}, which is connected already; release it before"
+            )
+        absent.discard(name)
+
+
+def _check_names(stage: Stage, there: Scene) -> None:
+    """Raise SceneError for conditions on what the scene of the stage does not have."""
+    known: dict[str, Collection[str]] = {
+        "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
+        "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
+        "point": there.points,
+    }  # fmt: skip
+    for condition in stage.conditions:
+        for dim, name in condition.names if isinstance(condition, Level) else ():
+            if dim in known and name not in known[dim]:
+                has = ", ".join(known[dim]) or "none"
+                raise SceneError(
+                    f"{stage.title}: waits for {dim} {name!r}, which is not there then; there are {has}"
+                )
+
+
+def planned_scene(
+    scene: Scene, stages: Sequence[Stage], first: str | None
+) -> tuple[tuple[Stage, ...], Scene, float]:
+    """The stages from the one named `first` on, the scene in which it begins, and when (s).
+
+    Stages before it count as carried out: connected, released, commanded, each as long as its duration or,
+    where conditions end it, as its moves; winches at the lengths, and seats as open, as conditions say. A
+    winch whose rate goes on from a stage before takes it up from rest.
+    """
+    names = [stage.name for stage in stages]
+    if first is None:
+        return tuple(stages), scene.copy(), 0.0
+    if first not in names:
+        raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
+    at = names.index(first)
+    out, time, absent = scene.copy(), 0.0, waiting(stages)
+    rates: dict[str, Command] = {}
+    for stage in stages[:at]:
+        _change(out, stage, absent)
+        known = targets(out)
+        rates |= {name: value for name, value in stage.commands.items() if known[name].attribute == "rate"}
+        places = {name: value for name, value in stage.commands.items() if name not in rates}
+        out = commanded(out, stage.title, places, time)
+        time += _planned_time(stage)
+        _pay_out(out, stage)
+        absent |= _lifted(out, stage)
+    gone = absent - waiting(stages[at:])
+    going_on = {name: value for name, value in rates.items() if name not in stages[at].commands}
+    out = commanded(out, stages[at].title, going_on, time)
+    return tuple(stages[at:]), without(out, gone), time
+
+
+def _planned_time(stage: Stage) -> float:
+    if stage.duration is not None:
+        return stage.duration
+    return max([LEAST, *(value.over for value in stage.commands.values() if isinstance(value, Move))])
+
+
+def _lifted(scene: Scene, stage: Stage) -> set[str]:
+    """Joints of the seats that a stage waits for to let go: what is lifted stays lifted."""
+    left = {one.limit for one in stage.conditions if isinstance(one, Contact) and not one.holds}
+    limits = [load for name, load in scene.loads.items() if name in left and isinstance(load, _core.Limit)]
+    return {limit.joint for limit in limits if limit.kind == "seat"}
+
+
+def _pay_out(scene: Scene, stage: Stage) -> None:
+    """Winches at the length that ends the stage."""
+    for condition in stage.conditions:
+        if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
+            continue
+        line = scene.loads.get(dict(condition.names)["line"])
+        if isinstance(line, _core.Line) and line.winch:
+            replace_element(scene, line.name, kind="load", length=condition.value)

@@ -1,0 +1,381 @@
+"""A lift carried out stage by stage, as one result."""
+
+from __future__ import annotations
+
+import contextlib
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from seacrane import _core
+from seacrane.analysis.rest_state import equilibrium
+from seacrane.description.description import LOADS
+from seacrane.description.holding import decided
+from seacrane.description.loads import lines_of
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.result.about import StageSpan
+from seacrane.result.events import Event
+from seacrane.result.result import Result
+from seacrane.run.carried_state import carried
+from seacrane.run.carry import compiled_there, lifted_seats, redescribed
+from seacrane.run.commands import commanded
+from seacrane.run.connections import without
+from seacrane.run.controller_calls import Calls
+from seacrane.run.interrupts import Interrupts
+from seacrane.run.joined import COUNTED_ON, Piece, counters, joined
+from seacrane.run.locate import Course, to_its_end
+from seacrane.run.outputs import Outputs
+from seacrane.run.plan import checked_stages, planned_scene, waiting
+from seacrane.run.run import Run
+from seacrane.run.sampled_controller import SampledController, checked_controllers
+from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.stage import Stage
+from seacrane.run.unreachable import check_lengths, check_limits
+from seacrane.run.until import Level, names_along
+from seacrane.scene.scene import Scene
+from seacrane.validity.left_range import Finding, warn_of
+from seacrane.validity.line_checks import warn_of_connected
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from seacrane.run.method import Method
+
+LARGEST_GAP = 0.01  # m times the scene's length scale, or rad: joints that open wider do not connect
+
+
+@dataclass(frozen=True)
+class Begin:
+    """Where a stage began, to run it again from: what was there just before its connections and commands.
+
+    Attributes
+    ----------
+    scene : Scene
+        With the commands of the stages before, and with what later stages connect.
+    state : State
+    """
+
+    scene: Scene
+    state: _core.State
+
+
+class StagedRun:
+    """A lift to be carried out stage by stage; see `simulate_stages`.
+
+    Parameters
+    ----------
+    scene : Scene
+    stages : sequence of Stage
+    start, first, method, outputs, controllers, **shorthand
+        As `simulate_stages`.
+    outputs_from : float, optional
+        As of `Run`: time from which output times are counted, s; default: the start.
+
+    Attributes
+    ----------
+    stages : tuple of Stage
+        Those that are carried out.
+    begun : dict of str to Begin
+        Scene and state in which each stage began.
+    interrupted : bool
+        Whether Ctrl-C stopped it.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        stages: Sequence[Stage],
+        *,
+        start: _core.State | None = None,
+        first: str | None = None,
+        outputs_from: float | None = None,
+        method: Method | None = None,
+        outputs: Outputs | None = None,
+        controllers: Sequence[SampledController] = (),
+        **shorthand: Unpack[Shorthand],
+    ) -> None:
+        self.method, self.outputs = settled(method, outputs, shorthand)
+        scene = decided(scene)
+        every = checked_stages(scene, stages)
+        self.stages, self._whole, time = planned_scene(scene, every, first)
+        self._given, self._absent = scene, waiting(self.stages)
+        self._scene = without(self._whole, self._absent)
+        self._model = self._scene.compile()
+        if start is None:
+            start = _core.initial_state(self._model) if first is None else equilibrium(self._scene, time=time)
+        if not isinstance(start, _core.State):
+            raise SceneError(f"start is {start!r}; give a seacrane.State")
+        self._state = start
+        self._reached = self._counted()
+        self._first = start.time if outputs_from is None else number_of("outputs_from", outputs_from)
+        self._calls = Calls(checked_controllers(controllers), self._first, start=start.time, kept=self._kept)
+        self._pieces: list[Piece] = []
+        self._changes: list[Event] = []
+        self._open: tuple[Run, dict[str, Any]] | None = None
+        self._found: list[Finding] = []
+        self._spans: list[StageSpan] = []
+        self.begun: dict[str, Begin] = {}
+        self.interrupted = False
+
+    def __repr__(self) -> str:
+        done = f"{len(self._spans)} of {len(self.stages)} stages"
+        return f"<StagedRun of {self._given.name!r}: {done}, at {self._state.time:g} s>"
+
+    @property
+    def state(self) -> _core.State:
+        """The present state."""
+        return self._state
+
+    def advance(self) -> bool:
+        """Carry out the next stage; False when none is left, or Ctrl-C stopped it.
+
+        Raises
+        ------
+        SceneError
+            For a connection, command or condition that does not fit; the message names the stage.
+        SimulationError
+            As `simulate`, and for a stage that is not over within its `maximum_duration`. Either has
+            as its `result` what was recorded until then.
+        """
+        if self.interrupted or len(self._spans) == len(self.stages):
+            return False
+        stage = self.stages[len(self._spans)]
+        begin = self._state.time
+        gone = self._absent - waiting(self.stages[len(self._spans) :])
+        self.begun[stage.name] = Begin(without(self._whole, gone), self._state)
+        with Interrupts() as interrupts:
+            try:
+                self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
+                self._connect(stage)
+                self._command(stage)
+                course, start = self._course(stage, interrupts), self._checked_start(stage)
+                ended = to_its_end(course, stage, start)
+                if not self._pieces:  # met at once, or stopped before anything was stepped
+                    course.stand(self._state)
+            except BaseException as error:
+                self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
+                self.interrupted = True
+                with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
+                    error.result = self._result_of_an_error()  # type: ignore[attr-defined]
+                raise
+        self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
+        self.interrupted = not ended
+        return not self.interrupted and len(self._spans) < len(self.stages)
+
+    def result(self) -> Result:
+        """All that has been recorded so far; `interrupted` until the last stage is over.
+
+        Raises
+        ------
+        SceneError
+            Before anything was.
+        """
+        if not self._pieces:
+            raise SceneError("stages: nothing has been recorded yet; advance() them first")
+        return joined(
+            self._pieces, scene=self._given, spans=self._spans,
+            interrupted=self.interrupted or len(self._spans) < len(self.stages), after=self._changes,
+        )  # fmt: skip
+
+    def warn(self) -> None:
+        """Warn, at the user's line, of what was out of range in the stages, each kind once."""
+        warn_of({kind: (kind, text) for kind, text in reversed(self._found)}.values())
+
+    def _now(self) -> float:
+        return self._state.time if self._open is None else self._open[0].core.time
+
+    def _result_of_an_error(self) -> Result | None:
+        if self._open is not None and self._open[0].core.recorded:
+            self._open[0].interrupted = True
+            self._done(self._open[0])
+        return self.result() if self._pieces else None
+
+    def _counted(self) -> dict[str, Any]:
+        """Energy balance and losses at the present state, from the start that its record tells of."""
+        record = self._state.record
+        if record is None:
+            return dict.fromkeys(COUNTED_ON, 0.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the stage's own run tells them
+            now = counters(self._still(self._scene, self._model, self._state))
+        known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
+        return {name: now.get(name, value) for name, value in known.items()}
+
+    # Connections, one after the other.
+
+    def _connect(self, stage: Stage) -> None:
+        for name in stage.release:
+            self._absent.add(name)
+            self._change(stage, name, "release")
+        for name in stage.connect:
+            self._absent.discard(name)
+            if name in self._whole.joints:
+                self._absent |= lifted_seats(self._scene, self._state)
+                self._whole = redescribed(self._whole, self._measured(), self._state)
+            self._change(stage, name, "connection")
+
+    def _measured(self) -> Any:
+        return self._still(self._scene, self._model, self._state).measure()
+
+    def _still(self, scene: Scene, model: _core.Model, state: _core.State) -> Run:
+        """A run that stands at a state: on its joints, with the limits that hold there."""
+        return Run(scene, state.time, method=self.method, start=state, model=model)
+
+    def _change(self, stage: Stage, name: str, kind: str) -> None:
+        """Go over to the scene with a connection made or released, and note the energy that it took."""
+        scene = without(self._whole, self._absent)
+        model = compiled_there(scene)
+        start, speed = carried(self._state, self._model, model), 0.0
+        if kind == "connection" and name in scene.joints:
+            speed = self._check_gap(stage, name, model, start)
+        before = _core.Evaluator(self._model).energy(start.time, self._state.values)
+        run = self._still(scene, model, start)
+        met = run.events()
+        state = run.state
+        if kind == "connection" and name in lines_of(scene.loads):
+            warn_of_connected(stage.title, scene, name, run.measure(), start.time)
+        lost = (
+            before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
+        )
+        self._scene, self._model, self._state = scene, model, state
+        event = Event(time=start.time, name=name, kind=kind, speed=speed, energy_lost=lost)
+        self._changes += [event, *met]
+
+    def _check_gap(self, stage: Stage, name: str, model: _core.Model, start: _core.State) -> float:
+        """The rate (m/s or rad/s) at which a joint parts as it connects; SceneError where it is open."""
+        gap, rate = _core.Evaluator(model).residual(start.time, start.values)
+        if gap > LARGEST_GAP * self._scene.length_scale:
+            raise SceneError(
+                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s "
+                f"and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
+                "frames, or connect a line, which needs not be closed"
+            )
+        return float(rate)
+
+    # Commands and the run itself.
+
+    def _command(self, stage: Stage) -> None:
+        if not stage.commands:
+            return
+        self._whole = commanded(self._whole, stage.title, stage.commands, self._state.time)
+        self._scene = without(self._whole, self._absent)
+        self._model = compiled_there(self._scene)
+
+    def _checked_start(self, stage: Stage) -> _core.State:
+        check_limits(stage, self._scene)
+        begin, lengths = self._state.time, dict(self._state.load_states)
+        own = {
+            name: lengths.get(f"{name}.length", float(line.length.evaluate([begin])[0, 0]))
+            for name, line in lines_of(self._scene.loads).items()
+        }
+        check_lengths(stage, self._scene, own, begin)
+        return self._state
+
+    def _course(self, stage: Stage, interrupts: Interrupts) -> Course:
+        wanted = self._channels()
+        if wanted is not None:
+            looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
+            wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
+        outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
+        return Course(
+            scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
+            interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
+        )  # fmt: skip
+
+    def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """Inputs without those of elements that are absent in this stage."""
+        gone = _loads(self._given) - _loads(run.scene)
+        return {name: value for name, value in inputs.items() if name.rpartition(".")[0] not in gone}
+
+    def _channels(self) -> list[str] | None:
+        """Channels that were asked for, as far as this stage has them."""
+        if self.outputs.channels is None:
+            return None
+        still = self._still(self._scene, self._model, self._state)
+        there = {*still.measure(), *still.model.channel_names(defaults_only=False)}
+        return [name for name in self.outputs.channels if name in there]
+
+    def _began(self, run: Run) -> None:
+        self._open = (run, counters(run))
+
+    def _done(self, run: Run) -> None:
+        """Keep what a run recorded, and go on from where it stopped."""
+        assert self._open is not None
+        result, found = run.judged_result()
+        end = counters(run)
+        lost = sum(e.energy_lost for e in self._changes)
+        piece = Piece(result, names_along(run), self._open[1], end, self._reached, float(lost), self._changes)
+        self._pieces.append(piece)
+        self._changes, self._open = [], None
+        self._found += [one for one in found if one not in self._found]
+        state = piece.counting_on()
+        if state is not None:
+            self._state = state
+            self._reached = self._counted()
+
+
+def _loads(scene: Scene) -> set[str]:
+    return {name for table in LOADS for name in getattr(scene, table)}
+
+
+def simulate_stages(
+    scene: Scene,
+    stages: Sequence[Stage],
+    *,
+    start: _core.State | None = None,
+    first: str | None = None,
+    method: Method | None = None,
+    outputs: Outputs | None = None,
+    controllers: Sequence[SampledController] = (),
+    **shorthand: Unpack[Shorthand],
+) -> Result:
+    """Carry out a lift stage by stage and return one result.
+
+    The clock and the waves go on through the stages. An element that a stage connects is absent until then.
+    See docs/stages.md.
+
+    Parameters
+    ----------
+    scene : Scene
+        With everything that is ever connected.
+    stages : sequence of Stage
+        In their order.
+    start : State, optional
+        Where the first of them begins; default: the assembled start of the scene.
+    first : str, optional
+        Name of a stage to begin with. Those before it count as carried out: what they connect and release,
+        where their moves and lengths end. It then starts from its static state, unless `start` is given.
+    method, outputs, **shorthand
+        As `simulate`. Channels are recorded in the stages that have them.
+    controllers : sequence of SampledController
+        As `simulate`; their periods count from the first start, through all stages. Inputs of elements that
+        are absent in a stage are left out there.
+
+    Returns
+    -------
+    Result
+        With `stages`, an event for each stage, connection and release, and `interrupted` set when Ctrl-C
+        stopped it. A force or power is 0 in stages without its element, other channels are no number there.
+
+    Raises
+    ------
+    SceneError
+        For stages that do not fit the scene or one another, by their names.
+    SimulationError
+        As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
+        holds the outputs until then.
+
+    Warns
+    -----
+    As `simulate`, each kind once.
+    """
+    run = StagedRun(
+        scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=controllers,
+        **shorthand,
+    )  # fmt: skip
+    while run.advance():
+        pass
+    run.warn()
+    return run.result()

@@ -1,0 +1,245 @@
+"""Scenes with less physics: another fluid memory, fewer waves, a locked crane, a prescribed vessel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.inverse import SIX, driven, hold_vessel
+from seacrane.description.crane_parts import hooks
+from seacrane.description.curves import spline_curve
+from seacrane.description.given import given_vessels
+from seacrane.description.loads import bodies_of
+from seacrane.description.provenance import VesselProvenance
+from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase, fit_memory
+from seacrane.scene.scene import Scene
+from seacrane.trading.lines_on_rungs import line_variants
+
+if TYPE_CHECKING:
+    from seacrane.hydro.data.memory_model import MemoryModel
+
+Array = NDArray[np.float64]
+FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
+    "full", "crane locked", "vessel prescribed", "payload as weight", "frequency domain",
+)  # fmt: skip
+SHARES = (0.5, 0.25)  # of the wave components, the strongest
+BOUND = 1e-4  # of a coarse wave table
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Levels:
+    """What fits of a kind are asked for, each level for more states; a vessel's own memory has the usual."""
+
+    asked: str
+    all: tuple[float, ...]
+    quick: tuple[float, ...]
+    usual: float
+
+
+R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), quick=(0.9, 0.99), usual=0.99)
+LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), quick=(0.05, 0.01), usual=0.01)
+FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variant:
+    """A scene that differs from the full one in one thing; made when it is measured."""
+
+    memory: str
+    waves: str
+    rung: str
+    build: Callable[[], Scene]
+
+
+def memory_name(scene: Scene) -> str:
+    """Kind of fluid memory of a scene."""
+    known = [scene.provenance.get(name, VesselProvenance()).memory for name in scene.vessels]
+    kinds = [kind or "as described" for kind in known]
+    return ", ".join(dict.fromkeys(kinds)) or "none"
+
+
+def waves_name(scene: Scene) -> str:
+    """How a scene evaluates its waves."""
+    if scene.waves is None:
+        return "none"
+    return scene.waves.evaluation
+
+
+def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
+    """Scenes with one thing changed: memory models, wave evaluations, rungs of lines and of coupling."""
+    memory, waves = memory_name(scene), waves_name(scene)
+    for name, build in _memory_variants(scene, quick=quick):
+        yield Variant(memory=name, waves=waves, rung=FULL, build=build)
+    for name, build in _wave_variants(scene, quick=quick):
+        yield Variant(memory=memory, waves=name, rung=FULL, build=build)
+    for name, build in line_variants(scene):
+        yield Variant(memory=memory, waves=waves, rung=name, build=build)
+    if scene.actuators:
+        yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
+        if len(scene.vessels) == 1 and not given_vessels(scene):
+            yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
+    if hanging(scene):
+        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
+    if scene.waves is not None and scene.vessels and not given_vessels(scene):
+        yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
+
+
+def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+    """None, convolution, and fits of each kind at several R2 or limits."""
+    memory = memory_name(scene)
+    if len(scene.vessels) != 1 or given_vessels(scene):
+        return
+    database = _database(scene)
+    for kind in ("none", "convolution"):
+        if kind == memory or (kind != "none" and (quick or database is None)):
+            continue
+        yield kind, partial(with_memory, scene, kind)
+    for kind, levels in FITTED.items() if database is not None else ():
+        for level in levels.quick if quick else levels.all:
+            if kind != memory or level != levels.usual:
+                fit = partial(with_memory, scene, kind, level=level)
+                yield f"{kind} {levels.asked}={level:g}", fit
+
+
+def full_memory_name(scene: Scene, name: str) -> str:
+    """A fitted memory's name with its number of states for its R2 or limit: "passive:20"."""
+    kind, _, level = name.partition(" ")
+    if "=" not in level:
+        return name
+    (vessel,) = scene.vessels.values()
+    blocks = cast("list[_core.StateSpaceBlock]", vessel.memory)
+    return f"{kind}:{sum(block.a.shape[0] for block in blocks)}"
+
+
+def _database(scene: Scene) -> HydroDatabase | None:
+    """Of the one vessel, where that is from one."""
+    (vessel,) = scene.vessels.values()
+    return vessel.database if isinstance(vessel.database, HydroDatabase) else None
+
+
+def with_memory(scene: Scene, kind: str, *, level: float | None = None) -> Scene:
+    """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit.
+
+    Parameters
+    ----------
+    level : float, optional
+        R2 or limit asked of a fit; default: the database's own memory where it has one of that kind.
+    """
+    (vessel,) = scene.vessels.values()
+    changes: dict[str, Any] = {"memory": []}
+    database = _database(scene)
+    if database is not None:
+        if level is not None:
+            database = replace(database, memory=_fit(database, kind, level))
+        fresh = Scene(name="memory", gravity=scene.gravity)
+        fresh.add_vessel(database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
+        (fitted,) = fresh.vessels.values()
+        changes = {"memory": fitted.memory, "added_mass": fitted.added_mass}
+    out = scene.copy()
+    out.replace(vessel.name, kind="vessel", **changes)
+    known = scene.provenance.get(vessel.name, VesselProvenance())
+    out.provenance[vessel.name] = replace(known, memory=kind)
+    return out
+
+
+@lru_cache(maxsize=16)
+def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
+    if FITTED[kind].asked == "limit":
+        return fit_memory(database=database, kind=kind, limit=level)
+    return fit_memory(database=database, kind=kind, r2=level)
+
+
+def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+    waves = scene.waves
+    if waves is None:
+        return
+    if waves.has_tables():
+        if waves_name(scene) != "exact":
+            yield "exact", partial(scene.copy, waves=replace(waves, evaluation="exact"))
+        if not quick:
+            coarse = replace(waves, evaluation="table", relative_bound=BOUND)
+            yield f"table bound {BOUND:g}", partial(scene.copy, waves=coarse)
+    if all(hull.force_by_heading is None and hull.drift is None for hull in waves.hulls.values()):
+        for share in SHARES:
+            count = int(np.ceil(share * len(waves.omega)))
+            fewer = partial(scene.copy, waves=strongest(waves, count))
+            yield f"{count} of {len(waves.omega)} components", fewer
+
+
+def strongest(waves: Any, count: int) -> Any:
+    """The sea of the components with the largest load on any motion, relative to that motion's largest."""
+    transfer = np.hstack([np.asarray(hull.transfer) for hull in waves.hulls.values()])
+    load = np.abs(transfer) * np.abs(waves.amplitude)[:, None]
+    largest = load.max(axis=0)
+    share = (load / np.where(largest > 0.0, largest, 1.0)).max(axis=1)
+    kept = np.sort(np.argsort(-share, kind="stable")[:count])
+    parts = {
+        name: np.asarray(getattr(waves, name))[kept] for name in ("omega", "amplitude", "phase", "direction")
+    }
+    hulls = {body: replace(h, transfer=np.asarray(h.transfer)[kept]) for body, h in waves.hulls.items()}
+    return replace(waves, hulls=hulls, **parts)
+
+
+def locked(scene: Scene) -> Scene:
+    """Every actuated coordinate held at its described value."""
+    held = {
+        name: _core.Curve.constant(value=float(actuator.reference.evaluate([0.0])[0, 0]))
+        for name, actuator in scene.actuators.items()
+    }
+    return driven(scene, references=held)
+
+
+def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
+    """The vessel's six motions (n, 6) prescribed; nothing acts back on it.
+
+    Raises
+    ------
+    SceneError
+        For a scene of several vessels.
+    """
+    if len(scene.vessels) != 1:
+        raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")
+    (vessel,) = scene.vessels.values()
+    out = scene.copy(waves=None)
+    out.replace(vessel.name, kind="vessel", memory=[])
+    curves = {name: spline_curve(times=times, values=motion[:, i]) for i, name in enumerate(SIX)}
+    hold_vessel(out, vessel.body, curves)
+    return out
+
+
+def hanging(scene: Scene) -> bool:
+    """Whether there are payloads, and each hangs on its crane's link and on nothing else."""
+    links = list(hooks(scene).values())
+    return bool(links) and all(_hangs(scene, link) for link in links)
+
+
+def _hangs(scene: Scene, link: str) -> bool:
+    payload = scene.joints[link].second
+    others = [joint for name, joint in scene.joints.items() if name != link]
+    return not (
+        any(payload in (joint.first, joint.second) for joint in others)
+        or any(payload in bodies_of(load, scene.joints) for load in scene.all_loads())
+    )
+
+
+def payload_as_weight(scene: Scene) -> Scene:
+    """Every payload replaced by its constant weight at the tip: neither swing nor inertia."""
+    out = scene.copy()
+    for label, link in hooks(scene).items():
+        joint, payload = scene.joints[link], scene.bodies[scene.joints[link].second]
+        out.remove(link, kind="joint")
+        out.remove(payload.name, kind="body")
+        out.add_point_force(
+            name=f"{label.removesuffix('hook')}payload weight",
+            body=joint.first,
+            point=joint.first_frame.point,
+            force=(0.0, 0.0, -payload.mass * scene.gravity),
+        )
+    return out

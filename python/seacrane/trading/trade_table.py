@@ -1,0 +1,98 @@
+"""The table of a trade, and the rows that no other beats."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seacrane.accuracy.quantities import Quantity
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+from seacrane.trading.row import UNKNOWN, Row
+from seacrane.trading.row_file import write_table
+
+
+def front(rows: Sequence[Row], quantity: str, *, cost: str = "wall_s") -> list[bool]:
+    """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
+    costs = [getattr(row, cost) for row in rows]
+    usable = [
+        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), costs[i]]).all()
+    ]
+    on = [False] * len(rows)
+    best = math.inf
+    for i in sorted(usable, key=lambda i: (costs[i], rows[i].error(quantity))):
+        if rows[i].error(quantity) < best:
+            best, on[i] = rows[i].error(quantity), True
+    return on
+
+
+def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_front: Sequence[bool]) -> None:
+    """Write trade.csv.
+
+    `error_<quantity>` is the largest over time; further columns hold the root mean square
+    `rms_<quantity>`, the error of the standard deviation `std_<quantity>`, and `simulated_s`.
+    """
+    columns = [
+        "formulation", "integrator", "setting", "memory", "waves", "rung", "wall_s", "evaluations",
+        *(f"error_{name}" for name in quantities), "drift", "energy", "stable", "reason", "pareto",
+        *(f"{kind}_{name}" for kind in ("rms", "std") for name in quantities), "simulated_s",
+    ]  # fmt: skip
+    cells = [_cells(row, quantities, pareto) for row, pareto in zip(rows, on_front, strict=True)]
+    write_table(path, columns, cells, digits=6)
+
+
+def as_text(
+    rows: Sequence[Row],
+    quantities: Mapping[str, Quantity],
+    uncertainty: Mapping[str, float],
+    best: Sequence[Row],
+) -> str:
+    """How well the reference is known, and the Pareto front of the first quantity, for terminals."""
+    known = ", ".join(f"{name} {uncertainty[name]:.1g} {one.unit}" for name, one in quantities.items())
+    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]"]
+    cells = [
+        [row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
+         f"{row.wall_s * 1e3:.3g}", *(f"{row.error(name):.2g}" for name in quantities)]
+        for row in best
+    ]  # fmt: skip
+    unstable = sum(not row.stable for row in rows)
+    return "\n".join(
+        [
+            f"reference known within {known}",
+            f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:",
+            text_table([*head, *(f"{name} [{one.unit}]" for name, one in quantities.items())], cells),
+        ]
+    )
+
+
+def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[Row], measured: int) -> str:
+    """The Pareto front of the first quantity, for notebooks."""
+    caption = (
+        f"Trade of {about['scene']!r}, {about['t_end']:g} s: {len(best)} of {measured} settings, which no "
+        f"other beats in both wall time and error of {quantities[0]}"
+    )
+    head = ("formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]", *quantities)
+    rows = [
+        (
+            row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
+            float(f"{1e3 * row.wall_s:.3g}"), *(float(f"{row.error(name):.2g}") for name in quantities),
+        )
+        for row in best
+    ]  # fmt: skip
+    return notebook_table(head, rows, caption=caption)
+
+
+def _cells(row: Row, quantities: Sequence[str], pareto: bool) -> list[Any]:
+    def errors(part: str) -> list[float]:
+        return [getattr(row.errors[q], part) if q in row.errors else UNKNOWN for q in quantities]
+
+    method, case = row.method, row.case
+    return [
+        row.formulation, method.integrator, method.setting, case["memory"], case["waves"], case["rung"],
+        row.wall_s, row.evaluations, *errors("largest"), row.drift, row.energy, row.stable, row.message,
+        pareto, *errors("rms"), *errors("std"), row.simulated_s,
+    ]  # fmt: skip

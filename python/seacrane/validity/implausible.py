@@ -1,0 +1,160 @@
+"""What a scene most likely did not mean: each a warning by name, when a run starts."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.given import floating_bodies
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.loads import kind_of
+from seacrane.description.references import references
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.plausible import angle_of
+from seacrane.validity.lifting import warn_of_loads_in_hulls
+from seacrane.validity.line_starts import warn_of_line_starts
+from seacrane.validity.magnitudes import warn_of_units
+from seacrane.validity.unheld_cranes import warn_of_free_cranes
+from seacrane.validity.unstable import carried_by, warn_of_capsize
+from seacrane.warnings import BallastWarning, CompassDirectionWarning, MassUnitWarning
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
+
+Array = NDArray[np.float64]
+EXACT = 1e-9
+AGAINST = np.radians(120.0)  # between a wind and waves that it does not raise
+LEAST_ENERGY = 0.01  # of the waves, which runs with the wind
+HEAVIEST_AIR = 10.0  # kg/m3
+LARGEST_RADIUS = 200.0  # m, of gyration
+HUNG_SHARE = 1e-5  # of the vessel's mass
+LARGEST_HEEL = np.radians(2.0)
+LARGEST_SINKAGE = 2.0  # m
+JUDGED_LOADS = (
+    "point force",
+    "actuator",
+    "flow force",
+    "limit",
+    "friction",
+    "soft stop",
+    "pendulum damping",
+    "span drag",
+)
+
+
+def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:
+    """All that a scene tells by itself, from `start` to `end` (s); `described`: from its described pose."""
+    _warn_of_angles(scene, start, end)
+    _warn_of_winds(scene)
+    _warn_of_masses(scene)
+    if described:
+        warn_of_units(scene, start, end)
+        warn_of_free_cranes(scene)
+        _warn_of_ballast(scene)
+        warn_of_capsize(scene)
+        warn_of_loads_in_hulls(scene)
+        warn_of_line_starts(scene)
+
+
+def _warn_of_angles(scene: Description, start: float, end: float) -> None:
+    """An angle that comes to rest whole radians and turns away; what keeps turning is a machine."""
+    for reference in references(scene):
+        if reference.coordinate not in ANGLES:
+            continue
+        (first, _, _), (last, rate, _) = reference.curve.evaluate([start, end])
+        angle = last if last == first else last - first
+        if rate == 0.0 and abs(angle - round(angle)) < EXACT:
+            angle_of(f"{reference.owner}: reference of {reference.joint}.{reference.coordinate}", angle)
+
+
+def _warn_of_winds(scene: Description) -> None:
+    """Wind against all waves: one of the two directions is where it comes from."""
+    if scene.waves is None:
+        return
+    energy = np.square(np.asarray(scene.waves.amplitude, dtype=float)) * np.ones(len(scene.waves.omega))
+    direction = np.asarray(scene.waves.direction, dtype=float)
+    for name, load in scene.loads.items():
+        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR) or _still(load):
+            continue
+        along = np.cos(direction - load.direction) >= np.cos(AGAINST)
+        if np.sum(energy * along) < LEAST_ENERGY * np.sum(energy):
+            main = float(np.angle(np.sum(energy * np.exp(1j * direction))))
+            warn_caller(
+                f"flow force {name!r}: the wind blows to {np.degrees(load.direction):.4g} deg, the waves run "
+                f"to {np.degrees(main):.4g} deg, against it. Both are where they go to; weather forecasts "
+                "and compasses tell where wind comes from: turn it by 180 deg?",
+                CompassDirectionWarning,
+            )
+
+
+def _still(wind: _core.FlowForce) -> bool:
+    return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
+
+
+def _warn_of_masses(scene: Description) -> None:
+    for name, body in scene.bodies.items():
+        radius = math.sqrt(float(np.trace(body.inertia)) / 2.0 / body.mass)
+        if radius > LARGEST_RADIUS:
+            warn_caller(
+                f"body {name!r}: mass {body.mass:.6g} kg and inertia make a radius of gyration of "
+                f"{radius:.4g} m; give both in kg and kg m2: tonnes for kg?",
+                MassUnitWarning,
+            )
+    floating = floating_bodies(scene)
+    hulls = [body.mass for name, body in scene.bodies.items() if name in floating]
+    links = {name: joint for name, joint in scene.joints.items() if joint.kind == "distance"}
+    if not hulls or not links:
+        return
+    joined = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
+    for name, joint in links.items():
+        for end in (joint.first, joint.second):
+            mass = scene.bodies[end].mass if end in scene.bodies else math.inf
+            if joined[end] == 1 and mass < HUNG_SHARE * max(hulls):
+                warn_caller(
+                    f"body {end!r}: {mass:.6g} kg hang on {name!r}, in a scene with a vessel of "
+                    f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
+                    MassUnitWarning,
+                )
+
+
+def _warn_of_ballast(scene: Description) -> None:
+    """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
+    if any(kind_of(load) not in JUDGED_LOADS for load in scene.all_loads()):
+        return
+    for vessel in (one for one in scene.vessels.values() if one.floats):
+        hull = scene.bodies[vessel.body]
+        carried = carried_by(scene, vessel.body)
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
+        restoring = np.asarray(vessel.restoring)[2:5, 2:5]
+        if not weights or not np.all(np.diag(restoring) > 0.0):
+            continue
+        held = [force for force in scene.point_forces.values() if force.body in carried]
+        bodies = [*weights, *(scene.bodies[force.body] for force in held)]
+        points = np.array([*(body.center_of_mass for body in weights), *(force.point for force in held)])
+        turned = rotation_matrix([body.quaternion for body in bodies]) @ points[:, :, None]
+        arms = np.array([body.position for body in bodies]) + turned[:, :, 0] - hull.position
+        bow = rotation_matrix(hull.quaternion)[:2, 0]
+        bow = bow / np.hypot(*bow)
+        forward, port = arms[:, :2] @ bow, arms[:, :2] @ [-bow[1], bow[0]]
+        lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
+        load = [lift.sum(), lift @ port, -lift @ forward]
+        _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
+
+
+def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:
+    """`rest`: heave, roll and pitch at which the weights balance, from the described pose at `start`."""
+    heave, roll, pitch = rest[0] - start, rest[1], rest[2]
+    if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
+        return
+    warn_caller(
+        f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
+        f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
+        "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
+        BallastWarning,
+    )

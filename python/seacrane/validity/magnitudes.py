@@ -1,0 +1,100 @@
+"""Values far beyond what their kind usually has: each a warning when a run starts.
+
+Usual magnitudes stand with the fields of the elements; what only other values of the scene tell is in
+`proportions`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.description import ELEMENTS, KINDS, LOADS
+from seacrane.description.loads import BEYOND, kind_of, named
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.plausible import TURN
+from seacrane.validity.proportions import disproportions
+from seacrane.warnings import UnitWarning
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
+
+Array = NDArray[np.float64]
+LOOKS = 201  # at a curve, over a run
+LONGEST_ARM = 500.0  # m, of a point of a body: ships are shorter
+SLACK = 1.0 + 1e-9  # of rounding
+FRAMES = ("first_frame", "second_frame")
+POINTS = ("point", "first_point", "second_point", "points")
+
+
+def warn_of_units(scene: Description, start: float, end: float) -> None:
+    """Every value of every element that is no default, over a run from `start` to `end` (s)."""
+    times = np.linspace(start, max(end, start), LOOKS)
+    for table in ELEMENTS:
+        for name, element in getattr(scene, table).items():
+            if _stands_for_a_direction(element):
+                continue
+            what = f"{kind_of(element) if table in LOADS else KINDS[table]} {name!r}"
+            for text in (*_unusual(element, times), *_far_points(element)):
+                warn_caller(f"{what}: {text}", UnitWarning)
+    for text in disproportions(scene, times):
+        warn_caller(text, UnitWarning)
+
+
+def _stands_for_a_direction(element: Any) -> bool:
+    """Springs of moorings have ends beyond the horizon."""
+    points = [getattr(element, key) for key in POINTS[1:3] if hasattr(element, key)]
+    return any(np.abs(np.asarray(point)).max() >= BEYOND for point in points)
+
+
+def _unusual(element: Any, times: Array) -> Iterator[str]:
+    """Values beyond the usual magnitudes of their fields."""
+    for field in type(element).FIELDS:
+        most = TURN if field.unit == "rad" and field.type == "number" else field.most
+        if field.least == 0.0 and most == 0.0:
+            continue
+        value = getattr(element, field.name)
+        if isinstance(value, float) and value == field.default:
+            continue
+        size = magnitudes(value, times)
+        low = size.size and size.max() > 0.0 and np.min(size[size > 0.0]) * SLACK < field.least
+        high = size.size and size.max() > most * SLACK > 0.0
+        if not (low or high):
+            continue
+        worst = size.max() if high else np.min(size[size > 0.0])
+        unit = f" {field.unit}" if field.unit else ""
+        bounds = f"{field.least:.6g} to {most:.6g}" if most else f"{field.least:.6g} and more"
+        yield (
+            f"{field.name} reaches {worst:.6g}{unit}, and usual are {bounds}{unit}: a slip in its unit? Give "
+            f"it in {field.unit}" if unit else
+            f"{field.name} reaches {worst:.6g}, and usual are {bounds}: it is a ratio or a share, no "
+            "percentage"
+        )  # fmt: skip
+
+
+def magnitudes(value: Any, times: Array) -> Array:
+    """Of a number, of those of an array, or the largest of a curve at some times."""
+    if isinstance(value, _core.Curve):
+        return np.asarray(np.abs(value.evaluate(times)[:, 0]).max(keepdims=True))
+    return np.asarray(np.abs(np.asarray(value, dtype=float)).ravel())
+
+
+def _far_points(element: Any) -> Iterator[str]:
+    """Points of bodies that no body reaches."""
+    bodies = named(element, "body")
+    given = {key: getattr(element, key) for key in POINTS if hasattr(element, key)}
+    given |= {key: getattr(element, key).point for key in FRAMES if hasattr(element, key)}
+    for key, value in given.items():
+        points = np.atleast_2d(np.asarray(value, dtype=float))
+        own = bodies if key == "points" else [bodies[-1] if key.startswith("second") else bodies[0]]
+        for body, point in zip(own, points, strict=True):
+            arm = float(np.linalg.norm(point))
+            if body != "ground" and arm > LONGEST_ARM:
+                yield (
+                    f"{key} is {arm:.6g} m from the origin of {body!r}, longer than any ship: points are "
+                    "metres in coordinates of their body; mm for m?"
+                )

@@ -1,0 +1,86 @@
+"""Rest states at which a scene does not stay, and ships that the weights on them capsize, as described."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from seacrane.description.given import floating_bodies
+from seacrane.description.loads import named
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import UnstableRestWarning
+
+if TYPE_CHECKING:
+    from seacrane import _core
+    from seacrane.description.description import Description
+
+
+def warn_of_capsize(scene: Description) -> None:
+    """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
+
+    Weights that hang on a link count at its upper end; those on lines are left to `seacrane.statics`.
+    """
+    for vessel in (one for one in scene.vessels.values() if one.floats):
+        restoring = float(np.asarray(vessel.restoring)[3, 3])
+        carried = carried_by(scene, vessel.body)
+        if restoring == 0.0 or vessel.body not in scene.bodies:
+            continue
+        hull = scene.bodies[vessel.body]
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
+        lowered = sum(body.mass * scene.gravity * _height(scene, body, hull) for body in weights)
+        raised = sum(
+            float(force.force[2]) * _above(scene.bodies[force.body], force.point, hull)
+            for force in scene.point_forces.values()
+            if force.body in carried
+        )
+        left = restoring - lowered + raised
+        if left < 0.0:
+            warn_caller(
+                f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with "
+                "the weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
+                "weights, put less of them on it, or look at seacrane.statics",
+                UnstableRestWarning,
+            )
+
+
+def carried_by(scene: Description, vessel: str) -> set[str]:
+    """Bodies whose weight comes to a vessel; none where another support shares it."""
+    stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
+    driven = {driver.joint for driver in scene.drivers.values()}
+    neighbours: dict[str, list[str]] = {}
+    for name, joint in scene.joints.items():
+        if joint.kind != "free" or name in stopped | driven:
+            neighbours.setdefault(joint.first, []).append(joint.second)
+            neighbours.setdefault(joint.second, []).append(joint.first)
+    found, open_ = {vessel}, [vessel]
+    while open_:
+        new = set(neighbours.get(open_.pop(), ())) - found
+        found |= new
+        open_ += new
+    floating = floating_bodies(scene)
+    alone = found <= set(scene.bodies) and found & floating == {vessel}
+    return found if alone else set()
+
+
+def _height(scene: Description, body: _core.Body, hull: _core.Body) -> float:
+    """Above a hull's origin at which a body's weight acts, m: that of the point from which it hangs."""
+    joints = list(scene.joints.values())
+    joined = Counter(end for joint in joints for end in (joint.first, joint.second))
+    for joint in joints:
+        if joint.kind == "distance" and body.name in (joint.first, joint.second) and joined[body.name] == 1:
+            upper, frame = (
+                (joint.first, joint.first_frame)
+                if joint.second == body.name
+                else (joint.second, joint.second_frame)
+            )
+            if upper in scene.bodies:
+                return _above(scene.bodies[upper], frame.point, hull)
+    return _above(body, body.center_of_mass, hull)
+
+
+def _above(body: _core.Body, point: object, hull: _core.Body) -> float:
+    turned = rotation_matrix(body.quaternion) @ np.asarray(point, dtype=float)
+    return float(body.position[2] + turned[2] - hull.position[2])
