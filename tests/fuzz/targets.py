@@ -255,7 +255,7 @@ _VERES = tuple(
 )
 _WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
 _NEMOH = ("hydro/readers/nemoh.py",)
-_LIFT = tuple(f"lift/{name}.py" for name in ("document", "lines", "check", "curves"))
+_LIFT = tuple(f"lift/{name}.py" for name in ("document", "text_lines", "check_keys", "curve_text"))
 _SHAPE = (FileFormatError, ValueError)
 
 
