@@ -15,6 +15,7 @@ from seacrane.description.capacity import capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_by_label
 from seacrane.description.description import GROUND, Description, coordinate_of
 from seacrane.description.given import floating_bodies
+from seacrane.description.loads import lines_of, path_of, whole_of
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.roles import CraneRoles, Vector
 from seacrane.errors import SceneError
@@ -29,6 +30,7 @@ def add_roles(
     slew: str | tuple[str, str] | None = None,
     cylinders: Mapping[str, str] | None = None,
     link: str | None = None,
+    line: str | None = None,
     payload: str | None = None,
     tip: tuple[str, Vector] | None = None,
     capacity: Any = (),
@@ -52,8 +54,10 @@ def add_roles(
         Sliding joint of every cylinder by its label, such as ``{"main": "main_cylinder"}``.
     link : str
         Distance joint from the tip to the payload.
+    line : str
+        In its place, the line from the tip that the payload hangs on, by itself or below a block.
     payload : str
-        Body that hangs; default: the second body of the link.
+        Body that hangs; default: the second body of the link, or the body that the line reaches last.
     tip : (str, array_like of shape (3,))
         Body and point in its coordinates, m; default: where the link begins.
     capacity : array_like, shape (n, 2), optional
@@ -89,6 +93,12 @@ def add_roles(
             )
         payload = scene.joints[link].second if payload is None else payload
         tip = _start_of(scene, link) if tip is None else tip
+    if line is not None:
+        if link is not None:
+            raise SceneError(f"{what}: has link {link!r} and line {line!r}; its payload hangs on one of them")
+        path = _path(scene, what, line)
+        payload = path[-1][0] if payload is None else payload
+        tip = path[0] if tip is None else tip
     for label, joint in (cylinders or {}).items():
         _require(what, f"cylinder {label!r}", joint, scene.joints, "joint")
     if payload is not None:
@@ -103,6 +113,7 @@ def add_roles(
         slew=None if slew is None else _drive(scene, f"{what}: slew", slew),
         cylinders=cylinders or {},
         link=link,
+        line=line,
         payload=payload,
         tip=None if tip is None else _tip(scene, what, tip),
         capacity=capacity_of(what, capacity),
@@ -146,6 +157,16 @@ def _tip(scene: Description, what: str, tip: tuple[str, Vector]) -> tuple[str, V
     _require(what, "tip", body, scene.bodies, "body")
     x, y, z = (float(value) for value in shaped_of(f"{what}: tip", point, (3,)))
     return body, (x, y, z)
+
+
+def _path(scene: Description, what: str, line: str) -> list[tuple[str, Vector]]:
+    """Bodies and points of a line by name, or of the segments of one with mass."""
+    lines = lines_of(scene.loads)
+    parts = [one for name, one in lines.items() if line in (name, whole_of(name, one))]
+    if not parts:
+        known = ", ".join(dict.fromkeys(whole_of(name, one) for name, one in lines.items())) or "none"
+        raise SceneError(f"{what}: its line is {line!r}, which is not in the scene, that has {known}")
+    return [(body, tuple(map(float, at))) for one in parts for body, at in path_of(one)]  # type: ignore[misc]
 
 
 def _start_of(scene: Description, link: str) -> tuple[str, Vector] | None:

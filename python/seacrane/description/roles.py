@@ -30,8 +30,10 @@ class CraneRoles:
         That hold hinges, by the hinge's label.
     link : str or None
         Distance joint from the tip to the payload.
+    line : str or None
+        In its place, the line from the tip on which the payload hangs, by itself or below a block.
     payload : str or None
-        Body that hangs on it.
+        Body that hangs on either.
     tip : (str, (float, float, float)) or None
         Body that carries the tip, and the tip in its coordinates, m.
     capacity : tuple of (float, float)
@@ -53,6 +55,7 @@ class CraneRoles:
     luffs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     ropes: Mapping[str, LuffingRope] = field(default_factory=dict)
     held: bool = False
+    line: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))
