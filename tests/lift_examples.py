@@ -204,6 +204,23 @@ hook_point_m = [0, 0, 9]
 points_m = [[0.5, 0, 0.5], [-0.5, 0, 0.5]]
 EA_N = [1e6]
 
+[[roles]]
+prefix = "quay "
+tip = { body = "hull", point_m = [6, 0, 20] }
+
+[[hoist]]
+name = "quay hoist"
+crane = "quay "
+load = "anode"
+mass_kg = 2e3
+size_m = [1, 1, 2]
+length_m = 5
+falls = 2
+stiffness_N_per_m = 1e6
+block_mass_kg = 100
+slings = { angle_deg = 60, EA_N = 1e7 }
+winch = { lag_s = 0.2, maximum_rate_m_per_s = 0.5 }
+
 [[winch]]
 line = "hoist"
 rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}
@@ -394,7 +411,7 @@ name = "angle of the arm"
 joint = "sleeve"
 coordinate = "angle"
 
-[roles]
+[[roles]]
 prefix = "aft "
 slew = "pin"
 cylinders = { luff = "sleeve" }
@@ -478,6 +495,11 @@ def every_table() -> Scene:
         tension=Curve.quintic(start_time=1, end_time=3, start=2e3, end=4e3), tension_gain=1e-4, dead_band=100,
         drum_inertia=500, drum_radius=0.5, maximum_tension=3e4, maximum_power=5e4,
         brake=Curve.quintic(start_time=5, end_time=5.1, start=0, end=1), brake_capacity=4e4, brake_give=2e-3,
+    )  # fmt: skip
+    scene.add_roles(prefix="quay ", tip=("hull", (6, 0, 20)))
+    scene.add_hoist(
+        "quay hoist", crane="quay ", load="anode", mass=2e3, size=(1, 1, 2), length=5, falls=2, stiffness=1e6,
+        block_mass=100, slings={"angle_deg": 60, "EA": 1e7}, winch={"lag": 0.2, "maximum_rate": 0.5},
     )  # fmt: skip
     scene.add_gas_spring(
         name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,

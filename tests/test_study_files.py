@@ -168,7 +168,7 @@ def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture
 def test_ctrl_c_keeps_what_came_back_and_the_same_command_goes_on(
     workers: list[str], study: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    study.write_text(STUDY.replace("count = 40", "count = 2000").replace("0.25", "0.004"))
+    study.write_text(STUDY.replace("count = 40", "count = 20000").replace("0.25", "0.004"))
     out = study.parent / "out"
     command = ["study", str(study), "--out", str(out), *workers]
     child = subprocess.Popen(

@@ -38,6 +38,7 @@ from seacrane.scene import (
     bridles,
     given_vessel,
     heave,
+    hoist,
     hydraulics,
     limits,
     lines,
@@ -242,6 +243,15 @@ PISTON = (
     Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
     Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
 )
+SLINGS = keys_of(
+    hoist.Slings,
+    more={
+        "EA": {"unit": "N"},
+        "length": LENGTH,
+        "angle_deg": {"unit": "deg"},
+        "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
+    },
+)
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -384,6 +394,30 @@ _ALL = (
     ),
     _call("winch", lines.add_winch, _core.Line),
     Table(
+        name="roles", text=_summary(crane_parts.add_roles),
+        keys=keys_of(
+            crane_parts.add_roles,
+            more={
+                "cylinders": {"type": "names"},
+                "luffs": {"type": "names"},
+                "tip": {"type": "table", "keys": (
+                    Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
+                )},
+                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
+                "areas": {"type": "tables", "keys": PISTON},
+            },
+            without=("ropes",),
+        ),
+    ),
+    _call(
+        "hoist", hoist.add_hoist,
+        mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, EA={"unit": "N"},
+        crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
+        block_mass={"unit": "kg"},
+        rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
+        winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
+    ),
+    Table(
         name="luffing_rope", text=_summary(luffing.add_luffing_rope), add=luffing.add_luffing_rope,
         keys=(*keys_of(luffing.add_luffing_rope), *keys_of(lines.add_winch, _core.Line, without=("line",))),
     ),
@@ -417,22 +451,6 @@ _ALL = (
     _call(
         "limit_state", limit_states.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
-    ),
-    Table(
-        name="roles", text=_summary(crane_parts.add_roles),
-        keys=keys_of(
-            crane_parts.add_roles,
-            more={
-                "cylinders": {"type": "names"},
-                "luffs": {"type": "names"},
-                "tip": {"type": "table", "keys": (
-                    Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
-                )},
-                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
-                "areas": {"type": "tables", "keys": PISTON},
-            },
-            without=("ropes",),
-        ),
     ),
     Table(
         name="mesh", text=_summary(meshes.add_mesh), add=meshes.add_mesh,

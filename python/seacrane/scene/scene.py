@@ -32,6 +32,7 @@ from seacrane.scene import (
     drift,
     given_vessel,
     heave,
+    hoist,
     hydraulics,
     limits,
     lines,
@@ -119,6 +120,7 @@ class Scene(Description):
 
     add_crane = add_crane
     add_roles = crane_parts.add_roles
+    add_hoist = hoist.add_hoist
     add_luffing_rope = luffing.add_luffing_rope
     add_mesh = meshes.add_mesh
 

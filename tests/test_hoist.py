@@ -1,0 +1,180 @@
+"""add_hoist: what hangs from a crane, in one call, at rest, against closed forms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import (
+    Lift,
+    Scene,
+    SceneError,
+    Stage,
+    Until,
+    equilibrium,
+    shipped_database,
+    simulate,
+    simulate_stages,
+)
+from seacrane.crane import Payload
+from seacrane.scene import Slings
+from seacrane.warnings import MassUnitWarning
+
+G = 9.80665
+BOX: dict[str, Any] = {"mass": 20e3, "size": (4.0, 4.0, 3.0)}
+
+
+def hoisted(**given: Any) -> Scene:
+    scene = Scene(name="hoisted")
+    scene.add_crane(base="ground", s1=1.5, s2=1.0, held=True)
+    scene.add_hoist(**given)
+    return scene
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"EA": 3e7},
+        {"EA": 3e7, "falls": 4},
+        {"stiffness": 2e6, "falls": 3, "rung": "quasi-static"},
+        {"rung": "rigid"},
+        {"EA": 3e7, "falls": 2, "block_mass": 1e3},
+        {"EA": 3e7, "falls": 2, "block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}},
+        {"EA": 3e7, "block_mass": 1e3, "slings": Slings(length=5.0, EA=5e7), "winch": True},
+    ],
+)
+def test_it_starts_at_rest(given: dict[str, Any]) -> None:
+    scene = hoisted(**BOX, **given)
+    result = simulate(scene, 5.0)
+    weight = (BOX["mass"] + given.get("block_mass", 0.0)) * G
+    assert result.select("hook_load", suspension="hoist") == pytest.approx(weight, rel=1e-4)
+    assert np.ptp(result.curve("position[load, z]")) < 1e-5
+    tip = scene.place_of(body=scene.roles[""].tip[0], point=scene.roles[""].tip[1])  # type: ignore[index]
+    assert scene.bodies["load"].position[:2] == pytest.approx(tip[:2])
+    assert {"tip", "hook"} <= scene.points.keys()
+
+
+def rest_height(scene: Scene) -> float:
+    state = equilibrium(scene)
+    return float(simulate(scene, 0.1, start=state).curve("position[load, z]")[0])
+
+
+def test_falls_and_slings_are_as_stiff_as_by_hand() -> None:
+    """Static stretch under a further weight: n falls of EA / L, four slings at an angle, in series."""
+    EA, falls, angle = 2e7, 2, np.radians(60.0)
+    heights = []
+    for mass in (20e3, 22e3):
+        scene = hoisted(
+            mass=20e3, size=(4.0, 4.0, 3.0), EA=EA, falls=falls, block_mass=1e3,
+            slings={"angle_deg": 60.0, "EA": 3e7},
+        )  # fmt: skip
+        scene.replace("load", mass=mass)
+        heights.append(rest_height(scene))
+    reach = np.hypot(2.0, 2.0)
+    sling = 4 * 3e7 / (reach / np.cos(angle)) * np.sin(angle) ** 2
+    hand = 2e3 * G * (8.0 / (falls * EA) + 1.0 / sling)
+    assert heights[0] - heights[1] == pytest.approx(hand, rel=0.01)
+
+
+def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
+    assert hoisted(**BOX, EA=3e7, height=2.0).bodies["load"].position[2] == pytest.approx(3.5)
+    scene = Scene()
+    scene.add_given_vessel("rest")
+    scene.add_crane(s1=1.5, s2=1.0, held=True)
+    scene.add_hoist(
+        **BOX, EA=3e7, on="vessel", height=8.0, block_mass=500.0,
+        slings={"length": 5.0, "EA": 5e7}, winch={"lag": 0.1},
+    )  # fmt: skip
+    still = simulate(scene, 2.0)
+    assert still.select("hook_load", suspension="hoist") == pytest.approx(500.0 * G, rel=1e-4)
+    assert np.ptp(still.curve("position[load, z]")) < 1e-6
+    stages = [
+        Stage(name="lift", until=Until.release("load on vessel"), maximum_duration=30.0,
+              commands={"hoist.rate": -0.1}),
+        Stage(name="up", duration=20.0),
+    ]  # fmt: skip
+    lifted = simulate_stages(scene, stages)
+    assert lifted.stages[0].ended_by and lifted.curve("position[load, z]")[-1] > 10.0
+    assert lifted.select("hook_load", suspension="hoist")[-1] == pytest.approx(20.5e3 * G, rel=0.02)
+
+
+def test_an_existing_body_stays_and_a_ship_with_a_heading_turns_the_load() -> None:
+    scene = Scene()
+    scene.add_crane(base="ground", s1=1.5, s2=1.0, held=True)
+    scene.add_body("anode", mass=5e3, size=(1, 1, 1), position=(20.0, 1.0, 2.0))
+    roles = scene.add_hoist(load="anode", EA=3e7)
+    assert roles.payload == "anode" and roles.line == "hoist" and roles is scene.roles[""]
+    assert scene.bodies["anode"].position == pytest.approx([20.0, 1.0, 2.0])
+    turned = Scene()
+    turned.add_vessel(shipped_database(), heading_deg=90.0)
+    turned.add_crane(s1=1.5)
+    turned.add_hoist(**BOX, EA=3e7)
+    w, _, _, z = turned.bodies["load"].quaternion
+    assert 2.0 * np.degrees(np.arctan2(z, w)) == pytest.approx(90.0)
+
+
+def test_a_lift_file_has_it(tmp_path: Any) -> None:
+    (tmp_path / "lift.toml").write_text(
+        """format = "seacrane lift"
+version = 2
+[scene]
+name = "hoisted"
+[[crane]]
+base = "ground"
+s1_m = 1.5
+s2_m = 1.0
+held = true
+[hoist]
+mass_kg = 20e3
+size_m = [4, 4, 3]
+EA_N = 3e7
+falls = 2
+block_mass_kg = 1e3
+slings = { angle_deg = 60, EA_N = 5e7 }
+winch = { lag_s = 0.1, maximum_rate = 0.5 }
+""".replace("maximum_rate =", "maximum_rate_m_per_s =")
+    )
+    assert Lift.load(tmp_path / "lift.toml").scene() == hoisted(
+        **BOX, EA=3e7, falls=2, block_mass=1e3, slings={"angle_deg": 60, "EA": 5e7},
+        winch={"lag": 0.1, "maximum_rate": 0.5},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"EA": 3e7, "falls": 0}, "falls is 0"),
+        ({"EA": 3e7, "falls": 2, "rung": "with mass"}, "has one fall"),
+        ({"EA": 3e7, "slings": {"angle_deg": 60, "EA": 1e7}}, "block_mass is 0"),
+        ({"EA": 3e7, "block_mass": 1e3, "slings": {"length": 2.0, "EA": 1e7}}, r"give more than 2\.828"),
+        ({"EA": 3e7, "block_mass": 1e3, "slings": {"angle_deg": 95, "EA": 1e7}}, "between 0 and 90"),
+        ({"EA": 3e7, "height": 500.0}, "above the tip"),
+        ({"EA": 3e7, "height": 1.0, "length": 3.0}, "a length and a height"),
+        ({"EA": 3e7, "stiffness": 1e6}, "one of them"),
+        ({}, "give the EA"),
+        ({"rung": "rigid", "EA": 3e7}, "has no stretch"),
+        ({"EA": 3e7, "crane": "aft "}, "prefixes of the scene's cranes are ''"),
+        ({"EA": 3e7, "rung": "rigid?"}, "rung is 'rigid\\?'"),
+        ({"EA": 3e7, "on": "barge"}, "barge"),
+    ],
+)
+def test_what_does_not_fit_is_named_and_leaves_the_scene_as_it_was(given: dict[str, Any], words: str) -> None:
+    scene = Scene()
+    scene.add_crane(base="ground", s1=1.5, s2=1.0, held=True)
+    before = scene.copy()
+    with pytest.raises(SceneError, match=words):
+        scene.add_hoist(**BOX, **given)
+    assert scene == before
+
+
+def test_one_load_a_crane_and_tonnes_are_named() -> None:
+    scene = Scene()
+    scene.add_crane(base="ground", payload=Payload())
+    with pytest.raises(SceneError, match="'payload' hangs on crane '' already"):
+        scene.add_hoist(**BOX, EA=3e7)
+    with pytest.raises(SceneError, match="add_crane first"):
+        Scene().add_hoist(**BOX, EA=3e7)
+    with pytest.warns(MassUnitWarning):
+        hoisted(mass=20.0, size=(4, 4, 3), EA=3e7)
