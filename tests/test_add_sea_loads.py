@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from seacrane import Scene, SceneError
-from seacrane.description.origin import origin_settings
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.run.stats import origin_settings
 from seacrane.sea import SeaState, WaveSystem, jonswap
 
 

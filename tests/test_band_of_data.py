@@ -15,7 +15,7 @@ import pytest
 
 from seacrane.hydro import HydroDatabase, load_database, read_capytaine, read_wamit, shipped_database
 from seacrane.hydro.data.data_warnings import warn_of_data
-from seacrane.hydro.data.roughness import first_rough_value
+from seacrane.hydro.readers.band_of_data import first_rough_value
 from seacrane.warnings import DampingWarning, RoughDataWarning
 
 

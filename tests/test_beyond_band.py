@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from seacrane import SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.hydro.data.beyond_band import without_load
 from seacrane.inputs.frames import MOTIONS
+from seacrane.scene.sea import without_load
 from seacrane.sea import jonswap, realise_waves
 from seacrane.sea.dispersion import wavenumber
 

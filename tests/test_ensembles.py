@@ -347,7 +347,7 @@ def test_a_damaged_pack_is_named(tmp_path: Path) -> None:
 def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     with ProcessPoolExecutor(1) as executor:
         executor.submit(os.getpid).result()  # it is there, with the version of before
-        monkeypatch.setattr("seacrane.ensembles.gather.__version__", "9.9")
+        monkeypatch.setattr("seacrane.ensembles.filling.__version__", "9.9")
         with pytest.raises(
             WorkerVersionError, match=r"a worker has seacrane .*, and the ensemble is of 9\.9"
         ):

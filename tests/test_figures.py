@@ -12,7 +12,6 @@ from matplotlib import cbook
 from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_result
 
 from seacrane import Frame, Scene, simulate
-from seacrane.crane.skeleton import crane_skeleton
 from seacrane.description.file_origin import roles_to_data
 from seacrane.pictures import (
     Panel,
@@ -27,7 +26,7 @@ from seacrane.pictures import (
 )
 from seacrane.pictures.findings import amplitude_at, slew_stop
 from seacrane.pictures.overview import overview_sheet
-from seacrane.pictures.paper_figures import motion_of
+from seacrane.pictures.paper_figures import crane_skeleton, motion_of
 from seacrane.pictures.pose import box_lines, complete_skeleton, posed_lines, rotation_matrix, wire_lines
 from seacrane.plotting.panel import Line, draw
 from seacrane.result import MOTIONS, Result

@@ -30,7 +30,7 @@ from seacrane import (
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import scene_digest
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.lift.control import times_of
+from seacrane.lift.build import times_of
 from seacrane.lift.keys import Key, suffix
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text

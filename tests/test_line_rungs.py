@@ -25,10 +25,9 @@ from seacrane import (
     simulate,
     simulate_to_file,
 )
-from seacrane.analysis.exciting_frequencies import curve_frequency, excitations
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
-from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, tension_error
+from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, curve_frequency, excitations, tension_error
 from seacrane.warnings import (
     EnergyErrorWarning,
     LineRungWarning,

@@ -33,13 +33,13 @@ from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
 from seacrane.operability import AllowableHs, AlphaFactor
+from seacrane.operability.allowable import SteadyStart, steady_start
 from seacrane.operability.allowable_table import over_circle
 from seacrane.operability.alpha import alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
-from seacrane.operability.steady_start import SteadyStart, steady_start
 from seacrane.operability.time_domain import ByTime, first_crossing
 from seacrane.pictures import plot_allowable_hs
 from seacrane.sea import jonswap
@@ -176,7 +176,7 @@ def test_a_steady_start_is_that_of_the_linear_model_wherever_it_is_made() -> Non
 
 
 def test_a_start_turns_no_body_by_more_than_the_linear_model_may(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.operability.steady_start.LARGEST_TURN", 1e-4)
+    monkeypatch.setattr("seacrane.operability.allowable.LARGEST_TURN", 1e-4)
     scene = vessel(hs=2.0)
     rest = equilibrium(scene)
     start = steady_start(scene, rest)

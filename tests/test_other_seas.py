@@ -13,7 +13,7 @@ import pytest
 
 from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.description.waves import Waves
-from seacrane.ensembles import prepared
+from seacrane.ensembles import job
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import with_values
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
@@ -202,7 +202,7 @@ def test_a_scene_is_compiled_once_for_all_its_seas(
     compiled = counted(monkeypatch)
     there = ensemble(scene, over=over, lanes=1, keep=PATH, **given)
     assert len(compiled) == len(masses)
-    monkeypatch.setattr(prepared, "MOST_HELD", 1)
+    monkeypatch.setattr(job, "MOST_HELD", 1)
     turned = ensemble(scene, over={"seed": range(4), path: masses}, lanes=1, keep=PATH, pack=3, **given)
     assert len(compiled) == len(masses) + 8  # none is held for as long as the next sea
     assert there.failures == turned.failures == {}

@@ -11,10 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, _core, cases, simulate
-from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.run.stats import origin_settings
 from seacrane.sea import (
     MeasuredWaves,
     SeaState,

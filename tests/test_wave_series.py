@@ -12,8 +12,8 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, _core, simulate
+from seacrane.description.compilation import compiled_waves
 from seacrane.description.wave_grid import grid_of
-from seacrane.description.wave_loads import compiled_waves
 from seacrane.hydro import shipped_database
 from seacrane.scene import HullLoads, Waves
 from seacrane.warnings import MeanPositionWarning, RepeatingSeaWarning
@@ -45,7 +45,7 @@ def uniform(count: int = 80, step: float = 0.02, first: float = 20.0, **changes:
 
 def tables(waves: Waves) -> tuple[Any, Any, Any, Any]:
     """Exact load and its table, drift and its table."""
-    from seacrane.description.wave_series import drift_table, wave_table
+    from seacrane.description.compilation import drift_table, wave_table
 
     sea, hull = waves.components(), waves.hull()
     exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=hull.position)

@@ -11,8 +11,8 @@ import pytest
 from hull_shapes import wigley_offsets
 
 from seacrane.hydro import Hull, HydroDatabase, fit_memory, hydro_from_hull
-from seacrane.hydro.data.roughness import first_rough_value
 from seacrane.hydro.memory.motion_judge import motion_judge
+from seacrane.hydro.readers.band_of_data import first_rough_value
 
 LENGTH, BREADTH, DRAUGHT = 100.0, 10.0, 6.25
 

@@ -13,8 +13,8 @@ from seacrane._core import Integrator, integrators
 from seacrane.accuracy.quantities import quantities_of
 from seacrane.inputs.atomic import atomic_write
 from seacrane.trading.case import Case
-from seacrane.trading.grid import methods
 from seacrane.trading.measured_case import channels_of, measured, timed
+from seacrane.trading.methods import methods
 from seacrane.trading.reference import Reference, reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile, completed

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from seacrane import Method
 from seacrane._core import Integrator
-from seacrane.trading.grid import methods
+from seacrane.trading.methods import methods
 
 STEPS = (0.02, 0.005)  # s
 TOLERANCES = (1e-3, 1e-6)

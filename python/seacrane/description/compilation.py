@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
@@ -10,9 +14,16 @@ from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_heavy_winch
 from seacrane.description.rungs import compiled_loads
-from seacrane.description.wave_loads import compiled_waves
+from seacrane.description.wave_grid import grid_of
+from seacrane.description.wave_selection import without_negligible
+from seacrane.description.waves import HullLoads, Waves
+from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
+
+EVALUATIONS = ("table", "exact", "fft")
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
@@ -71,3 +82,121 @@ def compiled(scene: Description, merge: bool) -> _core.Model:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # given when it was compiled first
         return compile_scene(scene, merge=merge)
+
+
+def compiled_waves(waves: Waves, *, prune: bool = True) -> list[_core.WaveLoads]:
+    """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
+
+    `prune` leaves out the components that are negligible.
+    """
+    bodies = [text_of("waves: body", body) for body in waves.hulls]
+    try:
+        sea = without_negligible(waves) if prune else waves
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"waves on {', '.join(map(repr, bodies))}: {error}") from error
+    return [_loads_on(sea, body) for body in bodies]
+
+
+def _loads_on(waves: Waves, body: str) -> _core.WaveLoads:
+    hull = waves.hulls[body]
+    try:
+        loads = _mean(waves, hull) if hull.force_by_heading is None else _positioned(waves, hull)
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"waves on {body!r}: {error}") from error
+    return _core.WaveLoads(name=f"waves on {body}", body=body, **loads)
+
+
+def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
+    force, drift = hull.force_by_heading, hull.drift_by_heading
+    if force is None or (hull.drift is not None and drift is None):
+        raise ValueError("drift at the actual position needs drift_by_heading")
+    if waves.evaluation == "fft":
+        raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
+    slow: dict[str, Any] = {}
+    if drift is not None:
+        slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
+    positioned = _core.PositionedWaveLoad(
+        waves.components(),
+        headings=np.asarray(force.heading).tolist(),
+        transfer=force.values,
+        cutoff=hull.cutoff,
+        **slow,
+    )
+    return {"positioned": positioned}
+
+
+def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
+    if waves.evaluation not in EVALUATIONS:
+        raise ValueError(f"evaluation is {waves.evaluation!r}; choose {', '.join(EVALUATIONS)}")
+    sea, position = waves.components(), hull.position
+    loads: dict[str, Any] = {
+        "exact": _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)
+    }
+    if hull.drift is not None:
+        loads["drift"] = _core.DriftLoad(sea, coefficient=hull.drift, position=position)
+    if waves.evaluation == "exact":
+        return loads
+    bound = waves.relative_bound
+    if waves.evaluation == "fft":
+        loads["table"] = wave_table(waves, hull, loads["exact"])
+        if hull.drift is not None:
+            loads["drift_table"] = drift_table(waves, hull, loads["drift"])
+        return loads
+    loads["table"] = _core.WaveTable(loads["exact"], relative_bound=bound)
+    if hull.drift is not None:
+        loads["drift_table"] = _core.DriftTable(loads["drift"], relative_bound=bound)
+    return loads
+
+
+def wave_table(waves: Waves, hull: HullLoads, load: _core.ExactWaveLoad) -> _core.WaveTable:
+    """The first-order load's table over one period, within `waves.relative_bound`."""
+    step, number = grid_of(np.asarray(waves.omega, dtype=float))
+    count = _knot_count(step, number, _core.WaveTable.largest_step(load, relative_bound=waves.relative_bound))
+    transfer = np.asarray(hull.transfer, dtype=complex)
+    weight = np.column_stack([transfer, np.ones(len(number))]) * _phasors(hull, load)[:, None]
+    knots = np.empty((count, 3, 7))
+    for order in range(3):
+        spectrum = np.zeros((count // 2 + 1, 7), dtype=complex)
+        factor = (1j * step * number[:, None]) ** order
+        np.add.at(spectrum, number, 0.5 * count * factor * weight)
+        knots[:, order] = np.fft.irfft(spectrum, n=count, axis=0)
+    return _core.WaveTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
+
+
+def drift_table(waves: Waves, hull: HullLoads, load: _core.DriftLoad) -> _core.DriftTable:
+    """The slow drift's table over one period: products of its envelopes' series and their derivatives."""
+    step, number = grid_of(np.asarray(waves.omega, dtype=float))
+    count = _knot_count(
+        step, number, _core.DriftTable.largest_step(load, relative_bound=waves.relative_bound)
+    )
+    coefficient = np.asarray(hull.drift, dtype=float)
+    weight = np.column_stack([coefficient, np.ones(len(number))]) * _phasors(hull, load)[:, None]
+    series = []
+    for order in range(3):
+        spectrum = np.zeros((count, 7), dtype=complex)
+        np.add.at(spectrum, number, count * (1j * step * number[:, None]) ** order * weight)
+        series.append(np.fft.ifft(spectrum, axis=0))
+
+    def product(a: int, b: int) -> Array:
+        return np.asarray((series[a][:, 6:].conj() * series[b][:, :6]).real)
+
+    knots = np.stack(
+        [product(0, 0), product(1, 0) + product(0, 1), product(2, 0) + 2.0 * product(1, 1) + product(0, 2)],
+        axis=1,
+    )
+    return _core.DriftTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
+
+
+def _phasors(hull: HullLoads, load: _core.ExactWaveLoad | _core.DriftLoad) -> Complex:
+    """a exp(i phase) where the loads are taken, shape (n,)."""
+    sea, (x, y) = load.waves, hull.position
+    along = x * np.cos(sea.direction) + y * np.sin(sea.direction)
+    return np.asarray(sea.amplitude * np.exp(1j * (sea.phase - sea.wavenumber * along)))
+
+
+def _knot_count(step: float, number: NDArray[np.int64], widest: float) -> int:
+    """Knots of one period: enough for the bound and to tell all frequencies apart, of a fast length."""
+    from scipy.fft import next_fast_len
+
+    period = 2.0 * np.pi / step
+    return int(next_fast_len(max(int(np.ceil(period / widest)), 2 * int(number.max()) + 2), real=True))

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from seacrane import _core
 from seacrane.description.limit_state import LimitState
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
-from seacrane.description.table import Table
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
@@ -21,8 +20,6 @@ from seacrane.inputs.checked import text_of
 GROUND = "ground"
 STANDARD_GRAVITY = 9.80665
 Some = TypeVar("Some", bound="Description")
-
-
 COMPILED: Mapping[str, str] = {  # what the elements of each table are called
     "bodies": "body",
     "joints": "joint",
@@ -48,6 +45,7 @@ KINDS: Mapping[str, str] = {
 }
 ELEMENTS = tuple(COMPILED)
 LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
+Element = TypeVar("Element")
 
 
 @dataclass(kw_only=True, eq=False, repr=False)
@@ -175,3 +173,23 @@ def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | N
     about = _core.joint_kinds().get(scene.joints[joint].kind)
     usual = about.usual if about and about.usual else "displacement"
     return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)
+
+
+class Table(dict[str, Element]):
+    """Elements of one kind by name, in the order in which they were added; a name that is not there says so.
+
+    Parameters
+    ----------
+    kind : str
+        What its elements are called, such as "point force".
+    """
+
+    kind: str
+
+    def __init__(self, kind: str, elements: Mapping[str, Element] | None = None) -> None:
+        super().__init__(elements or {})
+        self.kind = kind
+
+    def __missing__(self, name: object) -> NoReturn:
+        known = ", ".join(map(repr, self)) or "none"
+        raise KeyError(f"there is no {self.kind} {name!r}; the scene has {known}")

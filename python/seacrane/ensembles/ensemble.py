@@ -3,34 +3,38 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
+import inspect
+import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, is_dataclass, replace
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
+from seacrane.description.file import scene_digest
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
 from seacrane.ensembles.dataset import table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
-from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.members import Members, Over, members_of
+from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
-from seacrane.ensembles.stored_members import growth_in, members_in
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.ensembles.variables import NOT_RUN, RESERVED
 from seacrane.ensembles.zarr_store import ZarrStore
-from seacrane.errors import SceneError
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
@@ -39,6 +43,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
+from seacrane.version import __version__
 
 if TYPE_CHECKING:
     import pandas
@@ -344,3 +349,108 @@ def _run(
 def _places(members: Members, number: int, size: int) -> range:
     """Numbers of the members of a pack."""
     return range(number * size, min((number + 1) * size, len(members)))
+
+
+def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
+    """Plain data, equal only for studies whose members have the same results.
+
+    The scenes of the first and the last member stand for what a function uses beyond its own text.
+    """
+    source = study.source
+    begun = {} if study.start is None else {"start": _start(study, members)}
+    return begun | {
+        "version": __version__,
+        "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
+        "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
+        "over": _digest([members.grid, *members.axes.items()]),
+        "members": len(members),
+        "members in a pack": pack,
+        "lanes": study.lanes,
+        "t_end": study.t_end,
+        "method": _text(asdict(study.method)),
+        "outputs": _text(asdict(study.outputs)),
+        "keep": {
+            name: _text(asdict(what)) if isinstance(what, Kept) else _function(what)
+            for name, what in study.keep.items()
+        },
+    }
+
+
+def _start(study: Study, members: Members) -> str:
+    """Of the first member, which stands for what a function makes of the others."""
+    try:
+        state = study.start_of(study.scene(members.values(0)))
+    except Exception as error:  # its failure is recorded when it is run
+        return f"{type(error).__name__}: {error}"
+    assert state is not None
+    return _digest([state.time, *np.asarray(state.values).tolist()])
+
+
+def _scene(study: Study, members: Members, place: int) -> str:
+    try:
+        return scene_digest(study.scene(members.values(place)))
+    except Exception as error:  # its failure is recorded when it is run
+        return f"{type(error).__name__}: {error}"
+
+
+def _function(function: Callable[..., Any]) -> str:
+    """Its name and a digest of its text, or of its code where it has none; of a dataclass its entries."""
+    if is_dataclass(function) and not isinstance(function, type):
+        return f"{type(function).__module__}.{type(function).__qualname__} {_text(asdict(function))}"
+    name = (
+        f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
+    )
+    try:
+        return f"{name} {_digest(inspect.getsource(function))}"
+    except (OSError, TypeError):
+        code = getattr(function, "__code__", None)
+        return f"{name} {_digest([code.co_code.hex(), repr(code.co_names)]) if code else ''}"
+
+
+def _text(data: dict[str, Any]) -> str:
+    return json.dumps(data, sort_keys=True, default=str)
+
+
+def _digest(data: Any) -> str:
+    return hashlib.sha256(json.dumps(data).encode()).hexdigest()[:16]
+
+
+def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
+    """Those of a study without `until`. Raises FileFormatError for what is no study of ours."""
+    members = Members(axes=_axes(folder, data), grid=bool(data.get("grid")))
+    lengths = {len(values) for values in members.axes.values()}
+    if (not members.grid and len(lengths) > 1) or len(members) > MOST_MEMBERS:
+        raise FileFormatError(f"{folder}: its study has lists of unlike lengths, or too many members")
+    return members
+
+
+def growth_in(folder: Path, data: Mapping[str, Any]) -> Growth:
+    """That of a study with `until`, by the members of its first batch. Raises FileFormatError."""
+    axes, size = _axes(folder, data), data["seeds_in_pack"]
+    seeds = axes.get("seed", ())
+    others = {name: values for name, values in axes.items() if name != "seed"}
+    sound = len(seeds) == BATCH and all(type(one) is int for one in seeds)
+    if not sound or type(size) is not int or not 1 <= size <= BATCH:
+        raise FileFormatError(f"{folder}: its study grows by {BATCH} seeds, and tells others")
+    growth = Growth(first=int(seeds[0]), batches=1, others=others, size=size)
+    if growth.cells * BATCH > MOST_MEMBERS:
+        raise FileFormatError(f"{folder}: its study has too many members")
+    return growth
+
+
+def _axes(folder: Path, data: Mapping[str, Any]) -> dict[str, tuple[Any, ...]]:
+    axes = data.get("axes")
+    sound = isinstance(axes, dict) and axes and all(map(_is_axis, axes.items()))
+    if not isinstance(axes, dict) or not sound:
+        raise FileFormatError(f"{folder}: its study names no parameters with values")
+    return {name: tuple(values) for name, values in axes.items()}
+
+
+def _is_axis(axis: tuple[str, Any]) -> bool:
+    name, values = axis
+    return (
+        name not in RESERVED
+        and isinstance(values, list)
+        and bool(values)
+        and all(isinstance(value, bool | int | float | str) for value in values)
+    )

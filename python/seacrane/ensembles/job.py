@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import pickle
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
+from threading import Lock
 from typing import Any, TypeVar
 
+from seacrane.description.given import given_vessels
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.prepared import Prepared
-from seacrane.ensembles.study import Study
+from seacrane.ensembles.study import Study, Values
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
+MOST_HELD = 32  # scenes that differ in more than their sea
 
 
 class Job:
@@ -126,3 +130,43 @@ def _tried(work: Callable[[], Some]) -> Some | str:
 @lru_cache(maxsize=4)
 def _read(data: bytes) -> Job:
     return Job(pickle.loads(data))
+
+
+class Prepared:
+    """Makes the runs of a study; threads may share it.
+
+    The run of a member is, to the bit, that of its scene by itself.
+    """
+
+    def __init__(self, study: Study) -> None:
+        self._study = study
+        self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
+        self._lock = Lock()
+
+    def run(self, values: Values) -> Run:
+        """Of the member with these values, at its start. Raises what describing or compiling it raises."""
+        study = self._study
+        sea, others = study.parts(values)
+        source = study.source
+        if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
+            return self._begun(study.scene(values))
+        first = self._first(others)
+        waves = study.in_sea(first.scene, sea).waves
+        assert waves is not None
+        return first.in_sea(waves)
+
+    def _begun(self, scene: Scene) -> Run:
+        study = self._study
+        start = study.start_of(scene)
+        return Run(scene, study.t_end, start=start, method=study.method, outputs=study.outputs)
+
+    def _first(self, others: Values) -> Run:
+        """The run of the scene's own sea that those of other seas are made from; it is not stepped."""
+        key = tuple(others.values())
+        with self._lock:
+            if key not in self._held:
+                self._held[key] = self._begun(self._study.scene(others))
+            self._held.move_to_end(key)
+            if len(self._held) > MOST_HELD:
+                self._held.popitem(last=False)
+            return self._held[key]

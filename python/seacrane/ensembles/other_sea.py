@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 import numpy as np
 
 from seacrane.description.databases import database_of
 from seacrane.description.waves import HullLoads, Waves
-from seacrane.ensembles.sea_state import sea_state_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import heading_of
 from seacrane.scene.drift import add_drift
 from seacrane.scene.position import SLOW_SHARE, use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
-from seacrane.sea import Spreading
+from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pierson_moskowitz
 from seacrane.validity.hull_range import peak_frequency
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
+SPECTRA: Mapping[str, Callable[..., Spectrum]] = {
+    "JONSWAP": jonswap,
+    "Pierson-Moskowitz": lambda *, hs, tp, gamma: pierson_moskowitz(hs=hs, tp=tp),
+}
 
 
 def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
@@ -115,3 +118,35 @@ def _put(scene: Scene, body: str, hull: HullLoads, old: Waves) -> None:
         use_slow_position(scene, vessel=body, cutoff=None if usual else hull.cutoff)
     else:
         use_actual_position(scene, vessel=body)
+
+
+def sea_state_of(record: Mapping[str, Any], seed: Any) -> SeaState:
+    """What `SeaState.description` tells, with a seed.
+
+    Raises
+    ------
+    SceneError
+        For a measured record, or a spectrum that its parts do not tell.
+    """
+    return SeaState(
+        systems=[_system(system) for system in record["systems"]],
+        seed=seed,
+        depth=float("inf") if record["depth"] is None else record["depth"],
+        placement=record["placement"],
+    )
+
+
+def _system(record: Mapping[str, Any]) -> WaveSystem:
+    kind, parts, spread = record.get("spectrum", "record"), record.get("parts", ()), record.get("spreading")
+    if kind not in SPECTRA or len(parts) != 1:
+        raise SceneError(
+            f"over: wave system {record['name']!r} of the sea is a {kind}, which cannot be made again from "
+            "what is known of it; give a function that makes the scene"
+        )
+    return WaveSystem(
+        spectrum=SPECTRA[kind](**parts[0]),
+        direction_deg=record["direction_deg"],
+        spreading=None if spread is None else Spreading(**spread),
+        count=record["count"],
+        name=record["name"],
+    )

@@ -12,8 +12,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
+from seacrane.analysis.frequency_domain import response_summed
+from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import equilibrium, held
 from seacrane.ensembles.other_sea import require_same_sea
+from seacrane.ensembles.study import Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.shown import shown
@@ -24,7 +28,6 @@ from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.probe import Prober, Sea
-from seacrane.operability.steady_start import steady_start
 from seacrane.operability.time_domain import Cell, Storms
 from seacrane.renamed import refusing
 from seacrane.run.advance import finished
@@ -44,6 +47,7 @@ DT = 0.5  # s between outputs
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
 FEWEST_PERIODS = 10.0  # that a record holds
 DELAY = 2.0  # s before a progress bar shows
+LARGEST_TURN = 0.2  # rad, of a body: what the linear model says of more is no state to start from
 
 
 @refusing
@@ -333,3 +337,33 @@ def _bar(what: str, total: int, wanted: bool) -> Iterator[Callable[[int], Any]]:
 
     with tqdm(total=total, desc=what, delay=DELAY) as bar:
         yield bar.update
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SteadyStart:
+    """The steady response of a linear model to the waves of a scene, at the time of its state at rest.
+
+    Attributes
+    ----------
+    model : LinearModel
+    """
+
+    model: LinearModel
+
+    def __call__(self, scene: Scene) -> _core.State:
+        """Where a run of this scene begins; scaled down where a body would turn by more than 0.2 rad."""
+        model = self.model
+        found = response_summed(model, body=model.bodies[0], waves=scene.waves)
+        x = found.state_at(model.state.time)
+        turns = (model.basis @ x[: model.degrees_of_freedom]).reshape(-1, 2, 3)[:, 1]
+        return model.full_state(x * min(1.0, LARGEST_TURN / max(float(np.abs(turns).max()), 1e-300)))
+
+
+def steady_start(scene: Scene, rest: _core.State) -> Start:
+    """A `SteadyStart`, or the state at rest of a scene whose linear model has no such state."""
+    assert scene.waves is not None
+    try:
+        model = linear_model(scene, state=rest, vessel=next(iter(scene.waves.hulls)))
+    except SceneError:
+        return rest
+    return rest if model.memories else SteadyStart(model=model)

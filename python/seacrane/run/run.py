@@ -14,7 +14,9 @@ from seacrane import _core
 from seacrane._core import integrator
 from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.compilation import compiled, compiled_in_sea
+from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
@@ -50,7 +52,6 @@ from seacrane.run.method import Method
 from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
-from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
@@ -469,3 +470,12 @@ def _options(run: Run) -> _core.RunOptions:
         fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip
+
+
+def ruptures(scene: Description, start: float, now: float) -> list[Event]:
+    """Those from a start (s) to before now: a run that goes on from there tells of what bursts then."""
+    return [
+        Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
+        for name, cylinder in hydraulic_cylinders(scene).items()
+        if cylinder.rupture_area > 0.0 and start <= cylinder.rupture_time < now
+    ]

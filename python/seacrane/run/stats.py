@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.file_origin import roles_to_data
 from seacrane.description.line_weights import line_weights
-from seacrane.description.origin import origin_settings, sea_settings
 from seacrane.description.outline import bounds_of, outline_of
-from seacrane.description.provenance import SEA_SETTINGS
+from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.waves import Waves
-from seacrane.inputs.plain_data import plain_notes
+from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method
@@ -93,3 +93,43 @@ def stats_of(
         **core.statistics(),
         **({} if waves is None else waves.provenance.stats()),
     }
+
+
+def origin_settings(scene: Description) -> dict[str, Any]:
+    """Of vessels and sea, by the names of a result's settings; by body where several vessels differ.
+
+    Raises
+    ------
+    SceneError
+        For a value that is not plain data.
+    """
+    found: dict[str, dict[str, Any]] = {}
+    for vessel in scene.vessels.values():
+        known = scene.provenance.get(vessel.name, VesselProvenance())
+        band = None if known.omega is None else list(known.omega)
+        values: dict[str, Any] = {"database": known.database, "database_omega": band, "memory": known.memory}
+        values |= {"memory_error": known.memory_error, "given_motion": known.motion}
+        for key, value in {**values, "kinematics": vessel.kinematics}.items():
+            found.setdefault(key, {})[vessel.body] = value
+    hulls = {} if scene.waves is None else scene.waves.hulls
+    for body, hull in hulls.items():
+        if hull.force_by_heading is not None:
+            found.setdefault("wave_phase", {})[body] = "slow" if hull.cutoff else "actual"
+        if hull.drift is not None:
+            found.setdefault("drift", {})[body] = "newman"
+    told = {key: one for key, by_body in found.items() if (one := _one(by_body)) is not None}
+    return dict(plain_data(f"scene {scene.name!r}: provenance", told)) | sea_settings(scene)
+
+
+def sea_settings(scene: Description) -> dict[str, Any]:
+    """Of its sea alone; raises as `origin_settings`."""
+    if scene.waves is None:
+        return {}
+    told = {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
+    return dict(plain_data(f"scene {scene.name!r}: provenance", told))
+
+
+def _one(by_body: dict[str, Any]) -> Any:
+    """The value of all bodies, or the mapping where they differ."""
+    first, *others = by_body.values()
+    return first if all(other == first for other in others) else by_body

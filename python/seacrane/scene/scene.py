@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
+from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
-from seacrane.analysis.scene_report import scene_report
+from seacrane.analysis.scene_report import elements_of, scene_report
 from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
     bodies,
     clearances,
+    compilation,
     crane_parts,
     damping,
     drives,
@@ -25,10 +28,10 @@ from seacrane.description import (
 )
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
+from seacrane.plotting.html import notebook_table
 from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
-    compiling,
     drift,
     given_vessel,
     heave,
@@ -40,10 +43,35 @@ from seacrane.scene import (
     position,
     sea,
     slack_tank,
-    table_text,
     vessel,
     wind_current,
 )
+from seacrane.validity.unstable import warn_of_capsize
+
+WIDTH = 100  # characters of a line of text
+
+
+def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
+    """Check everything, close the joints and compile.
+
+    Parameters
+    ----------
+    merge : bool
+        Step bodies that never move relative to each other as one and leave out what adds nothing.
+
+    Raises
+    ------
+    SceneError
+        Names the element, the value and the fix; for loops that do not close, the loop and its gap.
+
+    Warns
+    -----
+    AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
+    UnstableRestWarning : names vessels whose roll restoring the weights on them outweigh.
+    UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
+    """
+    warn_of_capsize(scene)
+    return compilation.compile_scene(scene, merge=merge)
 
 
 class Scene(Description):
@@ -126,7 +154,7 @@ class Scene(Description):
 
     place_of = places.place_of
 
-    compile = compiling.compile_scene
+    compile = compile_scene
     replace = edit.replace_element
     remove = edit.remove_element
 
@@ -145,10 +173,10 @@ class Scene(Description):
     __hash__ = None  # type: ignore[assignment]  # what changes has no hash
 
     def __str__(self) -> str:
-        return table_text.as_text(self)
+        return as_text(self)
 
     def _repr_html_(self) -> str:
-        return table_text.as_html(self)
+        return as_html(self)
 
     def report(self) -> dict[str, list[tuple[str, Any]]]:
         """What the compiled model holds: {section: [(name, value), ...]}."""
@@ -167,3 +195,41 @@ class Scene(Description):
 for _name, _method in list(vars(Scene).items()):
     if _name.startswith(("add_", "use_", "hold_")):
         setattr(Scene, _name, heard(_method))
+
+
+def rows(scene: Description) -> list[tuple[str, list[str]]]:
+    """Kinds of element and the elements of each."""
+    found = [(kind, list(names)) for kind, names in elements_of(scene)]
+    found.append(("points", [f"{name} ({at.body})" for name, at in scene.points.items()]))
+    found.append(("recorded", [f"{name} ({joint} {c})" for name, (joint, c) in scene.recorded.items()]))
+    found.append(
+        (
+            "ranges",
+            [
+                f"{name} ({limit.minimum + 0.0:g} to {limit.maximum + 0.0:g})"
+                for name, limit in scene.ranges.items()
+            ],
+        )
+    )
+    found.append(("limit states", list(scene.limit_states)))
+    found.append(("clearances", list(scene.clearances)))
+    found.append(("meshes", list(scene.meshes)))
+    return [(kind, names) for kind, names in found if names]
+
+
+def as_text(scene: Description) -> str:
+    """Lines of kind, number and names; long ones wrapped."""
+    lines = [f"Scene {scene.name!r}, gravity {scene.gravity:g} m/s2"]
+    held = rows(scene)
+    margin = max((len(kind) for kind, _ in held), default=0) + 8
+    for kind, names in held:
+        first = f"  {len(names):>3}  {kind}"
+        begin, after = first.ljust(margin) + " ", " " * (margin + 1)
+        lines += wrap(", ".join(names), WIDTH, initial_indent=begin, subsequent_indent=after)
+    return "\n".join(lines if held else [*lines, "  empty"])
+
+
+def as_html(scene: Description) -> str:
+    """The same as a table for notebooks."""
+    held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
+    return notebook_table(("", "number", "names"), held, caption=f"Scene {scene.name!r}")

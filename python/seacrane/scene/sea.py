@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.description.databases import database_of, source_of
 from seacrane.description.description import Description
@@ -16,24 +17,32 @@ from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
-from seacrane.hydro.data.beyond_band import without_load
+from seacrane.hydro.data.excitation import force_at
+from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.inputs.caller import tell, warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
-from seacrane.inputs.frames import heading_of
+from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.renamed import refusing
-from seacrane.scene.depth import require_depth
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
 from seacrane.scene.position import use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import SeaState, Spreading
+from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning
 
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+END = 0.8  # of the highest frequency: the slope of the forces is fitted from there on
+FEWEST = 3  # frequencies of that fit
+AT_ONCE = 256  # headings, to bound the memory it takes
+SLIGHT = 1e-3  # of the variance that the same waves would give a load from its worst heading
+LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
 @refusing
@@ -275,3 +284,93 @@ def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullL
         wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
         load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutLoad:
+    """How much of a sea is above the band of a database, and so puts no load on its vessel.
+
+    Attributes
+    ----------
+    energy : float
+        Share of the energy of the waves.
+    variance : float
+        Largest share of the variance of a load; what is left out is estimated from the slope of the forces
+        at the end of the band.
+    load : str
+        Which load that is.
+    """
+
+    energy: float
+    variance: float
+    load: str
+
+
+def without_load(
+    database: HydroData,
+    *,
+    omega: FloatArray,
+    amplitude: FloatArray,
+    direction: FloatArray,
+    force: ComplexArray,
+) -> WithoutLoad:
+    """What the components of a sea above the band would add.
+
+    Forces there are taken to continue as the power of the frequency that they follow at the end of the band
+    (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
+    (roll in a head sea) are not judged.
+
+    Parameters
+    ----------
+    omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
+    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
+    """
+    energy = 0.5 * amplitude**2
+    above = omega > database.omega[-1] * (1.0 + 1e-9)
+    if not np.any(above):
+        return WithoutLoad(energy=0.0, variance=0.0, load=MOTIONS[0])
+    carried = energy @ np.abs(force) ** 2
+    missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
+    whole = carried + missing
+    judged = whole > SLIGHT * (energy[~above] @ _worst_heading(database, omega[~above]) ** 2)
+    share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
+    worst = int(share.argmax())
+    return WithoutLoad(
+        energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=MOTIONS[worst]
+    )
+
+
+def _worst_heading(database: HydroData, omega: FloatArray) -> FloatArray:
+    """Largest magnitudes (n, 6) over all headings."""
+    largest = np.abs(database.force).max(axis=0)
+    return np.stack([np.interp(omega, database.omega, column) for column in largest.T], axis=1)
+
+
+def _tail(database: HydroData, omega: FloatArray, direction: FloatArray) -> FloatArray:
+    """Magnitudes (n, 6) of the forces above the band."""
+    end = database.omega[database.omega >= END * database.omega[-1]]
+    end = end if end.size >= FEWEST else database.omega[-FEWEST:]
+    heading, of_component = np.unique(direction, return_inverse=True)
+    parts = np.array_split(heading, -(-heading.size // AT_ONCE))
+    force = np.abs(np.concatenate([force_at(database, end[None, :], part[:, None]) for part in parts]))
+    least = 1e-9 * np.abs(database.force).max(axis=(0, 1)) + 1e-300
+    level, x = np.log(np.maximum(force, least)), np.log(end / database.omega[-1])
+    spread = x - x.mean()
+    slope = np.einsum("k,hkd->hd", spread, level) / np.sum(spread**2)
+    last = level.mean(axis=1) - slope * x.mean()
+    growth = np.minimum(slope, 0.0)[of_component] * np.log(omega / database.omega[-1])[:, None]
+    return np.asarray(np.exp(last[of_component] + growth))
+
+
+def require_depth(waves: Waves, database: Source, vessel: str) -> None:
+    """Refuse a database computed at a depth where the waves of a sea have another length than in that sea."""
+    there, computed = (
+        wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
+    )
+    difference = float(np.max(np.abs(there / computed - 1.0)))
+    if difference > LEAST_DIFFERENCE:
+        raise SceneError(
+            f"sea of vessel {vessel!r}: it is {waves.depth:g} m deep, the forces of database "
+            f"{database.name!r} are for {database.depth:g} m, and wavenumbers differ by up to "
+            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth"
+        )

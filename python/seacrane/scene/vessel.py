@@ -15,7 +15,9 @@ from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
-from seacrane.hydro.memory.free_surface import free_surface
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
+from seacrane.hydro.memory.retardation import retardation_functions
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
@@ -27,6 +29,10 @@ from seacrane.scene.vessel_memory import core_memory, memory_of
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
 MEMORY = ("by-motion", "per-pair", "passive", "convolution", "none")
+KINDS = ("per-pair", "by-motion")
+ROLL = 3, 3
+STEP, PHASE, DURATION = 0.2, 1.0, 60.0  # s, rad at the highest frequency, s: of a convolution that is not run
+FloatArray = NDArray[np.float64]
 
 
 @overload
@@ -222,3 +228,31 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
     heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
     heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
     return np.asarray(heavy)
+
+
+def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, float] | None:
+    """N m/rad that additional causes (roll tanks) take from C44: as used, least and most of all fits.
+
+    A table of matrices by frequency does not tell a static stiffness: it is what a fit extends them to.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    used : ndarray, shape (6, 6)
+        `additional_stiffness` of the model that a vessel has.
+
+    Returns
+    -------
+    (float, float, float), or None without such causes, or where they take nothing.
+    """
+    if not database.additional:
+        return None
+    table = sum(float(part.restoring[(0, *ROLL)]) for part in database.additional)
+    fits = [used]
+    if enough_frequencies(database):
+        step = min(STEP, PHASE / float(database.omega[-1]))
+        slow = retardation_functions(database=database, step=step, duration=DURATION)
+        fits.append(slow.additional_stiffness)
+        fits += [fit_memory(database=database, kind=kind).additional_stiffness for kind in KINDS]
+    taken = [-(table + float(one[ROLL])) for one in fits]
+    return (taken[0], min(taken), max(taken)) if any(taken) else None

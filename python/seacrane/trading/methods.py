@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from seacrane._core import Integrator, integrator
+from seacrane._core import Integrator, integrator, integrators
 from seacrane.run.method import Method
-from seacrane.trading.grid import methods
 
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
 MIDDLE = (*COARSE, 1e-5, 1e-6)
@@ -15,7 +14,6 @@ STEPS_OF_ORDER_1 = (0.1, 0.05, 0.02, 0.01, 0.005)  # s
 STEPS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # s
 STEPS_IMPLICIT = (0.1, 0.05, 0.02)  # s
 QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
-
 TIGHT = (
     Method(formulation="recursive", integrator="dop853", rtol=1e-12),
     Method(formulation="recursive", integrator="verner76", rtol=1e-12),
@@ -23,13 +21,11 @@ TIGHT = (
     Method(formulation="redundant", integrator="verner76", rtol=1e-12),
 )
 """The reference's runs; they differ in equations and in method, so that their difference is its error."""
-
 PHYSICS = Method(formulation="auto", integrator="dop853", rtol=1e-8)
 """How the physics rungs are run: an error far below what leaving physics out brings."""
-
-
 LINES = tuple(Method(integrator="dopri5", rtol=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
 """How the rungs of lines are run: they differ in cost more than in error, so that each is a line."""
+FORMULATIONS = ("recursive", "redundant")
 
 
 def measured_methods(*, quick: bool) -> Iterator[Method]:
@@ -51,3 +47,39 @@ def _values(method: Integrator) -> tuple[float, ...]:
     if method.uses_jacobian:
         return COARSE
     return MIDDLE if method.order < 4 else FINE
+
+
+def methods(
+    values: Callable[[Integrator], Sequence[float]],
+    *,
+    tried: Iterable[Integrator] | None = None,
+    formulations: Sequence[str] = FORMULATIONS,
+    only_possible: bool = False,
+) -> Iterator[Method]:
+    """Every formulation, integrator, and tolerance or step.
+
+    Parameters
+    ----------
+    values : callable
+        Tolerances or steps (s) of an integrator.
+    tried : iterable of Integrator, optional
+        Default: all of the core.
+    formulations : sequence of str
+    only_possible : bool
+        Leave out what a formulation does not have at all: methods of the residual form solve the redundant
+        equations only.
+    """
+    chosen = integrators() if tried is None else list(tried)
+    for formulation in formulations:
+        for one in chosen:
+            if only_possible and formulation == "recursive" and one.residual_form:
+                continue
+            for value in values(one):
+                yield method_of(one, value, formulation)
+
+
+def method_of(integrator: Integrator, value: float, formulation: str) -> Method:
+    """The method with a tolerance or a step, whichever sets the integrator's accuracy."""
+    if integrator.setting == "dt":
+        return Method(formulation=formulation, integrator=integrator.name, dt=value)
+    return Method(formulation=formulation, integrator=integrator.name, rtol=value)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.given import floating_bodies
+from seacrane.description.holding import free_drives
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import kind_of
 from seacrane.description.references import references
@@ -20,9 +21,8 @@ from seacrane.inputs.plausible import angle_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_starts import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
-from seacrane.validity.unheld_cranes import warn_of_free_cranes
 from seacrane.validity.unstable import carried_by, warn_of_capsize
-from seacrane.warnings import BallastWarning, CompassDirectionWarning, MassUnitWarning
+from seacrane.warnings import BallastWarning, CompassDirectionWarning, FreeCraneWarning, MassUnitWarning
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -158,3 +158,17 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
         "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
         BallastWarning,
     )
+
+
+def warn_of_free_cranes(scene: Description) -> None:
+    """Joints of cranes that neither a driver nor a load acts on; not where C functions may hold them."""
+    for roles in scene.roles.values():
+        free = [f"{label} (joint {joint!r})" for label, joint, _ in free_drives(scene, roles)]
+        if free and not roles.held:
+            which = f"crane {roles.prefix!r}" if roles.prefix else "crane"
+            warn_caller(
+                f"{which}: nothing holds {', '.join(free)}: it falls, or turns as the ship rolls. Leave out "
+                "held=False of add_crane, or give each joint a driver (Scene.add_driver) or an actuator "
+                "(Scene.add_actuator)",
+                FreeCraneWarning,
+            )

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane import _core
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.hull.by_capytaine import capytaine_solution
-from seacrane.hydro.hull.by_strip_theory import strip_solution
-from seacrane.hydro.hull.convergence import convergence_told
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
-from seacrane.warnings import FloatingPositionWarning
+from seacrane.inputs.frames import MOTIONS
+from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
+LARGEST_CHANGE = 0.05  # of the largest of an entry
+FEWEST = 8  # panels along the length and around, of the coarse mesh
+HANGING = 1e-6  # of the volume
+PANELS = 40  # on each half section
+PANELS_PER_WAVE = 8.0
 FloatArray = NDArray[np.float64]
-
 METHODS = ("strip", "capytaine")
 GYRATION = (0.36, 0.25, 0.25)  # of breadth, length, length
 DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
@@ -283,3 +288,108 @@ def _increasing(name: str, what: str, value: ArrayLike) -> FloatArray:
         limits = "above 0 rad/s" if what == "omega" else "from 0 to below 2 pi rad"
         raise ValueError(f"hull {name!r}: {what} is {value!r}; give increasing numbers {limits}")
     return row
+
+
+def strip_solution(
+    hull: Hull,
+    *,
+    omega: FloatArray,
+    heading: FloatArray,
+    rho: float,
+    g: float,
+    speed: float = 0.0,
+    stations: int = 41,
+) -> HullSolution:
+    """Radiation and excitation from even stations, both ends included.
+
+    The trusted band begins where the wave is as long as the ship (longer waves do not see strips) and ends
+    where it is eight panels of the largest section long.
+
+    Warns
+    -----
+    SubmergedPartWarning : a bulb ahead of the stem, or the like.
+
+    Raises
+    ------
+    ValueError : fewer than five stations, or a section that is not one outline from waterline to keel.
+    """
+    if stations < 5:
+        raise ValueError(f"hull {hull.name!r}: {stations} stations; give 5 or more, 20 to 40 for a ship")
+    x = np.linspace(hull.extent[0, 0], hull.extent[1, 0], stations)
+    cut = hull.sections(x)
+    hanging = 2.0 * float(np.trapezoid([s.apart for s in cut], x)) / hull.hydrostatics.volume
+    if hanging > HANGING:
+        warn_caller(
+            f"hull {hull.name!r}: {100.0 * hanging:.2g} % of the volume hangs apart under water (a bulb "
+            "ahead of the stem, a pod) and is left out by strip theory: its added mass and wave force are "
+            "missing. Use method='capytaine' to have them",
+            SubmergedPartWarning,
+        )
+    solved = _core.strip_theory(
+        x=x,
+        sections=[s.section for s in cut],
+        omega=omega,
+        heading=heading,
+        speed=speed,
+        rho=rho,
+        g=g,
+        panels=PANELS,
+    )
+    girth = max(float(np.hypot(*np.diff(s.section, axis=0).T).sum()) for s in cut)
+    waves = np.array([hull.length, PANELS_PER_WAVE * girth / PANELS])
+    low, high = np.sqrt(2.0 * np.pi * g / waves).tolist()
+    return HullSolution(
+        added_mass=solved["added_mass"],
+        damping=solved["damping"],
+        added_mass_zero=None,
+        added_mass_infinite=solved["infinite_frequency_added_mass"],
+        force=solved["force"],
+        method=f"strip theory, {stations} stations, surge without radiation",
+        trusted_band=(low, high),
+    )
+
+
+def coarser(hull: Hull) -> Hull:
+    """The hull with about half the panels, even ones."""
+    size = np.sqrt(2.0) * hull.panel_size
+    girth = 0.5 * (hull.breadth + 2.0 * hull.draught)
+    return hull.remeshed(
+        stations=max(FEWEST, round(hull.length / size)), girth=max(FEWEST // 2, round(girth / size))
+    )
+
+
+def convergence_told(
+    hull: Hull, solution: HullSolution, solve: Callable[[Hull], HullSolution], inside: NDArray[np.bool_]
+) -> str:
+    """What changes with half the panels, as the end of a database's `source`.
+
+    ``solve`` solves the coarse hull at the same frequencies, of which those ``inside`` (n,) count.
+
+    Warns
+    -----
+    MeshConvergenceWarning : an entry on the diagonal changes by more than 5 % of its largest.
+    """
+    coarse = coarser(hull)
+    other = solve(coarse)
+    changes = {
+        f"{symbol}{i + 1}{i + 1}": _change(getattr(solution, name), getattr(other, name), i, inside)
+        for symbol, name in (("A", "added_mass"), ("B", "damping"))
+        for i in range(len(MOTIONS))
+    }
+    entry, worst = max(changes.items(), key=lambda pair: pair[1])
+    told = f"; with {len(coarse.panels)} in place of {len(hull.panels)} panels {entry} changes by {worst:.2%}"
+    if worst > LARGEST_CHANGE:
+        large = ", ".join(f"{name} {value:.1%}" for name, value in changes.items() if value > LARGEST_CHANGE)
+        warn_caller(
+            f"hull {hull.name!r}: with {len(coarse.panels)} in place of {len(hull.panels)} panels these "
+            f"change, by their largest: {large}. Mesh it finer: hull.remeshed(stations=..., girth=...)",
+            MeshConvergenceWarning,
+        )
+    return told
+
+
+def _change(fine: FloatArray, coarse: FloatArray, i: int, inside: NDArray[np.bool_]) -> float:
+    """Largest difference of a diagonal entry over its largest; zero where it is negligible."""
+    mine, theirs = fine[inside, i, i], coarse[inside, i, i]
+    largest = float(np.abs(mine).max())
+    return float(np.abs(mine - theirs).max()) / largest if largest > 0.0 else 0.0
