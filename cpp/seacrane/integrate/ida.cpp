@@ -16,6 +16,12 @@ namespace {
 /// Factors of the wanted over the last step between which IDA keeps the last one: its own are 1 and 2.
 constexpr double kNoSmaller = 1.0, kGrows = 2.0, kNeverGrows = 1e3;
 
+/// At orders 1 and 2 the multipliers' share of short steps can hide what a higher order would bring: such steps
+/// fail again and again, for ever, and the result is far from its tolerance. So many of them in a row, of which
+/// more than one in so many failed, end the run.
+constexpr int kLowOrder = 2;
+constexpr long kMostLow = 20000, kOneFailedOf = 12;
+
 /// Tolerances for the unknowns of the residual form. One value, or one per unknown, is taken as it is. One
 /// per state component of the System is given to the differential unknowns in their order; the algebraic
 /// ones get infinity here, and a size of their own at each restart.
@@ -128,6 +134,7 @@ class Ida final : public SundialsIntegrator {
   double multiplier_size_ = 1.0;
   long failures_ = 0;  // of the error test since the last restart
   int held_ = 0;       // steps before the next may grow
+  long low_steps_ = 0, failures_before_low_ = 0;
   std::vector<double> derivative_, trial_, trial_derivative_, trial_residual_, differential_;
   sundials::Vector derivative_vector_, differential_vector_;
   std::optional<sundials::DenseAlgebra> algebra_;
@@ -158,6 +165,7 @@ void Ida::expand() {
   residual_.expand(time_, state_.data(), solution_.data(), derivative_.data());
   size_multipliers();
   failures_ = held_ = 0;
+  low_steps_ = failures_before_low_ = 0;
 }
 
 void Ida::size_multipliers() {
@@ -250,6 +258,15 @@ void Ida::hold_after_failure() {
   IDAGetLastOrder(memory(), &order);
   held_ = failures > failures_ ? order + 2 : std::max(held_ - 1, 0);
   failures_ = failures;
+  if (order > kLowOrder) {
+    low_steps_ = 0;
+    failures_before_low_ = failures;
+  } else if (++low_steps_ > kMostLow && kOneFailedOf * (failures - failures_before_low_) > low_steps_) {
+    messages_.last_error = "its steps stay at order " + std::to_string(order) +
+                           " and keep failing, and what they give is far from its tolerance: take dopri5, "
+                           "rosenbrock or cvode-bdf for this scene, or ida with another rtol";
+    fail("the implicit step");
+  }
   require(IDASetEtaFixedStepBounds(memory(), kNoSmaller, held_ > 0 ? kNeverGrows : kGrows),
           "IDASetEtaFixedStepBounds");
 }
