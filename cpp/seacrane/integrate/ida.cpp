@@ -16,9 +16,9 @@ namespace {
 /// Factors of the wanted over the last step between which IDA keeps the last one: its own are 1 and 2.
 constexpr double kNoSmaller = 1.0, kGrows = 2.0, kNeverGrows = 1e3;
 
-/// At orders 1 and 2 the multipliers' share of short steps can hide what a higher order would bring: such steps
-/// fail again and again, for ever, and the result is far from its tolerance. So many of them in a row, of which
-/// more than one in so many failed, end the run.
+/// At orders 1 and 2 the multipliers' share of short steps can hide what a higher order would bring: such
+/// steps fail again and again, for ever, and the result is far from its tolerance. So many of them in a row,
+/// of which more than one in so many failed, end the run.
 constexpr int kLowOrder = 2;
 constexpr long kMostLow = 20000, kOneFailedOf = 12;
 
