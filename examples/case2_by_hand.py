@@ -68,7 +68,7 @@ def add_joints(scene: Scene, base: str, **pose: float) -> None:
 
 def inertias() -> dict[str, float]:
     """What each drive feels at the end of the swing-out, the others locked, on a fixed base."""
-    pose = {"theta": TARGETS["slew"], "s1": TARGETS["main"], "s2": TARGETS["knuckle"]}
+    pose = {"slew": TARGETS["slew"], "s1": TARGETS["main"], "s2": TARGETS["knuckle"]}
     scene = Scene(name="end of the swing-out")
     add_bodies(scene, **pose)
     add_joints(scene, "ground", **pose)
@@ -82,7 +82,7 @@ def scene() -> Scene:
     out = Scene(name="case2_by_hand")
     out.add_vessel(shipped_database(), name="vessel", memory="per-pair")
     out.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
-    start = {"theta": 0.0, "s1": 0.0, "s2": 0.0}
+    start = {"slew": 0.0, "s1": 0.0, "s2": 0.0}
     add_bodies(out, **start)
     add_joints(out, "vessel", **start)
     out.add_roles(slew="A", cylinders={name: DRIVES[name] for name in ("main", "knuckle")}, link="link")

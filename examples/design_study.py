@@ -21,7 +21,7 @@ def lift(*, seed: int, foot_x: float, tugger: float) -> Scene:
     scene.add_vessel(shipped_database(), memory="passive")
     scene.add_sea(hs=1.0, tp=9.0, direction_deg=150.0, seed=seed, count=60)
     payload = Payload(mass=20e3, link_length=8.0)
-    scene.add_crane(foot=(foot_x, 10.0, 10.0), theta=-1.57, s1=1.0, s2=1.5, payload=payload, held=True)
+    scene.add_crane(foot=(foot_x, 10.0, 10.0), slew=-1.57, s1=1.0, s2=1.5, payload=payload, held=True)
     x, y, z = scene.bodies["payload"].position
     scene.add_spring(
         name="tugger", first="vessel", second="payload", first_point=(x - FAR, y, z), stiffness=tugger,

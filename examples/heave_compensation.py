@@ -17,7 +17,7 @@ MASS, EA, DURATION, START = 50e3, 1e8, 160.0, 60.0  # kg, N, s, s
 ROPE, LONG = 6.0, 40.0  # m; a soft spring feels the load swing, and a long rope swings slower than the waves
 HOOK, HIGH_PASS, LAGS = 3e3, 0.01, np.arange(0.0, 0.61, 0.1)  # kg, Hz, s
 LOOP, DAMPING, PERIOD, OIL = 2.0 * np.pi * 2.0, 0.8, 25.0, 0.25  # rad/s, -, s, -: cylinder's loop; gas spring
-POSE = {"theta": -np.pi / 2, "s1": 3.0, "s2": 3.8}  # where the knuckle cylinder moves the tip up and down
+POSE = {"slew": -np.pi / 2, "s1": 3.0, "s2": 3.8}  # where the knuckle cylinder moves the tip up and down
 
 omega = np.arange(0.2, 3.01, 0.05)
 k = omega**2 / 9.81

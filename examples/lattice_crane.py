@@ -33,7 +33,7 @@ for angle, tension in zip(np.radians(degrees), told["rope tension boom"], strict
     pull = (mast - head) / np.linalg.norm(mast - head)
     moment = -scene.gravity * (boom * middle[0] + LOAD * head[0])
     by_hand = moment / abs(head[0] * pull[1] - head[1] * pull[0]) / 12.0
-    print(f"{np.degrees(angle):3.0f} deg: {tension:8.3f} kN a fall, by hand {by_hand / 1e3:8.3f} kN")
+    print(f"{np.degrees(angle):3.0f} deg: {tension / 1e3:8.3f} kN a fall, by hand {by_hand / 1e3:8.3f} kN")
 
 # The rope as an elastic line on its winch, which hauls 40 m in: a twelfth of it between the blocks.
 rate = Curve.quintic(start_time=5.0, end_time=10.0, start=0.0, end=-1.0).then(

@@ -14,7 +14,7 @@ from seacrane.hydro import shipped_database
 from seacrane.pictures import plot_load_chart
 
 PAYLOAD = 50e3  # kg, with which the ship is upright in the pose described
-LIMITS = {"cylinder force main": 12e3, "cylinder force knuckle": 6e3, "heel": 6.0}  # kN, kN, deg
+LIMITS = {"cylinder force main": 12e6, "cylinder force knuckle": 6e6, "heel_deg": 6.0}  # N, N, deg
 
 scene = Scene(name="load chart")
 scene.add_vessel(shipped_database(), memory="none")
@@ -31,9 +31,9 @@ quay.add_crane(base="ground", s1=2.0, s2=2.0, payload=Payload(mass=PAYLOAD))
 crane = KnuckleBoomCrane.load()
 empty, one_tonne = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=kg)[0] for kg in (0.0, 1e3))
 radius = float(statics(quay)["tip radius"])
-on_quay = load_chart(quay, radii=radius, limits={"cylinder force main": 12e3})
+on_quay = load_chart(quay, radii=radius, limits={"cylinder force main": 12e6})
 by_hand = (12e6 - empty) / (one_tonne - empty)
-print(f"main cylinder at {radius:.3f} m: {on_quay.allowable[0, 0]:.3f} t, by hand {by_hand:.3f} t")
+print(f"main cylinder at {radius:.3f} m: {on_quay.allowable[0, 0] / 1e3:.3f} t, by hand {by_hand:.3f} t")
 
 if len(sys.argv) > 1:
     plot_load_chart(chart).savefig(Path(sys.argv[1]) / "load_chart.png", dpi=130)

@@ -24,7 +24,7 @@ def lift(hs: float) -> Result:
     across = MASS / 12.0 * (LENGTH**2 + HEIGHT**2)
     lengths = {}
     for name, x in FEET.items():
-        pose = {"foot": (x, 10.0, 10.0), "theta": -np.pi / 2, "s1": 2.0, "s2": 1.0}
+        pose = {"foot": (x, 10.0, 10.0), "slew": -np.pi / 2, "s1": 2.0, "s2": 1.0}
         crane = scene.add_crane(**pose, held=True, prefix=f"{name} ")
         body, point = crane.tip
         tip = scene.place_of(body=body, point=point)

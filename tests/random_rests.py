@@ -81,7 +81,7 @@ class Builder:
             return self.arm()
         hydraulics = {"main": self.oil(), "knuckle": self.oil()} if kind == "oil crane" else None
         roles = self.scene.add_crane(
-            base=self.base, foot=(5.0, 0.0, 5.0), theta=self.between(-3.0, 3.0), s1=self.between(1.0, 2.5),
+            base=self.base, foot=(5.0, 0.0, 5.0), slew=self.between(-3.0, 3.0), s1=self.between(1.0, 2.5),
             s2=self.between(1.0, 3.0), held=True, hydraulics=hydraulics,
         )  # fmt: skip
         assert roles.tip is not None

@@ -1,6 +1,8 @@
 """The published numbers of benchmarks/results tell of the engine as it is."""
 
 import csv
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -85,3 +87,29 @@ def test_the_published_study_of_operability_is_that_of_today(monkeypatch):
 
 def test_every_storm_of_the_study_was_the_same_by_every_executor():
     assert {row["identical"] for row in rows_of("operability-storms.csv")} == {"yes"}
+
+
+def test_every_benchmark_can_be_imported() -> None:
+    """They run by night and on release; what they import is renamed by day."""
+    folder = RESULTS.parent
+    names = [
+        f"measure.{path.stem}"
+        for path in sorted((folder / "measure").glob("*.py"))
+        if path.stem != "__init__"
+    ]
+    names += [
+        "run",
+        "lines",
+        "hydraulics",
+        "jobs",
+        "validation",
+        "trade_tables",
+        "facts",
+        "documents",
+        "against",
+    ]
+    script = "import importlib, sys\nfor name in sys.argv[1:]: importlib.import_module(name)"
+    done = subprocess.run(
+        [sys.executable, "-c", script, *names], cwd=folder, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr

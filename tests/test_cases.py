@@ -165,7 +165,7 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     crane = KnuckleBoomCrane.load()
     weight, moment = crane.mass * G, crane.mass * G * crane.center_of_mass()
     if payload:
-        tip = np.array(FOOT) + crane.geometry.tip(theta=0.0, s1=0.0, s2=0.0)
+        tip = np.array(FOOT) + crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
         weight, moment = weight + payload.mass * G, moment + payload.mass * G * tip
     assert held.vessel_wrench is not None
     expected = [0.0, 0.0, weight, moment[1], -moment[0], 0.0]
@@ -176,7 +176,7 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     assert abs(held.loads["slew"]) < 1e-3
 
 
-def heel_by_hand(payload: Payload | None, theta: float, s1: float, s2: float) -> float:
+def heel_by_hand(payload: Payload | None, slew: float, s1: float, s2: float) -> float:
     """Moved weight's moment over C44 less what the crane and payload weights high up take from it, rad.
 
     The hanging payload acts at the tip. Body-fixed balancing force at waterline height under the start's
@@ -192,8 +192,8 @@ def heel_by_hand(payload: Payload | None, theta: float, s1: float, s2: float) ->
             across, high = across + payload.mass * G * tip[1], high + payload.mass * G * tip[2]
         return across, high
 
-    start, _ = weight_moments({"theta": 0.0, "s1": 0.0, "s2": 0.0})
-    end, high = weight_moments({"theta": theta, "s1": s1, "s2": s2})
+    start, _ = weight_moments({"slew": 0.0, "s1": 0.0, "s2": 0.0})
+    end, high = weight_moments({"slew": slew, "s1": s1, "s2": s2})
     c44 = shipped_database().restoring[3, 3]
     assert 0.7 < 1.0 - high / c44 < 0.8
     return -(end - start) / (c44 - high)
@@ -306,7 +306,7 @@ def test_base_reaction_at_rest_equals_the_weight() -> None:
     np.testing.assert_allclose(run.select("reaction_force", joint="deck")[0], [0.0, 0.0, weight], atol=1e-3)
     assert run["link_tension"][0] == pytest.approx(10e3 * G, rel=1e-9)
     crane = KnuckleBoomCrane.load()
-    tip = crane.geometry.tip(theta=0.0, s1=0.0, s2=0.0)
+    tip = crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
     arm = (crane.center_of_mass() - np.array(FOOT)) * crane.mass + tip * 10e3
     moment = run.select("reaction_moment", joint="deck")[0]
     np.testing.assert_allclose(moment, [arm[1] * G, -arm[0] * G, 0.0], atol=1e-2)

@@ -50,9 +50,9 @@ def test_a_wave_travels_to_its_direction(degrees: float) -> None:
 
 def test_slew_turns_to_port_when_negative() -> None:
     geometry = KnuckleBoomCrane.load().geometry
-    x, y, _ = geometry.tip(theta=-np.pi / 2.0, s1=2.0, s2=2.0)
+    x, y, _ = geometry.tip(slew=-np.pi / 2.0, s1=2.0, s2=2.0)
     assert y > 10.0 and abs(x) < 1e-9
-    assert geometry.tip(theta=0.0, s1=2.0, s2=2.0)[0] < -10.0
+    assert geometry.tip(slew=0.0, s1=2.0, s2=2.0)[0] < -10.0
 
 
 @pytest.mark.parametrize(("cylinder", "joint", "angle"), [("main", "C", 0), ("knuckle", "F", 1)])

@@ -41,7 +41,7 @@ def test_cylinders_weigh_20_to_26_t_split_60_to_40(crane: KnuckleBoomCrane, cyli
 
 
 def test_lengths_and_heights(crane: KnuckleBoomCrane) -> None:
-    stowed = crane.geometry.points(theta=0.0, s1=0.0, s2=0.0)
+    stowed = crane.geometry.points(slew=0.0, s1=0.0, s2=0.0)
     assert 22.0 <= np.linalg.norm(stowed["F"] - stowed["C"]) <= 24.0
     assert 13.0 <= np.linalg.norm(stowed["tip"] - stowed["F"]) <= 16.0
     assert 15.0 <= stowed["C"][2] <= 18.0
@@ -66,14 +66,14 @@ def test_lever_arms_stay_above_limit_over_all_strokes(crane: KnuckleBoomCrane) -
 
 def test_outreach_at_two_metres(crane: KnuckleBoomCrane) -> None:
     assert 25.0 <= crane.geometry.outreach(s1=2.0, s2=2.0) <= 35.0
-    tip = crane.geometry.tip(theta=0.7, s1=2.0, s2=2.0)
+    tip = crane.geometry.tip(slew=0.7, s1=2.0, s2=2.0)
     assert math.hypot(tip[0], tip[1]) == pytest.approx(crane.geometry.outreach(s1=2.0, s2=2.0), abs=1e-12)
 
 
 @pytest.mark.parametrize("s1", np.linspace(0.0, 5.0, 6))
 @pytest.mark.parametrize("s2", np.linspace(0.0, 5.0, 6))
 def test_payload_clears_the_side_when_slewed_out(crane: KnuckleBoomCrane, s1: float, s2: float) -> None:
-    body = crane.payload_body(Payload(), theta=-math.pi / 2.0, s1=s1, s2=s2)
+    body = crane.payload_body(Payload(), slew=-math.pi / 2.0, s1=s1, s2=s2)
     assert body.position[1] - 3.0 > 12.5 + 1.0  # half the payload's width, half the beam, a margin
 
 
@@ -141,5 +141,5 @@ def test_own_file_is_used(tmp_path: Path) -> None:
     path = tmp_path / "crane.toml"
     path.write_text(edit("height = 6.5", "height = 7.25"), encoding="utf-8")
     tall, shipped = KnuckleBoomCrane.load(path), KnuckleBoomCrane.load()
-    rise = tall.geometry.tip(theta=0.0, s1=1.0, s2=1.0) - shipped.geometry.tip(theta=0.0, s1=1.0, s2=1.0)
+    rise = tall.geometry.tip(slew=0.0, s1=1.0, s2=1.0) - shipped.geometry.tip(slew=0.0, s1=1.0, s2=1.0)
     np.testing.assert_allclose(rise, [0.0, 0.0, 0.75], atol=1e-12)

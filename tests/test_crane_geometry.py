@@ -27,10 +27,10 @@ def on_body(pose: dict[str, tuple[Array, Array]], name: str, point: tuple[float,
     return position + rotation @ plane_axes(name) @ np.array(point)
 
 
-@given(theta=ANGLE, s1=STROKE, s2=STROKE)
+@given(slew=ANGLE, s1=STROKE, s2=STROKE)
 @settings(max_examples=200, deadline=None)
-def test_all_loops_close(theta: float, s1: float, s2: float) -> None:
-    pose = GEOMETRY.pose(theta=theta, s1=s1, s2=s2)
+def test_all_loops_close(slew: float, s1: float, s2: float) -> None:
+    pose = GEOMETRY.pose(slew=slew, s1=s1, s2=s2)
     main = DATA.main_cylinder.retracted_length + s1
     knuckle = DATA.knuckle_cylinder.retracted_length + s2
     pairs = {
@@ -47,16 +47,16 @@ def test_all_loops_close(theta: float, s1: float, s2: float) -> None:
     for name, (first, second) in pairs.items():
         gap = on_body(pose, *first) - on_body(pose, *second)
         assert np.abs(gap).max() < 1e-12, name
-    points = GEOMETRY.points(theta=theta, s1=s1, s2=s2)
+    points = GEOMETRY.points(slew=slew, s1=s1, s2=s2)
     tip = on_body(pose, "knuckle_jib", (DATA.knuckle_jib_length, 0.0))
     np.testing.assert_allclose(points["tip"], tip, atol=1e-12)
 
 
-@given(theta=ANGLE, s1=STROKE, s2=STROKE)
+@given(slew=ANGLE, s1=STROKE, s2=STROKE)
 @settings(max_examples=100, deadline=None)
-def test_axes_of_cylinders_and_pivots(theta: float, s1: float, s2: float) -> None:
-    pose = GEOMETRY.pose(theta=theta, s1=s1, s2=s2)
-    pivot = np.array([-math.sin(theta), math.cos(theta), 0.0])
+def test_axes_of_cylinders_and_pivots(slew: float, s1: float, s2: float) -> None:
+    pose = GEOMETRY.pose(slew=slew, s1=s1, s2=s2)
+    pivot = np.array([-math.sin(slew), math.cos(slew), 0.0])
     for name in BODIES[1:]:
         np.testing.assert_allclose(pose[name][1][:, 1], pivot, atol=1e-14)
         np.testing.assert_allclose(pose[name][1] @ pose[name][1].T, np.eye(3), atol=1e-14)
@@ -78,7 +78,7 @@ def test_strokes_from_angles(s1: float, s2: float) -> None:
 @pytest.mark.parametrize("s", [0.01, 1.0, 2.5, 4.0, 4.99])
 def test_lever_arms_are_distance_and_derivative(s: float) -> None:
     levers = GEOMETRY.lever_arms(s1=s, s2=s)
-    p = GEOMETRY.points(theta=0.3, s1=s, s2=s)
+    p = GEOMETRY.points(slew=0.3, s1=s, s2=s)
     for lever, pivot, foot, head in ((levers[0], "C", "B", "D"), (levers[1], "F", "E", "G")):
         axis = p[head] - p[foot]
         distance = np.linalg.norm(np.cross(p[pivot] - p[foot], axis)) / np.linalg.norm(axis)
@@ -90,13 +90,13 @@ def test_lever_arms_are_distance_and_derivative(s: float) -> None:
 
 
 def test_directions_of_motion() -> None:
-    stowed = GEOMETRY.tip(theta=0.0, s1=0.0, s2=0.0)
+    stowed = GEOMETRY.tip(slew=0.0, s1=0.0, s2=0.0)
     assert stowed[0] < 0.0 and stowed[1] == 0.0
-    out = GEOMETRY.tip(theta=-math.pi / 2.0, s1=0.0, s2=0.0)
+    out = GEOMETRY.tip(slew=-math.pi / 2.0, s1=0.0, s2=0.0)
     np.testing.assert_allclose(out, [0.0, -stowed[0], stowed[2]], atol=1e-12)  # to port
-    assert GEOMETRY.tip(theta=0.0, s1=1.0, s2=0.0)[2] > stowed[2]  # both cylinders lift
-    lowest = GEOMETRY.points(theta=0.0, s1=0.0, s2=0.0)["F"][2]
-    assert GEOMETRY.points(theta=0.0, s1=1.0, s2=0.0)["F"][2] > lowest
+    assert GEOMETRY.tip(slew=0.0, s1=1.0, s2=0.0)[2] > stowed[2]  # both cylinders lift
+    lowest = GEOMETRY.points(slew=0.0, s1=0.0, s2=0.0)["F"][2]
+    assert GEOMETRY.points(slew=0.0, s1=1.0, s2=0.0)["F"][2] > lowest
     assert GEOMETRY.jib_angles(s1=0.0, s2=1.0)[1] > GEOMETRY.jib_angles(s1=0.0, s2=0.0)[1]
 
 
@@ -113,7 +113,7 @@ def euler_xyz(rotation: Array) -> Array:
 
 def test_stowed_bodies_are_pitched_only() -> None:
     pitch = GEOMETRY.plane_pose(s1=0.0, s2=0.0).pitch()
-    for name, (_, rotation) in GEOMETRY.pose(theta=0.0, s1=0.0, s2=0.0).items():
+    for name, (_, rotation) in GEOMETRY.pose(slew=0.0, s1=0.0, s2=0.0).items():
         np.testing.assert_allclose(euler_xyz(rotation), [0.0, pitch[name], 0.0], atol=1e-14)
         assert abs(math.degrees(pitch[name])) < 45.0, name
     assert set(REFERENCE_ELEVATION) == set(BODIES)
@@ -147,8 +147,8 @@ def test_euler_pitch_stays_away_from_its_singularity(case: int, tilt: tuple[int,
     vessel = rotation_xyz(*(math.radians(a) for a in tilt))
     worst = dict.fromkeys(BODIES, 0.0)
     for t in np.linspace(0.0, 60.0, 601):
-        theta, stroke = case_motion(case, float(t))
-        for name, (_, rotation) in GEOMETRY.pose(theta=theta, s1=stroke, s2=stroke).items():
+        slew, stroke = case_motion(case, float(t))
+        for name, (_, rotation) in GEOMETRY.pose(slew=slew, s1=stroke, s2=stroke).items():
             worst[name] = max(worst[name], abs(euler_xyz(vessel @ rotation)[1]))
     assert math.degrees(max(worst.values())) < 75.0, worst
 
@@ -156,10 +156,10 @@ def test_euler_pitch_stays_away_from_its_singularity(case: int, tilt: tuple[int,
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"theta": 0.0, "s1": -0.1, "s2": 0.0}, r"main_cylinder: stroke -0.1 m is outside 0 to 5 m"),
-        ({"theta": 0.0, "s1": 0.0, "s2": 5.5}, r"knuckle_cylinder: stroke 5.5 m is outside 0 to 5 m"),
-        ({"theta": 0.0, "s1": math.nan, "s2": 0.0}, r"main_cylinder: stroke nan m"),
-        ({"theta": math.inf, "s1": 0.0, "s2": 0.0}, r"slew angle theta is inf; give a finite angle"),
+        ({"slew": 0.0, "s1": -0.1, "s2": 0.0}, r"main_cylinder: stroke -0.1 m is outside 0 to 5 m"),
+        ({"slew": 0.0, "s1": 0.0, "s2": 5.5}, r"knuckle_cylinder: stroke 5.5 m is outside 0 to 5 m"),
+        ({"slew": 0.0, "s1": math.nan, "s2": 0.0}, r"main_cylinder: stroke nan m"),
+        ({"slew": math.inf, "s1": 0.0, "s2": 0.0}, r"slew is inf; give a finite angle"),
     ],
 )
 def test_bad_poses_name_the_item(values: dict[str, float], message: str) -> None:

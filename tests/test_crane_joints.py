@@ -15,7 +15,7 @@ from seacrane.errors import SceneError
 
 Array = npt.NDArray[np.float64]
 CRANE = KnuckleBoomCrane.load()
-PLACE: dict[str, Any] = {"theta": -0.6, "s1": 1.7, "s2": 2.9}
+PLACE: dict[str, Any] = {"slew": -0.6, "s1": 1.7, "s2": 2.9}
 TOPOLOGY = [
     ("deck", "weld", "vessel", "tower"),
     ("A", "revolute", "tower", "king"),
@@ -142,7 +142,7 @@ def test_names_and_topology() -> None:
     assert [j.name for j in CRANE.joints()] == [row[0] for row in TOPOLOGY[:-1]]
 
 
-@pytest.mark.parametrize("place", [{"theta": 0.0, "s1": 0.0, "s2": 0.0}, PLACE])
+@pytest.mark.parametrize("place", [{"slew": 0.0, "s1": 0.0, "s2": 0.0}, PLACE])
 def test_46_independent_constraints_of_60_coordinates(place: dict[str, Any]) -> None:
     motion, joints = full_scene(place)
     closed = np.concatenate([motion.residual(joint, np.zeros(motion.size)) for joint in joints])
@@ -168,7 +168,7 @@ def test_free_motions_are_slew_and_strokes() -> None:
     motion, joints = full_scene(PLACE)
     jacobian, h = motion.jacobian(joints), 1e-5
     tangents = []
-    for name in ("theta", "s1", "s2"):
+    for name in ("slew", "s1", "s2"):
         ahead, behind = ({**PLACE, name: PLACE[name] + sign * h} for sign in (1, -1))
         q = np.zeros(motion.size)
         pairs = zip(
@@ -189,8 +189,8 @@ def test_free_motions_are_slew_and_strokes() -> None:
 
 def test_axes_and_points_of_joints() -> None:
     joints = {joint.name: joint for joint in CRANE.joints(**PLACE, payload=Payload())}
-    theta = PLACE["theta"]
-    pivot = np.array([-math.sin(theta), math.cos(theta), 0.0])
+    slew = PLACE["slew"]
+    pivot = np.array([-math.sin(slew), math.cos(slew), 0.0])
     for name in "BCEF":
         axis = joints[name].axis
         assert axis is not None
@@ -217,7 +217,7 @@ def test_quaternions_match_rotations() -> None:
 def test_payload_hangs_by_the_centroid_of_its_top() -> None:
     payload = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
     body = CRANE.payload_body(payload)
-    tip = CRANE.geometry.tip(theta=0.0, s1=0.0, s2=0.0) + np.array(FOOT)
+    tip = CRANE.geometry.tip(slew=0.0, s1=0.0, s2=0.0) + np.array(FOOT)
     np.testing.assert_allclose(tip - body.position, [0.0, 0.0, 10.0], atol=1e-12)
     np.testing.assert_allclose(body.inertia, np.diag([52.0, 52.0, 72.0]) * 10e3 / 12.0)
 

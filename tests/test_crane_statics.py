@@ -55,7 +55,7 @@ def cylinder(
 
 def forces_by_hand(s1: float, s2: float, payload_mass: float) -> Array:
     b = {body.name: body for body in CRANE.bodies(foot=(0.0, 0.0, 0.0), s1=s1, s2=s2)}
-    p = {k: flat(v) for k, v in CRANE.geometry.points(theta=0.0, s1=s1, s2=s2).items()}
+    p = {k: flat(v) for k, v in CRANE.geometry.points(slew=0.0, s1=s1, s2=s2).items()}
 
     def weight(name: str, pivot: str) -> float:
         return cross(flat(centre(b[name])) - p[pivot], np.array([0.0, -b[name].mass * G]))
@@ -78,7 +78,7 @@ def test_virtual_work_equals_moments(s1: float, s2: float, payload_mass: float) 
 
 
 def potential(s1: float, s2: float, payload: Payload) -> float:
-    place = {"theta": 0.4, "s1": s1, "s2": s2}
+    place = {"slew": 0.4, "s1": s1, "s2": s2}
     bodies = [*CRANE.bodies(**place), CRANE.payload_body(payload, **place)]
     return G * sum(body.mass * float(centre(body)[2]) for body in bodies)
 
@@ -102,7 +102,7 @@ def test_forces_scale_with_gravity_and_grow_with_the_hook() -> None:
 
 
 def test_center_of_mass_is_that_of_the_bodies() -> None:
-    place = {"foot": (33.0, 10.0, 10.0), "theta": -0.9, "s1": 1.5, "s2": 2.5}
+    place = {"foot": (33.0, 10.0, 10.0), "slew": -0.9, "s1": 1.5, "s2": 2.5}
     bodies = CRANE.bodies(**place)  # type: ignore[arg-type]
     mean = sum(body.mass * centre(body) for body in bodies) / sum(body.mass for body in bodies)
     np.testing.assert_allclose(CRANE.center_of_mass(**place), mean, atol=1e-11)  # type: ignore[arg-type]

@@ -57,7 +57,7 @@ def posed_case2(*, dt: float = 1.0) -> Result:
     position, quaternion = run["arrays"]["position"], run["arrays"]["quaternion"]
     position[:, 0], quaternion[:, 0] = (0, 0, 3), (1, 0, 0, 0)
     for i, share in enumerate(smooth_step(run["time"])):
-        pose = {"theta": -np.pi / 2 * share, "s1": 2 * share, "s2": 2 * share}
+        pose = {"slew": -np.pi / 2 * share, "s1": 2 * share, "s2": 2 * share}
         for record in [*crane.bodies(**pose), crane.payload_body(payload, **pose)]:
             body = BODIES.index(record.name)
             quaternion[i, body] = record.quaternion

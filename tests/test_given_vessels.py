@@ -60,7 +60,7 @@ def given(motion: Any, **more: Any) -> Scene:
 
 
 def with_crane(scene: Scene, base: str, **place: Any) -> Scene:
-    scene.add_crane(base=base, theta=0.4, payload=Payload(mass=20e3, size=(1, 1, 1)), **place)
+    scene.add_crane(base=base, slew=0.4, payload=Payload(mass=20e3, size=(1, 1, 1)), **place)
     for name, joint in JOINTS.items():
         scene.add_driver(name=name, joint=joint, curve=Curve.constant(value=0.0))
     return scene

@@ -271,7 +271,7 @@ def test_a_cylinder_leaves_the_load_the_residual() -> None:
 
 def test_the_ratio_of_a_cylinder_is_that_of_the_tip() -> None:
     """Against the tip's height over the stroke, from the crane's geometry."""
-    pose, step = {"theta": -1.0, "s1": 1.0, "s2": 1.5}, 1e-5
+    pose, step = {"slew": -1.0, "s1": 1.0, "s2": 1.5}, 1e-5
     geometry = KnuckleBoomCrane.load().geometry
     high, low = (geometry.tip(**pose | {"s2": 1.5 + sign * step}) for sign in (1.0, -1.0))
     scene = Scene(name="on land")

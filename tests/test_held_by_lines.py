@@ -79,7 +79,7 @@ def test_a_hoist_that_runs_to_the_house_relieves_the_luffing_rope() -> None:
     assert np.ptp(result.select("position", body="load", axis="z")) < 1e-4
 
 
-POSE = {"theta": -1.0, "s1": 2.0, "s2": 3.0}
+POSE = {"slew": -1.0, "s1": 2.0, "s2": 3.0}
 
 
 def knuckle(payload: Payload | None = None) -> Scene:
@@ -121,7 +121,7 @@ def test_a_lift_file_holds_what_hangs_on_its_winch(tmp_path: Path) -> None:
 [crane]
 base = "ground"
 foot_m = [0, 0, 0]
-theta_rad = -1.0
+slew_rad = -1.0
 s1_m = 2.0
 s2_m = 3.0
 held = true

@@ -19,7 +19,7 @@ from seacrane.warnings import FreeCraneWarning
 
 def crane(*, prefix: str = "", **given: object) -> Scene:
     scene = Scene(name="quay")
-    scene.add_crane(base="ground", theta=-1.0, s1=1.0, s2=2.0, prefix=prefix, **given)  # type: ignore[arg-type]
+    scene.add_crane(base="ground", slew=-1.0, s1=1.0, s2=2.0, prefix=prefix, **given)  # type: ignore[arg-type]
     return scene
 
 
@@ -84,7 +84,7 @@ def test_statics_of_a_held_crane_are_those_of_one_that_drivers_hold() -> None:
     for given in ({}, {"held": True}):
         scene = Scene()
         scene.add_vessel(shipped_database())
-        scene.add_crane(payload_mass=20e3, theta=-1.5, **given)  # type: ignore[arg-type]
+        scene.add_crane(payload_mass=20e3, slew=-1.5, **given)  # type: ignore[arg-type]
         tables.append(str(statics(scene)))
     assert tables[0] == tables[1]
 

@@ -352,7 +352,7 @@ def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> No
 def carried(pose: Pose) -> Scene:
     scene = Scene(name="carried")
     scene.add_vessel(database(), **pose.place())
-    scene.add_crane(base="vessel", theta=0.3, payload=Payload(mass=20e3))
+    scene.add_crane(base="vessel", slew=0.3, payload=Payload(mass=20e3))
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.add_actuator(name=joint, joint=joint, stiffness=1e8, damping=1e7)
     return scene

@@ -21,7 +21,7 @@ OIL: dict[str, Any] = {
     "viscous_friction": 2e6,
 }  # fmt: skip
 BOTH = {"main": OIL, "knuckle": OIL}
-POSE = {"theta": -1.0, "s1": 2.0, "s2": 3.0}
+POSE = {"slew": -1.0, "s1": 2.0, "s2": 3.0}
 
 
 def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:

@@ -10,7 +10,7 @@ from seacrane import SimulationError, simulate
 
 
 def test_a_run_that_only_creeps_ends_by_name() -> None:
-    with pytest.raises(SimulationError, match="stay at order 1 and keep failing.*take dopri5") as caught:
+    with pytest.raises(SimulationError, match=r"stay at order 1 and keep failing.*take dopri5") as caught:
         simulate(pendulum(), 100.0, integrator="ida", rtol=1e-8)
     reached = caught.value.result
     assert reached is not None and 1.0 < reached.time[-1] < 100.0

@@ -263,7 +263,7 @@ MISTAKES = {
     "a key without its unit": (HEAD + "[crane]\npayload = { mass = 3 }", 4, "nearest: mass_kg"),
     "an unknown table": (HEAD + "\n[crain]", 4, "[crain] is unknown; nearest: crane"),
     "a key that is like none": (HEAD + "[seat]\nqqqq = 1", 4, "unknown in [seat]; known are joint, name"),
-    "two units": (HEAD + "[crane]\ntheta_deg = 3\ntheta_rad = 1", 4, "beside theta_"),
+    "two units": (HEAD + "[crane]\nslew_deg = 3\nslew_rad = 1", 4, "beside slew_"),
     "a text for a number": (HEAD + '[sea]\nhs_m = "two"', 4, "hs_m in [sea] is 'two'; give a number"),
     "a number that is none": (HEAD + "[sea]\nhs_m = nan", 4, "give a finite number"),
     "infinity": (HEAD + "[sea]\nhs_m = inf", 4, "give a finite number"),
@@ -345,7 +345,7 @@ def test_what_the_scene_refuses_is_told_by_its_line(case: str, tmp_path: Path) -
 
 
 def test_units_mistakes_stay_named(tmp_path: Path) -> None:
-    lift = lift_of(HEAD + '[crane]\nbase = "ground"\ntheta_rad = -90\n', tmp_path)
+    lift = lift_of(HEAD + '[crane]\nbase = "ground"\nslew_rad = -90\n', tmp_path)
     with pytest.warns(AngleUnitWarning, match="if these are degrees"):
         lift.scene()
     with pytest.warns(SteepSeaWarning):

@@ -118,7 +118,7 @@ def test_a_load_that_starts_in_the_hull_warns(link: float, warned: bool, heading
 def test_a_load_over_the_side_is_not_in_the_hull() -> None:
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_crane(theta=-np.pi / 2, payload=Payload(mass=20e3, link_length=20.0))
+    scene.add_crane(slew=-np.pi / 2, payload=Payload(mass=20e3, link_length=20.0))
     scene.add_ballast()
     for joint in JOINTS:
         scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))

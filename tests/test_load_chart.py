@@ -14,6 +14,7 @@ from seacrane.crane.data_file import DEFAULT_PATH, parse
 from seacrane.hydro import shipped_database
 from seacrane.pictures import plot_load_chart
 
+G = 9.80665
 MASS = 5e4
 TABLE = "[capacity]\nrows = [[10.0, 120e3], [20.0, 60e3], [30.0, 30e3]]\n"
 
@@ -43,33 +44,33 @@ def test_one_point_in_closed_form() -> None:
     crane, limit = KnuckleBoomCrane.load(), 12e6
     empty, one = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=m)[0] for m in (0.0, 1.0))
     radius = statics(quay())["tip radius"].item()
-    chart = load_chart(quay(), radii=radius, limits={"cylinder force main": limit / 1e3})
-    assert chart.allowable[0, 0] == pytest.approx((limit - empty) / (one - empty) / 1e3, rel=1e-5)
+    chart = load_chart(quay(), radii=radius, limits={"cylinder force main": limit})
+    assert chart.allowable[0, 0] == pytest.approx((limit - empty) / (one - empty), rel=1e-5)
     assert chart.governing[0, 0] == "cylinder force main"
-    heavier = load_chart(quay(mass=9e4), radii=radius, limits={"cylinder force main": limit / 1e3})
+    heavier = load_chart(quay(mass=9e4), radii=radius, limits={"cylinder force main": limit})
     assert heavier.allowable == pytest.approx(chart.allowable, rel=1e-5), "whatever load the scene has"
 
 
 def test_at_the_load_found_the_limit_is_reached() -> None:
-    limits = {"cylinder force knuckle": 6e3, "heel": 6.0}
+    limits = {"cylinder force knuckle": 6e6, "heel_deg": 6.0}
     chart = load_chart(ship(), slews=[0.0, -np.pi / 2], radii=[20.0, 25.0], limits=limits)
     assert chart.governing.tolist() == [["cylinder force knuckle"] * 2, ["heel"] * 2]
     scene = ship()
     body = scene.bodies["payload"]
-    mass = chart.allowable[1, 1] * 1e3
+    mass = chart.allowable[1, 1]
     scene.replace("payload", mass=mass, inertia=np.asarray(body.inertia) * mass / body.mass)
     told = statics(scene, slew=-np.pi / 2, radius=25.0)
-    assert abs(told["heel"].item()) == pytest.approx(6.0, rel=1e-4)
-    assert abs(told["cylinder force knuckle"].item()) < 6e3
+    assert abs(told["heel"].item()) == pytest.approx(np.radians(6.0), rel=1e-4)
+    assert abs(told["cylinder force knuckle"].item()) < 6e6
 
 
 def test_the_crane_s_own_table_is_a_limit(tmp_path: Path) -> None:
     scene = quay(with_table(tmp_path))
     chart = load_chart(scene, radii=[21.0, 25.0])
-    np.testing.assert_allclose(chart.allowable, [[57.0, 45.0]])
+    np.testing.assert_allclose(chart.allowable, [[57e3, 45e3]])
     assert chart.capacity is not None and chart.governing.tolist() == [["capacity", "capacity"]]
-    tighter = load_chart(scene, radii=[21.0, 25.0], limits={"hook load": 50.0})
-    np.testing.assert_allclose(tighter.allowable, [[50.0, 45.0]], rtol=1e-6)
+    tighter = load_chart(scene, radii=[21.0, 25.0], limits={"hook load": 50e3 * G})
+    np.testing.assert_allclose(tighter.allowable, [[50e3, 45e3]], rtol=1e-6)
     assert tighter.governing.tolist() == [["hook load", "capacity"]]
 
 
@@ -93,7 +94,7 @@ def test_no_load_and_any_load() -> None:
 def test_it_is_a_labelled_value_and_is_drawn(tmp_path: Path) -> None:
     chart = load_chart(quay(with_table(tmp_path)), radii=[25.0, 21.0])
     assert isinstance(chart, LoadChart) and "slew 0 deg" in str(chart) and "<td" in chart._repr_html_()
-    assert chart.to_xarray()["allowable"].sel(radius=25.0, slew=0.0).item() == pytest.approx(45.0)
+    assert chart.to_xarray()["allowable"].sel(radius=25.0, slew=0.0).item() == pytest.approx(45e3)
     assert chart.to_dict()["governing"] == [["capacity", "capacity"]]
     (axes,) = plot_load_chart(chart).axes
     load, table = axes.lines

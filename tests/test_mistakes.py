@@ -36,14 +36,14 @@ def answers() -> dict[str, list[str]]:
 ROWS = answers()
 
 
-def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
+def lift(*, mass: float = 20e3, slew: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
     """The lift of docs/getting-started.md, its drives without gains."""
     database = shipped_database()
     scene = Scene(name="lift")
     scene.add_vessel(database)
     if sea is not None:
         scene.add_sea(hs=2.0, tp=8.0, direction_deg=sea, seed=1)
-    scene.add_crane(base="vessel", theta=theta, payload=Payload(mass=mass))
+    scene.add_crane(base="vessel", slew=slew, payload=Payload(mass=mass))
     for name, joint in JOINTS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=name, joint=joint)
@@ -78,7 +78,7 @@ def degrees_for_radians() -> None:
 
 
 def a_pose_in_degrees() -> None:
-    lift(theta=-90.0, ballast=False)
+    lift(slew=-90.0, ballast=False)
 
 
 def raos_in_degrees() -> None:

@@ -155,7 +155,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "ballast": ship,
     "equilibrium": lambda: equilibrium(ship()),
     "statics": lambda: statics(ship()),
-    "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel": 6.0}),
+    "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel_deg": 6.0}),
     "natural modes": lambda: natural_modes(ship()),
     "motion RAO": lambda: motion_rao(ship(), omega=[0.5, 1.0], heading=2.0, body="vessel"),
     "statistics": lambda: response_statistics(

@@ -8,7 +8,7 @@ import pytest
 from seacrane import Scene, SceneError, simulate
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
-POSE = {"theta": -1.2, "s1": 1.0, "s2": 2.0}
+POSE = {"slew": -1.2, "s1": 1.0, "s2": 2.0}
 
 
 def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> None:

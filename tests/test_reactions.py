@@ -173,7 +173,7 @@ def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
 @pytest.mark.parametrize("payload", [False, True])
 def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> None:
     scene = driven(
-        crane_scene(payload=payload, theta=-0.7, s1=s1, s2=s2),
+        crane_scene(payload=payload, slew=-0.7, s1=s1, s2=s2),
         references=dict.fromkeys(ACTUATORS, Curve.constant(value=0.0)),
     )
     out = record(scene, 0.0)

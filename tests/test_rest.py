@@ -97,7 +97,7 @@ def test_the_line_that_could_hold_a_load_is_named() -> None:
 def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
     scene = Scene(name="heeled")
     scene.add_vessel(shipped_database(), memory="none")
-    roles = scene.add_crane(theta=-np.pi / 2, s1=2.0, s2=2.0, held=True)
+    roles = scene.add_crane(slew=-np.pi / 2, s1=2.0, s2=2.0, held=True)
     assert roles.tip is not None
     body, head = roles.tip
     x, y, z = scene.place_of(body=body, point=head)
@@ -157,7 +157,7 @@ def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
 def test_a_rest_beyond_linear_restoring_is_told_of() -> None:
     scene = Scene(name="no ballast")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_crane(theta=-np.pi / 2, held=True)
+    scene.add_crane(slew=-np.pi / 2, held=True)
     scene.add_body(name="deck load", mass=2e6, inertia=(1e7,) * 3, position=(0, 9, 2))
     scene.add_joint(kind="weld", name="lashing", first="vessel", second="deck load", point=(0, 9, 2))
     with pytest.warns(LargeHeelWarning, match="rests with a vessel that leans by"):

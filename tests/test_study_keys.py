@@ -141,7 +141,7 @@ def test_every_key_of_a_lift_has_its_place(name: str) -> None:
 
 def test_paths_go_by_names_numbers_and_units() -> None:
     tables = {
-        "crane": {"foot_m": [1.0, 2.0, 3.0], "theta_deg": 3.0},
+        "crane": {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0},
         "actuator": [{"joint": "a"}, {"joint": "b", "stiffness_N_per_m": 5.0}],
         "command": {"name": "slew", "joint": "A", "reference_deg": {"kind": "constant", "value": 1.0}},
         "sea": {"systems": [{"name": "swell", "hs_m": 1.0}]},
@@ -153,9 +153,9 @@ def test_paths_go_by_names_numbers_and_units() -> None:
     assert places["sea.systems.swell.hs_m"].place == ("sea", "systems", 0, "hs_m")
     assert "command.reference_deg" not in places  # a curve
     assert not [path for path in places if path.startswith("method")]
-    radians = with_keys(tables, places, {"crane.theta_rad": 0.1, "crane.foot_m.2": 9.0})
-    assert radians["crane"] == {"foot_m": [1.0, 9.0, 3.0], "theta_rad": 0.1}
-    assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "theta_deg": 3.0}
+    radians = with_keys(tables, places, {"crane.slew_rad": 0.1, "crane.foot_m.2": 9.0})
+    assert radians["crane"] == {"foot_m": [1.0, 9.0, 3.0], "slew_rad": 0.1}
+    assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0}
 
 
 @pytest.mark.parametrize(

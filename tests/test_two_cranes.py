@@ -123,7 +123,7 @@ def test_a_crane_stands_on_a_body_named_as_one_of_its_own() -> None:
 
 def test_the_tip_is_known_without_a_payload() -> None:
     bare, loaded = Scene(), Scene()
-    pose: dict[str, Any] = {"base": "ground", "theta": 0.3, "s1": 1.0, "s2": 2.0}
+    pose: dict[str, Any] = {"base": "ground", "slew": 0.3, "s1": 1.0, "s2": 2.0}
     told, known = bare.add_crane(**pose), loaded.add_crane(**pose, payload=Payload())
     assert told.link is None and told.payload is None and known.link == "link"
     assert told.tip is not None and known.tip is not None and told.tip[0] == known.tip[0]

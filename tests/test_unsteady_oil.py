@@ -71,7 +71,7 @@ def test_a_crane_that_loses_its_load_and_comes_to_rest_is_no_fault_of_its_gain()
     oil = {"pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "gain": 0.05, "air": 0.002}
     oil |= {"makeup_flow": 0.02, "viscous_friction": 4e5}
     crane = scene.add_crane(
-        base="ground", theta=-np.pi / 2.0, s1=2.0, s2=3.0, held=True,
+        base="ground", slew=-np.pi / 2.0, s1=2.0, s2=3.0, held=True,
         hydraulics={"main": oil, "knuckle": oil},
     )  # fmt: skip
     body, head = crane.tip

@@ -71,7 +71,7 @@ def lift() -> Scene:
     scene.add_vessel(shipped_database(), memory="passive")
     scene.add_sea(hs=1.0, tp=8.0, direction_deg=150.0)
     payload = Payload(mass=2e4, link_length=8.0)
-    scene.add_crane(foot=(33.0, 10.0, 10.0), theta=-1.0, s1=1.0, s2=1.5, payload=payload, held=True)
+    scene.add_crane(foot=(33.0, 10.0, 10.0), slew=-1.0, s1=1.0, s2=1.5, payload=payload, held=True)
     scene.add_ballast(heel_deg=0.0)
     return scene
 

@@ -17,7 +17,7 @@ def shipped_crane() -> Section:
     crane = KnuckleBoomCrane.load()
     rows = []
     for s1, s2 in STROKES:
-        tip = crane.geometry.points(theta=0.0, s1=s1, s2=s2)["tip"]
+        tip = crane.geometry.points(slew=0.0, s1=s1, s2=s2)["tip"]
         arms = crane.geometry.lever_arms(s1=s1, s2=s2)
         forces = [
             force / 1e3

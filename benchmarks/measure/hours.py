@@ -53,7 +53,7 @@ def _scene(*, damping: bool) -> Scene:
     scene, ship = Scene(name="three hours"), shipped_database()
     scene.add_vessel(ship, memory="per-pair")
     scene.add_crane(
-        theta=-np.pi / 2, s1=1.0, s2=2.0, payload=Payload(mass=50e3, link_length=25.0), held=True,
+        slew=-np.pi / 2, s1=1.0, s2=2.0, payload=Payload(mass=50e3, link_length=25.0), held=True,
         damping=damping,
     )  # fmt: skip
     scene.add_ballast()

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from seacrane import cases
 
-from .integrators import REFERENCE
 from .records import scene_records
 from .section import Section
 from .timing import timed_run
@@ -23,6 +22,7 @@ from .timing import timed_run
 Array = NDArray[np.float64]
 SCRIPT = Path(__file__).resolve().parents[1] / "rival_numpy.py"
 RTOL, DT_OUT = 1e-6, 0.1
+REFERENCE: dict[str, Any] = {"integrator": "dopri5", "rtol": 1e-11}
 METHODS = ("DOP853", "RK45")
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from seacrane import Scene, load_chart, shipped_database, statics
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 
-LOAD, FORCE, HEEL, PORT = 30e3, 12e3, 5.0, -np.pi / 2  # kg, kN, deg, rad
+LOAD, FORCE, HEEL, PORT = 30e3, 12e6, np.radians(5.0), -np.pi / 2  # kg, N, rad, rad
 
 scene = Scene(name="load chart")
 scene.add_vessel(shipped_database(), memory="none")
@@ -16,17 +16,17 @@ chart = load_chart(scene, slews=[0.0, PORT], radii=[20.0, 22.0, 24.0, 26.0], lim
 print(chart)
 
 # By hand, to port: more load heels the ship on by m g arm / (displaced weight GM); the heel adds to the arm.
-ship = scene.bodies["vessel"].mass / 1e3  # t
-lean = scene.place_of(body=body, point=point)[2] * np.sin(np.radians(HEEL))  # m
+ship = scene.bodies["vessel"].mass
+lean = scene.place_of(body=body, point=point)[2] * np.sin(HEEL)  # m
 for radius, allowable in zip(chart.radii, chart.allowable[1], strict=True):
     rest = statics(scene, slew=PORT, radius=radius)
-    spare = np.radians(HEEL - np.abs(rest["heel"].item()))
-    by_hand = LOAD / 1e3 + spare * ship * rest["GM"].item() / (FOOT[1] + radius + lean)
-    print(f"to port at {radius:.0f} m: {allowable:6.2f} t, by hand {by_hand:6.2f} t")
+    spare = HEEL - np.abs(rest["heel"].item())
+    by_hand = LOAD + spare * ship * rest["GM"].item() / (FOOT[1] + radius + lean)
+    print(f"to port at {radius:.0f} m: {allowable / 1e3:6.2f} t, by hand {by_hand / 1e3:6.2f} t")
 
 # By hand, aft: the force of the main cylinder is linear in the load, F = F0 + m (F1 - F0), by virtual work.
 crane = KnuckleBoomCrane.load()
-empty, one_tonne = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=kg)[0] for kg in (0.0, 1e3))
+empty, one = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=kg)[0] for kg in (0.0, 1.0))
 radius = statics(scene)["tip radius"].item()
 aft = load_chart(scene, radii=radius, limits={"cylinder force main": FORCE}).allowable.item()
-print(f"aft at {radius:.2f} m: {aft:.2f} t, by hand {(FORCE * 1e3 - empty) / (one_tonne - empty):.2f} t")
+print(f"aft at {radius:.2f} m: {aft / 1e3:.2f} t, by hand {(FORCE - empty) / (one - empty) / 1e3:.2f} t")

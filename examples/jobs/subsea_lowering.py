@@ -9,7 +9,7 @@ MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (3
 scene = Scene(name="subsea lowering")
 scene.add_given_vessel(shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
-jib, head = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0).tip
+jib, head = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0).tip
 x, y, tip = scene.place_of(body=jib, point=head)
 scene.add_body(name="load", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(x, y, START))
 strain = MASS * scene.gravity / EA

@@ -11,7 +11,7 @@ MASS, HS, TP, START, END = 50e3, 1.5, 7.0, 600.0, 600.0 + 3.0 * 3600.0  # kg, m,
 scene = Scene(name="three hours")
 scene.add_vessel(shipped_database())
 load = Payload(mass=MASS, link_length=25.0)
-crane = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=True)
+crane = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=True)
 scene.add_ballast()
 scene.add_sea(hs=HS, tp=TP, direction_deg=180.0, count=300)
 result = simulate(scene, t_end=END, dt_out=0.5)  # a loose tolerance would feed the load's rocking

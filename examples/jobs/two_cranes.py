@@ -15,8 +15,8 @@ scene.add_given_vessel(MotionHistory(time=time, motion=motion))
 turning = MASS * LENGTH**2 / 12.0
 scene.add_body(name="load", mass=MASS, inertia=(turning, 1e5, turning), position=CENTRE)
 lugs = {}
-for name, (base, foot, theta) in CRANES.items():
-    crane = scene.add_crane(base=base, foot=foot, theta=theta, s1=2.0, s2=1.0, held=True, prefix=f"{name} ")
+for name, (base, foot, slew) in CRANES.items():
+    crane = scene.add_crane(base=base, foot=foot, slew=slew, s1=2.0, s2=1.0, held=True, prefix=f"{name} ")
     body, point = crane.tip
     above = scene.place_of(body=body, point=point) - CENTRE
     lugs[name] = above[1]

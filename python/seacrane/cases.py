@@ -50,7 +50,7 @@ def _gains() -> dict[str, tuple[float, float]]:
     """
     scene = Scene(name="case 2, final pose")
     scene.add_crane(
-        base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload(), damping=False
+        base="ground", slew=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload(), damping=False
     )
     for name, joint in ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)

@@ -38,6 +38,7 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "add_bridle": {"stiffnesses": "EA", "stretch": "rung"},
     "Line": {"stiffness": "EA", "stretch": "rung"},
     "LuffingRope": {"stiffness": "EA"},
+    "add_crane": {"theta": "slew"},
     **{name: {"database": KEPT, BY_PLACE: KEPT} for name in (
         "add_sea", "add_drift", "use_actual_position", "use_slow_position",
     )},
@@ -69,6 +70,8 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
     "stage": {"longest": "maximum_duration"},
     "stage.until": {"where": "names", **PASSED},
     "sea.systems": BAND,
+    "crane": {"theta": "slew"},
+    "control.tuned_at": {"theta": "slew"},
 }
 STUDY_KEYS: dict[str, dict[str, str]] = {"keep": {"at": "names", "step": "interval"}}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.

@@ -42,16 +42,16 @@ def crane_figure() -> Figure:
     return figure
 
 
-def _points(theta: float, strokes: tuple[float, float]) -> dict[str, Array]:
-    return KnuckleBoomCrane.load().geometry.points(theta=theta, s1=strokes[0], s2=strokes[1])
+def _points(slew: float, strokes: tuple[float, float]) -> dict[str, Array]:
+    return KnuckleBoomCrane.load().geometry.points(slew=slew, s1=strokes[0], s2=strokes[1])
 
 
 def _slew(axes: Axes) -> None:
     foot = np.array(FOOT)
     outline = deck()
     axes.plot(outline[:, 0], outline[:, 1], color=SHIP, linewidth=1.4)
-    for theta, colour in ((0.0, GHOST), (SLEW, MOVED)):
-        tip = foot + _points(theta, LOW)["tip"]
+    for slew, colour in ((0.0, GHOST), (SLEW, MOVED)):
+        tip = foot + _points(slew, LOW)["tip"]
         axes.plot([foot[0], tip[0]], [foot[1], tip[1]], color=colour, linewidth=4, solid_capstyle="butt")
     axes.plot(*foot[:2], "o", color=INK, markersize=5)
     arrow(axes, (-40, -5), (-24, -5), colour=X_COLOUR)

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+DEGREES, ANGLES = "_deg", ("heel", "trim")
 CAPACITY = "capacity"  # of the crane's table
 EXACT = 1e-6  # of the load
 MOST_ROUNDS = 40
@@ -51,13 +52,13 @@ class LoadChart:
     radii : ndarray, shape (k,)
         m.
     allowable : ndarray, shape (n, k)
-        t; infinite where nothing limits it, NaN where a limit is exceeded with no load at all.
+        kg; infinite where nothing limits it, NaN where a limit is exceeded with no load at all.
     governing : ndarray of str, shape (n, k)
         The limit that sets it; empty where none does.
     limits : mapping of str to (float, float)
-        Lowest and highest value of each, in the unit of the column of `statics`.
+        Lowest and highest value of each, SI, as the column of `statics`.
     capacity : ndarray, shape (k,), or None
-        The crane's own table at these radii, t.
+        The crane's own table at these radii, kg.
     """
 
     scene: str
@@ -89,7 +90,7 @@ class LoadChart:
         dims = ("slew", "radius")
         return xarray.Dataset(
             {
-                "allowable": (dims, self.allowable.copy(), {"units": "t"}),
+                "allowable": (dims, self.allowable.copy(), {"units": "kg"}),
                 "governing": (dims, self.governing.copy()),
             },
             {
@@ -114,7 +115,7 @@ class LoadChart:
         value, limit = self.allowable[slew, radius], str(self.governing[slew, radius])
         if np.isnan(value):
             return f"none, {limit}"
-        return f"{value:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
+        return f"{value / 1e3:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
 
 
 @one_thread
@@ -143,8 +144,8 @@ def load_chart(
     slews : float or array_like
         rad, as `statics`.
     limits : mapping of str to float or (float, float)
-        By the name of a column of `statics` and in its unit, such as ``{"cylinder force main": 9e3, "heel":
-        5.0}``: the largest magnitude, or lowest and highest value.
+        By the name of a column of `statics`, SI, or an angle's name with "_deg" in degrees, such as
+        ``{"cylinder force main": 9e6, "heel_deg": 5.0}``: the largest magnitude, or lowest and highest value.
     coordinates : mapping of str to float, optional
         Strokes of other cylinders than the one that luffs, m, as `statics`.
     luff, crane : str, optional
@@ -180,7 +181,7 @@ def load_chart(
     if not bounds and not roles.capacity:
         raise SceneError(
             "load chart: limits are none, and the crane has no table of its own; give at least one, such as "
-            'limits={"heel": 5.0}'
+            'limits={"heel_deg": 5.0}'
         )
     grid = [{"slew": slew, "radius": r, **fixed} for slew, r in itertools.product(*axes.values())]
     shape = (len(axes["slew"]), len(axes["radius"]))
@@ -190,9 +191,9 @@ def load_chart(
     ]
     return LoadChart(
         scene=scene.name, slews=axes["slew"], radii=axes["radius"],
-        allowable=np.array([load for load, _ in found]).reshape(shape) / 1e3,
+        allowable=np.array([load for load, _ in found]).reshape(shape),
         governing=np.array([name for _, name in found]).reshape(shape),
-        limits=bounds, capacity=allowed_at(roles.capacity, axes["radius"]) / 1e3 if roles.capacity else None,
+        limits=bounds, capacity=allowed_at(roles.capacity, axes["radius"]) if roles.capacity else None,
     )  # fmt: skip
 
 
@@ -209,8 +210,24 @@ def _bounds(limits: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
             low = -high
         if not low < high:
             raise SceneError(f"{what} is {shown(given)}; give a positive number, or lowest below highest")
-        found[str(name)] = (low, high)
+        found[_column(str(name))] = _in_si(what, str(name), low, high)
     return found
+
+
+def _column(name: str) -> str:
+    """The column of a limit: "heel_deg ship" is of "heel ship"."""
+    what, _, of = name.partition(" ")
+    return f"{what.removesuffix(DEGREES)} {of}".rstrip()
+
+
+def _in_si(what: str, name: str, low: float, high: float) -> tuple[float, float]:
+    """Bounds of an angle in degrees as radians, and a word where those in radians look like degrees."""
+    first = name.split(" ")[0]
+    if first.endswith(DEGREES):
+        return math.radians(low), math.radians(high)
+    if first in ANGLES:
+        angle_of(what, high)
+    return low, high
 
 
 class _Hook:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seacrane.answers.load_chart import LoadChart
+from seacrane.answers.load_chart import ANGLES, LoadChart
 from seacrane.errors import SceneError
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 
@@ -36,10 +36,17 @@ def plot_load_chart(chart: LoadChart) -> Figure:
     return draw(load_chart_sheet(chart))
 
 
+def _told(name: str, low: float, high: float) -> str:
+    """A limit in the units in which it is read; a mass or a force has no factor that a word would need."""
+    if name.split(" ")[0] in ANGLES:
+        return f"{name} {np.degrees(low):g} to {np.degrees(high):g} deg"
+    return f"{name} {low:g} to {high:g}"
+
+
 def load_chart_sheet(chart: LoadChart) -> Sheet:
     """The panel of `plot_load_chart` with its numbers."""
     order = np.argsort(chart.radii)
-    loads = np.where(np.isfinite(chart.allowable), chart.allowable, np.nan)[:, order]
+    loads = np.where(np.isfinite(chart.allowable), chart.allowable / 1e3, np.nan)[:, order]
     if not np.isfinite(loads).any():
         raise SceneError(f"load chart of {chart.scene!r}: no pose has a finite allowable load to draw")
     lines = [
@@ -47,8 +54,10 @@ def load_chart_sheet(chart: LoadChart) -> Sheet:
         for i, (slew, row) in enumerate(zip(chart.slews, loads, strict=True))
     ]
     if chart.capacity is not None:
-        lines.append(Line(label="table of the crane", values=chart.capacity[order], colour=6, style="--"))
-    limits = ", ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in chart.limits.items())
+        lines.append(
+            Line(label="table of the crane", values=chart.capacity[order] / 1e3, colour=6, style="--")
+        )
+    limits = ", ".join(_told(name, *bounds) for name, bounds in chart.limits.items())
     return Sheet(
         title=f"{chart.scene}: allowable load at rest",
         caption=f"Limits: {limits or 'the table of the crane'}. No dynamic factor.",

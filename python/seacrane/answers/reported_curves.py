@@ -100,6 +100,9 @@ def _curves(result: Result) -> list[Curve]:
     return [*found, *_offsets(result), *leads, *gaps, *_motions(result)]
 
 
+SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad"}
+
+
 def si_factor(unit: str) -> float:
     """From SI to a unit of a summary."""
     return SI.get(unit, 1.0)

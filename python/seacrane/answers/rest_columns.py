@@ -1,4 +1,4 @@
-"""What a report of statics tells of one state at rest, in the units in which it is read."""
+"""What a report of statics tells of one state at rest."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from seacrane.one_thread import one_thread
 from seacrane.run.hook_loads import hook_loads
 
 Array = NDArray[np.float64]
-LINES = {"line_tension": ("tension", "kN", 1e-3), "line_length": ("length", "m", 1.0),
-         "line_unstretched_length": ("unstretched length", "m", 1.0)}  # fmt: skip
+LINES = {"line_tension": ("tension", "N"), "line_length": ("length", "m"),
+         "line_unstretched_length": ("unstretched length", "m")}  # fmt: skip
 CHANNELS = {"driver_force", "tension", "position", "quaternion", *LINES}
 
 
@@ -84,7 +84,7 @@ class AtRest:
 
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
-    """Unit and value of everything that is told, by name."""
+    """Unit (SI) and value of everything that is told, by name."""
     return {**_vessels(at_rest), **_cranes(at_rest), **_lines(at_rest)}
 
 
@@ -95,8 +95,8 @@ def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         which = f" {vessel.name}" if len(scene.vessels) > 1 else ""
         motion = attitude(values, model, vessel.body)
         stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
-        found[f"heel{which}"] = ("deg", float(np.degrees(motion[3])))
-        found[f"trim{which}"] = ("deg", float(np.degrees(motion[4])))
+        found[f"heel{which}"] = ("rad", float(motion[3]))
+        found[f"trim{which}"] = ("rad", float(motion[4]))
         found[f"draught change{which}"] = ("m", float(-motion[2]))
         weight = displaced_weight(scene, vessel, motion)
         found[f"GM{which}"] = ("m", stiffness / weight)
@@ -118,20 +118,20 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     several, areas = len(hooks(scene)) > 1, piston_areas(scene)
     for label, link in hooks(scene).items():
         tension = at_rest.tension(link)
-        found[f"hook load {label}" if several else "hook load"] = ("t", tension / scene.gravity / 1e3)
-        found[f"link tension {label}" if several else "link tension"] = ("kN", tension / 1e3)
+        found[f"hook load {label}" if several else "hook load"] = ("N", tension)
+        found[f"link tension {label}" if several else "link tension"] = ("N", tension)
     for label, joint in cylinders(scene).items():
         force = at_rest.drive(joint, "displacement")
-        found[f"cylinder force {label}"] = ("kN", force / 1e3)
+        found[f"cylinder force {label}"] = ("N", force)
         if label in areas:
-            found[f"cylinder pressure {label}"] = ("bar", float(pressure(force, areas[label])) / 1e5)
+            found[f"cylinder pressure {label}"] = ("Pa", float(pressure(force, areas[label])))
     for label, place in luffs(scene).items():
-        found[f"luff moment {label}"] = ("kN m", at_rest.drive(*place) / 1e3)
+        found[f"luff moment {label}"] = ("N m", at_rest.drive(*place))
     for label, rope in luffing_ropes(scene).items():
-        found[f"rope tension {label}"] = ("kN", at_rest.rope_tension(luffs(scene)[label], rope) / 1e3)
+        found[f"rope tension {label}"] = ("N", at_rest.rope_tension(luffs(scene)[label], rope))
     several = len(slews(scene)) > 1
     for label, place in slews(scene).items():
-        found[f"slew torque {label}" if several else "slew torque"] = ("kN m", at_rest.drive(*place) / 1e3)
+        found[f"slew torque {label}" if several else "slew torque"] = ("N m", at_rest.drive(*place))
     return found
 
 
@@ -145,9 +145,9 @@ def _lines(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     assert loads is not None
     carried = loads[0, -len(lines) :]
     for i, name in enumerate(lines):
-        found[f"hook load {name}"] = ("t", float(carried[i]) / scene.gravity / 1e3)
-        for channel, (what, unit, factor) in LINES.items():
-            found[f"line {what} {name}"] = (unit, factor * float(at_rest.channels[channel][i]))
+        found[f"hook load {name}"] = ("N", float(carried[i]))
+        for channel, (what, unit) in LINES.items():
+            found[f"line {what} {name}"] = (unit, float(at_rest.channels[channel][i]))
     return found
 
 

@@ -25,6 +25,7 @@ from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.result.units import read_as
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
@@ -32,7 +33,8 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
-NOTHING = 1e-8  # m, deg, kN, t
+NOTHING = 1e-8  # m, deg, kN, t: as printed
+HOOK = "hook load"  # printed in t
 Columns = dict[str, tuple[str, float]]
 Pose = Mapping[str, float]
 
@@ -50,12 +52,13 @@ class Statics:
         (rad) by their labels;
         a number that was given as one makes no axis. Empty for the pose described.
     columns : mapping of str to ndarray or float
-        Values over the grid, numbers where it has no axis, in the unit that `units` tells;
-        ``statics["GM"]`` is one of them.
+        Values over the grid, numbers where it has no axis, SI; ``statics["GM"]`` is one of them.
     units : mapping of str to str
-        Of each column: deg, m, kN, kN m, t.
+        Of each column: rad, m, N, N m, Pa. It prints in deg, kN, kN m, bar, and hook loads in t.
     pose_units : mapping of str to str
         Of each axis of the grid: rad or m.
+    gravity : float
+        m/s2, by which hook loads are printed in t.
     """
 
     scene: str
@@ -63,6 +66,7 @@ class Statics:
     columns: Mapping[str, Any]
     units: Mapping[str, str]
     pose_units: Mapping[str, str]
+    gravity: float
 
     def __getitem__(self, name: str) -> Any:
         """A column over the grid; KeyError names those that are there."""
@@ -104,19 +108,32 @@ class Statics:
 
     def _cells(self) -> tuple[list[str], list[list[str]]]:
         """One pose as a column of names and values, several as one row each."""
+        printed = {name: self._printed(name) for name in self.columns}
         if not self.poses:
-            rows = [[name, _shown(float(v)), self.units[name]] for name, v in self.columns.items()]
+            rows = [
+                [name, _shown(printed[name][1] * float(v)), printed[name][0]]
+                for name, v in self.columns.items()
+            ]
             return ["", "value", "unit"], rows
         turned = {name for name, unit in self.pose_units.items() if unit == "rad"}
         axes = [f"{name} [{'deg' if name in turned else 'm'}]" for name in self.poses]
-        head = [*axes, *(f"{name} [{self.units[name]}]" for name in self.columns)]
+        head = [*axes, *(f"{name} [{unit}]" for name, (unit, _) in printed.items())]
         axes_values = [
             np.atleast_1d(np.degrees(v) if name in turned else v) for name, v in self.poses.items()
         ]
         places = itertools.product(*axes_values)
-        told = zip(*(np.ravel(values) for values in self.columns.values()), strict=True)
+        told = zip(
+            *(factor * np.ravel(self.columns[name]) for name, (_, factor) in printed.items()), strict=True
+        )
         rows = [[_shown(float(v)) for v in (*place, *row)] for place, row in zip(places, told, strict=True)]
         return head, rows
+
+    def _printed(self, name: str) -> tuple[str, float]:
+        """Unit in which a column is printed, and what its SI values are multiplied by."""
+        if name.startswith(HOOK):
+            return "t", 1e-3 / self.gravity
+        factor, unit = read_as(self.units[name])
+        return unit, factor
 
 
 def _shown(value: float) -> str:
@@ -162,10 +179,10 @@ def statics(
     Returns
     -------
     Statics
-        heel (deg; positive lifts port), trim (deg; positive lowers the bow), draught change (m, of the
+        heel (rad; positive lifts port), trim (rad; positive lowers the bow), draught change (m, of the
         reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
-        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (t), link tension (kN),
-        cylinder forces (kN, positive pushes), slew torque (kN m).
+        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), link tension (N),
+        cylinder forces (N, positive pushes), slew torque (N m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
         that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free
         surfaces; GM spread is the largest less the smallest GM over the fits of the database's tanks.
@@ -199,6 +216,7 @@ def statics(
         columns={name: _over(shape, [row[name][1] for row in rows]) for name in rows[0]},
         units={name: unit for name, (unit, _) in rows[0].items()},
         pose_units={name: _unit(roles, name) for name in axes},
+        gravity=scene.gravity,
     )
 
 
@@ -301,8 +319,8 @@ class RestJudge:
         if grows:
             self._falling.append((grows[0], f"{where}{', '.join(stability)}"))
         for name, (_, value) in columns.items():
-            if name.split(" ")[0] in ("heel", "trim") and abs(value) > np.degrees(LARGEST_HEEL):
-                self._heeled.append((abs(value), f"{where}{name} is {value:.3g} deg"))
+            if name.split(" ")[0] in ("heel", "trim") and abs(value) > LARGEST_HEEL:
+                self._heeled.append((abs(value), f"{where}{name} is {np.degrees(value):.3g} deg"))
         return columns
 
     def warn(self) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.reported_curves import Curve, reported_curves
+from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
 from seacrane.answers.statics import Statics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -42,6 +42,7 @@ class SummaryRow:
     Attributes
     ----------
     name, unit : str
+        The unit is SI.
     static : float
         Value at rest, or at the first output of what is summarised; see `static_known`.
     static_known : bool
@@ -54,6 +55,8 @@ class SummaryRow:
         where no static load is known.
     slack_margin : float or None
         Smallest tension over the static one, of what pulls; zero and below is slack.
+    printed : str
+        The unit in which the row is printed.
     """
 
     name: str
@@ -68,11 +71,12 @@ class SummaryRow:
     maximum_at: float
     factor: float | None
     slack_margin: float | None = None
+    printed: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Summary:
-    """The numbers of a run in the units in which they are read. Made by `summary`; prints as a table.
+    """The numbers of a run. Made by `summary`; prints as a table, in the units in which they are read.
 
     Attributes
     ----------
@@ -81,7 +85,7 @@ class Summary:
     start, end : float
         Of the part of the run that is summarised, s.
     rows : tuple of SummaryRow
-        Forces in kN, moments in kN m, hook loads in t, angles in deg, lengths in m.
+        In SI units. They print with forces in kN, moments in kN m, hook loads in t, angles in deg.
     remarks : tuple of str
         What limits the numbers: a short record, a transient inside.
     utilisation : Utilisation
@@ -136,7 +140,11 @@ class Summary:
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """By row and column, plain values."""
         return {
-            row.name: {item.name: getattr(row, item.name) for item in fields(row) if item.name != "name"}
+            row.name: {
+                item.name: getattr(row, item.name)
+                for item in fields(row)
+                if item.name not in ("name", "printed")
+            }
             for row in self.rows
         }
 
@@ -144,7 +152,7 @@ class Summary:
         """Columns over `row`; `unit` and `static_known` among them, a factor that is none as NaN."""
         import xarray
 
-        names = [item.name for item in fields(SummaryRow) if item.name != "name"]
+        names = [item.name for item in fields(SummaryRow) if item.name not in ("name", "printed")]
         columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
         for key in ("factor", "slack_margin"):
             columns[key] = [np.nan if value is None else value for value in columns[key]]
@@ -160,10 +168,13 @@ class Summary:
 
 def _cells(row: SummaryRow) -> list[str]:
     star = "" if row.static_known else "*"
-    numbers = (row.mean, row.std, row.minimum, row.minimum_at, row.maximum, row.maximum_at)
+    per = si_factor(row.printed)
+    numbers = (
+        per * row.mean, per * row.std, per * row.minimum, row.minimum_at, per * row.maximum, row.maximum_at
+    )  # fmt: skip
     factor = "" if row.factor is None else f"{row.factor:.2f}"
     margin = "" if row.slack_margin is None else f"{row.slack_margin:.2f}"
-    return [row.name, row.unit, f"{_shown(row.static)}{star}", *map(_shown, numbers), factor, margin]
+    return [row.name, row.printed, f"{_shown(per * row.static)}{star}", *map(_shown, numbers), factor, margin]
 
 
 def _shown(value: float) -> str:
@@ -213,7 +224,7 @@ def summary(
     part = _part(result, after, before)
     time = result.time[part]
     every = [
-        replace(one, static=known.get(one.name, one.static))
+        replace(one, static=known[one.name] * si_factor(one.unit) if one.name in known else one.static)
         for one in reported_curves(result)
         if np.isfinite(one.values[part]).any()
     ]
@@ -262,11 +273,13 @@ def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
     first = values[np.isfinite(values)][0]
     static = float(first if curve.static is None else curve.static)
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    per = si_factor(curve.unit)
     return SummaryRow(
-        name=curve.name, unit=curve.unit, static=static, static_known=known,
-        mean=float(np.nanmean(values)), std=float(np.nanstd(values)),
-        minimum=float(values[low]), minimum_at=float(time[low]),
-        maximum=float(values[high]), maximum_at=float(time[high]),
+        name=curve.name, unit=SI_UNITS.get(curve.unit, curve.unit), printed=curve.unit,
+        static=static / per, static_known=known,
+        mean=float(np.nanmean(values)) / per, std=float(np.nanstd(values)) / per,
+        minimum=float(values[low]) / per, minimum_at=float(time[low]),
+        maximum=float(values[high]) / per, maximum_at=float(time[high]),
         factor=_factor(static, float(values[low]), float(values[high])) if curve.load and known else None,
         slack_margin=float(values[low]) / static if curve.pulls and known and static > 0.0 else None,
     )  # fmt: skip

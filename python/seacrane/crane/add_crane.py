@@ -30,6 +30,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 
 Array = npt.NDArray[np.float64]
 PAYLOAD = "payload"
@@ -38,13 +39,14 @@ POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
 
+@refusing
 def add_crane(
     scene: Description,
     crane: KnuckleBoomCrane | JointedCrane | None = None,
     *,
     base: str = "vessel",
     foot: Vector = FOOT,
-    theta: float = 0.0,
+    slew: float = 0.0,
     s1: float = 0.0,
     s2: float = 0.0,
     coordinates: Mapping[str, float] | None = None,
@@ -65,7 +67,7 @@ def add_crane(
         Body that carries the crane, wherever it is described ("ground" for a fixed base).
     foot : (float, float, float)
         Crane foot in the frame of the base, m.
-    theta, s1, s2 : float
+    slew, s1, s2 : float
         Of a knuckle boom: slew angle, rad; strokes of the main and the knuckle cylinder, m.
     coordinates : mapping of str to float, optional
         Of another crane: angles (rad) and strokes (m) from the pose in which it is drawn, by label, such as
@@ -110,7 +112,7 @@ def add_crane(
     prefix = text_of("crane: prefix", prefix) if prefix else ""
     if prefix in scene.roles:
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
-    parts = _parts(crane, foot, {"theta": theta, "s1": s1, "s2": s2}, coordinates)
+    parts = _parts(crane, foot, {"slew": slew, "s1": s1, "s2": s2}, coordinates)
     damped = flag_of("crane: damping", damping)
     is_held = None if held is None else flag_of("crane: held", held)
     if payload_mass is not None:
@@ -163,9 +165,7 @@ def _parts(
     """Of either kind of crane, each by its own coordinates."""
     if isinstance(crane, KnuckleBoomCrane):
         if coordinates is not None:
-            raise SceneError(
-                "crane: coordinates are those of other cranes; give a knuckle boom theta, s1, s2"
-            )
+            raise SceneError("crane: coordinates are those of other cranes; give a knuckle boom slew, s1, s2")
         return crane.parts(foot=foot, **place)
     if not isinstance(crane, JointedCrane):
         raise SceneError(

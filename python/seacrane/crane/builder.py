@@ -40,9 +40,9 @@ def _vector(name: str, value: Vector | Array) -> Array:
     return vector
 
 
-def _slew_pitch_quaternion(theta: float, pitch: float) -> Array:
-    """Quaternion of Rz(theta) Ry(pitch), scalar first."""
-    cz, sz, cy, sy = (f(a / 2.0) for a in (theta, pitch) for f in (math.cos, math.sin))
+def _slew_pitch_quaternion(slew: float, pitch: float) -> Array:
+    """Quaternion of Rz(slew) Ry(pitch), scalar first."""
+    cz, sz, cy, sy = (f(a / 2.0) for a in (slew, pitch) for f in (math.cos, math.sin))
     return np.array([cz * cy, -sz * sy, cz * sy, sz * cy])
 
 
@@ -87,10 +87,10 @@ class KnuckleBoomCrane:
         return math.fsum(item.mass for item in self.mass_properties.values())
 
     def center_of_mass(
-        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+        self, *, foot: Vector = FOOT, slew: float = 0.0, s1: float = 0.0, s2: float = 0.0
     ) -> Array:
         """Common centre of mass of the eight bodies in the vessel frame, shape (3,), m."""
-        center = crane_weight.center_of_mass(self.geometry, self.mass_properties, theta=theta, s1=s1, s2=s2)
+        center = crane_weight.center_of_mass(self.geometry, self.mass_properties, slew=slew, s1=s1, s2=s2)
         return _vector("foot", foot) + center
 
     def static_cylinder_forces(
@@ -110,7 +110,7 @@ class KnuckleBoomCrane:
         )
 
     def bodies(
-        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+        self, *, foot: Vector = FOOT, slew: float = 0.0, s1: float = 0.0, s2: float = 0.0
     ) -> list[BodyRecord]:
         """The eight bodies at a pose, from the tower to the knuckle jib.
 
@@ -118,7 +118,7 @@ class KnuckleBoomCrane:
         ----------
         foot : (float, float, float)
             Crane foot in the vessel frame, m.
-        theta, s1, s2 : float
+        slew, s1, s2 : float
             Slew angle, rad; strokes, m.
 
         Raises
@@ -127,13 +127,13 @@ class KnuckleBoomCrane:
             A value is not finite, or a stroke is out of range.
         """
         origin = _vector("foot", foot)
-        angle_of("crane: theta", number_of("crane: theta", theta))
-        pose = self.geometry.pose(theta=theta, s1=s1, s2=s2)
+        angle_of("crane: slew", number_of("crane: slew", slew))
+        pose = self.geometry.pose(slew=slew, s1=s1, s2=s2)
         pitch = self.geometry.plane_pose(s1=s1, s2=s2).pitch()
         records = []
         for name in BODIES:
             item = self.mass_properties[name]
-            slew = 0.0 if name == "tower" else theta
+            turned = 0.0 if name == "tower" else slew
             records.append(
                 BodyRecord(
                     name=name,
@@ -141,22 +141,22 @@ class KnuckleBoomCrane:
                     inertia=item.inertia.copy(),
                     center_of_mass=item.center_of_mass.copy(),
                     position=origin + pose[name][0],
-                    quaternion=_slew_pitch_quaternion(slew, pitch[name]),
+                    quaternion=_slew_pitch_quaternion(turned, pitch[name]),
                 )
             )
         return records
 
     def parts(
-        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+        self, *, foot: Vector = FOOT, slew: float = 0.0, s1: float = 0.0, s2: float = 0.0
     ) -> CraneParts:
         """All that it brings into a scene at a pose; arguments and errors as of `bodies`."""
-        place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
+        place: dict[str, Any] = {"foot": foot, "slew": slew, "s1": s1, "s2": s2}
         cylinders = {name: getattr(self.data, name) for name in CYLINDERS.values()}
         areas = {label: cylinders[name].areas for label, name in CYLINDERS.items()}
         return CraneParts(
             bodies=self.bodies(**place),
             joints=self.joints(**place, base=""),
-            tip=(TIP_BODY, _vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2)),
+            tip=(TIP_BODY, _vector("foot", foot) + self.geometry.tip(slew=slew, s1=s1, s2=s2)),
             slew=SLEW,
             cylinders=CYLINDERS,
             ranges={
@@ -172,18 +172,18 @@ class KnuckleBoomCrane:
         payload: Payload,
         *,
         foot: Vector = FOOT,
-        theta: float = 0.0,
+        slew: float = 0.0,
         s1: float = 0.0,
         s2: float = 0.0,
     ) -> BodyRecord:
         """The payload hanging at rest under the tip, its frame at its centre, parallel to the vessel's."""
-        return payload.under(_vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2))
+        return payload.under(_vector("foot", foot) + self.geometry.tip(slew=slew, s1=s1, s2=s2))
 
     def joints(
         self,
         *,
         foot: Vector = FOOT,
-        theta: float = 0.0,
+        slew: float = 0.0,
         s1: float = 0.0,
         s2: float = 0.0,
         base: str = "vessel",
@@ -196,16 +196,16 @@ class KnuckleBoomCrane:
 
         Parameters
         ----------
-        foot, theta, s1, s2
+        foot, slew, s1, s2
             As `bodies`.
         base : str
             Body the tower is welded to.
         payload : Payload or None
         """
         origin = _vector("foot", foot)
-        points = self.geometry.points(theta=theta, s1=s1, s2=s2)
+        points = self.geometry.points(slew=slew, s1=s1, s2=s2)
         p = {name: origin + point for name, point in points.items()}
-        pose = self.geometry.pose(theta=theta, s1=s1, s2=s2)
+        pose = self.geometry.pose(slew=slew, s1=s1, s2=s2)
         axes = {name: pose[name][1] @ plane_axes(name) for name in ("main_barrel", "knuckle_barrel")}
         (main_along, main_above), (knuckle_along, knuckle_above) = (axis.T for axis in axes.values())
         up, pivot = np.array([0.0, 0.0, 1.0]), pose["king"][1][:, 1]

@@ -115,7 +115,7 @@ def center_of_mass(
     geometry: CraneGeometry,
     properties: Mapping[str, MassProperties],
     *,
-    theta: float,
+    slew: float,
     s1: float,
     s2: float,
 ) -> Array:
@@ -123,4 +123,4 @@ def center_of_mass(
     pose = geometry.plane_pose(s1=s1, s2=s2)
     total = math.fsum(item.mass for item in properties.values())
     moment = np.sum([item.mass * plane_center(name, pose, item) for name, item in properties.items()], axis=0)
-    return geometry.to_space(moment / total, theta)
+    return geometry.to_space(moment / total, slew)

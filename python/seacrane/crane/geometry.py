@@ -137,7 +137,7 @@ class CraneGeometry:
     """Closed-form kinematics of the crane described by `data`.
 
     Crane-foot frame: origin at the crane foot on the deck, x forward, y to port, z up; the slew axis is z.
-    Slew angle theta is right-handed about z, 0 with the jibs pointing aft (-x); theta = -90 deg turns them
+    Slew is right-handed about z, 0 with the jibs pointing aft (-x); slew = -90 deg turns them
     to port. Strokes s1 (main) and s2 (knuckle) are positive in extension and 0 in the stowed pose.
 
     Parameters
@@ -208,29 +208,29 @@ class CraneGeometry:
         angles = (0.0, 0.0, main_cylinder, main_cylinder, main, knuckle_cylinder, knuckle_cylinder, knuckle)
         return PlanePose(points, dict(zip(BODIES, angles, strict=True)))
 
-    def to_space(self, point: Array, theta: float) -> Array:
+    def to_space(self, point: Array, slew: float) -> Array:
         """A point (outward, up) of the crane plane in the crane-foot frame, shape (3,)."""
-        return np.array([-math.cos(theta) * point[0], -math.sin(theta) * point[0], point[1]])
+        return np.array([-math.cos(slew) * point[0], -math.sin(slew) * point[0], point[1]])
 
-    def points(self, *, theta: float, s1: float, s2: float) -> dict[str, Array]:
+    def points(self, *, slew: float, s1: float, s2: float) -> dict[str, Array]:
         """Joint points A to G and the tip in the crane-foot frame, each shape (3,), m."""
         plane = self.plane_pose(s1=s1, s2=s2)
-        return {name: self.to_space(point, _finite_angle(theta)) for name, point in plane.points.items()}
+        return {name: self.to_space(point, _finite_angle(slew)) for name, point in plane.points.items()}
 
-    def tip(self, *, theta: float, s1: float, s2: float) -> Array:
+    def tip(self, *, slew: float, s1: float, s2: float) -> Array:
         """Tip of the knuckle jib in the crane-foot frame, shape (3,), m."""
-        return self.points(theta=theta, s1=s1, s2=s2)["tip"]
+        return self.points(slew=slew, s1=s1, s2=s2)["tip"]
 
     def outreach(self, *, s1: float, s2: float) -> float:
         """Horizontal distance of the tip from the slew axis, outward, m."""
         return float(self.plane_pose(s1=s1, s2=s2).points["tip"][0])
 
-    def pose(self, *, theta: float, s1: float, s2: float) -> dict[str, tuple[Array, Array]]:
+    def pose(self, *, slew: float, s1: float, s2: float) -> dict[str, tuple[Array, Array]]:
         """Pose of each of the eight bodies in the crane-foot frame.
 
         Parameters
         ----------
-        theta : float
+        slew : float
             Slew angle, rad.
         s1, s2 : float
             Strokes of the main and the knuckle cylinder, m.
@@ -246,15 +246,15 @@ class CraneGeometry:
             The slew angle is not finite, or a stroke is out of range.
         """
         plane = self.plane_pose(s1=s1, s2=s2)
-        slew, origins, pitch = _rotation_z(_finite_angle(theta)), plane.origins(), plane.pitch()
+        turned, origins, pitch = _rotation_z(_finite_angle(slew)), plane.origins(), plane.pitch()
         result = {}
         for name in BODIES:
-            turn = _rotation_z(0.0) if name == "tower" else slew
-            result[name] = (self.to_space(origins[name], theta), turn @ _rotation_y(pitch[name]))
+            turn = _rotation_z(0.0) if name == "tower" else turned
+            result[name] = (self.to_space(origins[name], slew), turn @ _rotation_y(pitch[name]))
         return result
 
 
-def _finite_angle(theta: float) -> float:
-    if not math.isfinite(theta):
-        raise SceneError(f"crane: slew angle theta is {theta!r}; give a finite angle in rad.")
-    return theta
+def _finite_angle(slew: float) -> float:
+    if not math.isfinite(slew):
+        raise SceneError(f"crane: slew is {slew!r}; give a finite angle in rad.")
+    return slew

@@ -1,7 +1,7 @@
 """Keys of a lift file: a keyword of the API and its unit, such as mass_kg; from the tables of the engine.
 
 The rule: a table is a call, a key is a keyword of that call with its unit as a suffix. Spaces of the unit are
-"_", a stroke is "_per_": ``damping_N_s_per_m``. Radians may be degrees (``theta_deg``). Where the unit
+"_", a stroke is "_per_": ``damping_N_s_per_m``. Radians may be degrees (``slew_deg``). Where the unit
 depends on a joint's coordinate ("m or rad"), the suffix says which one is meant.
 """
 

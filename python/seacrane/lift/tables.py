@@ -258,7 +258,7 @@ COORDINATE = (
 )
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {
-    "theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
+    "slew": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
     "coordinates": {"type": "tables", "keys": COORDINATE},
 }  # fmt: skip
 OIL = tuple(

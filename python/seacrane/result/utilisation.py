@@ -31,7 +31,7 @@ class Utilised:
     curve : str
         Which of the channel's curves is the worst, by its names; empty where there is one only.
     unit : str
-        Of the limit and of what was reached: kN, kN m, deg, or the channel's own.
+        Of the limit and of what was reached, SI; the table prints kN, kN m, deg, bar.
     limit : float
         The bound that is nearest to being reached.
     reached : float
@@ -101,11 +101,12 @@ class Utilisation(Sequence[Utilised]):
         rows = []
         for one in self.states:
             name = one.name if not one.curve else f"{one.name} ({one.curve})"
+            factor, unit = read_as(one.unit)
             if one.kept is None:
-                rows.append([name, f"{one.limit:.4g}", "not recorded", one.unit, "", ""])
+                rows.append([name, f"{factor * one.limit:.4g}", "not recorded", unit, "", ""])
                 continue
             exceeded = "" if one.kept else " exceeded"
-            numbers = (f"{one.limit:.4g}", f"{one.reached:.4g}", one.unit, f"{one.at:.4g}")
+            numbers = (f"{factor * one.limit:.4g}", f"{factor * one.reached:.4g}", unit, f"{one.at:.4g}")
             rows.append([name, *numbers, f"{one.utilisation:.2f}{exceeded}"])
         return rows
 
@@ -135,9 +136,9 @@ def _utilised(
     known = (("maximum", state.maximum), ("minimum", state.minimum))
     bounds = [(key, float(value)) for key, value in known if value is not None]
     if channel not in channels:
-        factor, unit = read_as(unit_of(channel, tuple(where.values())))
         return Utilised(
-            name=state.name, channel=channel, curve="", unit=unit, limit=factor * bounds[0][1],
+            name=state.name, channel=channel, curve="", unit=unit_of(channel, tuple(where.values())),
+            limit=bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
     free = [dim for dim in dims[channel][1:] if dim not in where]
@@ -152,10 +153,9 @@ def _utilised(
         for kind, bound in bounds
     ]
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
-    factor, unit = read_as(unit_of(channel, (*where.values(), *names)))
     return Utilised(
-        name=state.name, channel=channel, curve=" ".join(names), unit=unit, limit=factor * bound,
-        reached=factor * reached, at=float(time[at]), utilisation=used,
+        name=state.name, channel=channel, curve=" ".join(names), limit=bound, reached=reached,
+        unit=unit_of(channel, (*where.values(), *names)), at=float(time[at]), utilisation=used,
     )  # fmt: skip
 
 
