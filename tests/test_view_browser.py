@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from time import monotonic, sleep
 
 import chromium
 import numpy as np
@@ -50,14 +51,34 @@ def test_a_page_opens_without_a_network_and_shows_something(
 
     opened(tab, view(getattr(view_scenes, name)()), tmp_path)
     pictures = []
-    for time in (0.0, 4.0):
-        tab.value(f"seacrane.seek({time})")
+    for at in (0.0, 4.0):
+        tab.value(f"seacrane.seek({at})")
         tab.picture(tmp_path / "picture.png")
         with Image.open(tmp_path / "picture.png") as image:
             pictures.append(np.asarray(image.convert("RGB"), dtype=float)[80:500, 400:880])
     spread = pictures[0].reshape(-1, 3).std(axis=0)
     assert spread.min() > 10.0, "the picture is of one colour"
     assert np.abs(pictures[1] - pictures[0]).mean() > 1.0, "nothing moves"
+    assert tab.errors == []
+
+
+def test_the_page_keeps_pictures_and_films(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(case2()), tmp_path)
+    tab.value("window.kept = []; URL.createObjectURL = (blob) => { kept.push(blob); return ''; }; 0")
+    tab.value("HTMLAnchorElement.prototype.click = function () { kept.push(this.download); }; 0")
+    tab.value("document.getElementById('picture').click()")
+    tab.value("document.getElementById('film').click()")
+    assert tab.value("document.getElementById('film').textContent") == "end film"
+    sleep(1.0)
+    tab.value("document.getElementById('film').click()")
+    until = monotonic() + 20.0
+    while tab.value("kept.length") < 4 and monotonic() < until:
+        sleep(0.1)
+    told = json.loads(tab.value("JSON.stringify(kept.map((one) => one.size ? [one.type, one.size] : one))"))
+    (_, large), (_, film) = (one for one in told if isinstance(one, list))
+    assert sorted(one[0] for one in told if isinstance(one, list)) == ["image/png", "video/webm"]
+    assert large > 2_000 and film > 1_000
+    assert [one for one in told if isinstance(one, str)] == ["case2.png", "case2.webm"]
     assert tab.errors == []
 
 

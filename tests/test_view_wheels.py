@@ -16,9 +16,7 @@ from view_scenes import case2
 from seacrane import Result, Scene, simulate, view
 from seacrane._core import Line
 from seacrane.description.line_path import described_poses, laid
-from seacrane.pictures.camera import camera_of
 from seacrane.pictures.drawing import drawing_of
-from seacrane.pictures.still_drawing import Stage
 from seacrane.pictures.wheels import Wheel
 
 RADIUS, OVER, RATE = 0.5, 0.6, -0.8
@@ -184,17 +182,6 @@ def placed(result: Result, time: float) -> tuple[np.ndarray, Rotation]:
     assert drum.angle is not None
     angle = np.interp(time, drawing.motion.times, drum.angle)
     return position[0, 0] + body.apply(drum.at[1:]), body * Rotation.from_rotvec(angle * drum.axis)
-
-
-def test_stills_turn_drums_on_their_bodies() -> None:
-    pytest.importorskip("pyvista", reason="needs the extra stills: pip install 'seacrane[stills]'")
-    drawing = drawing_of(tumbling())
-    with Stage(drawing, camera_of(drawing, "overview", 1.6), (320, 200)) as stage:
-        stage.show(1.3)
-        pose = np.asarray(stage.wheels[0][0].user_matrix)
-    place, turn = placed(tumbling(), 1.3)
-    np.testing.assert_allclose(pose[:3, 3], place, atol=1e-9)
-    np.testing.assert_allclose(pose[:3, :3], turn.as_matrix(), atol=1e-9)
 
 
 @pytest.mark.nightly

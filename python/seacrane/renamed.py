@@ -52,7 +52,11 @@ METHODS: dict[str, str] = {
     "add_heavy_line": "write add_line(..., rung='with mass'), with EA, segment_rung for stiffness, stretch",
 }
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
-NAMES: dict[str, str] = {"plot_history": "Result.plot"}
+NAMES: dict[str, str] = {
+    "plot_history": "Result.plot",
+    "still": "view",
+    "video": "view",
+}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {

@@ -25,5 +25,3 @@ from seacrane.pictures.paper_figures import PaperRuns as PaperRuns
 from seacrane.pictures.paper_figures import save_paper_figures as save_paper_figures
 from seacrane.pictures.view import view as view
 from seacrane.pictures.view import View as View
-from seacrane.pictures.stills import still as still
-from seacrane.pictures.stills import video as video

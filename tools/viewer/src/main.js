@@ -9,6 +9,7 @@ import { bodyGroup } from './bodies.js';
 import { bookmarks } from './camera.js';
 import { Labels } from './labels.js';
 import { Motion } from './motion.js';
+import { savePicture, startFilm } from './save.js';
 import { Sea } from './sea.js';
 import { Strip } from './strip.js';
 import { floats, gunzip } from './unpack.js';
@@ -188,6 +189,8 @@ class Page {
     for (const name of names) $('view').append(new Option(name, name));
     $('view').onchange = () => { this.look($('view').value); this.writeAddress(); };
     $('play').onclick = () => this.play(!this.playing);
+    $('picture').onclick = () => savePicture(this.renderer.domElement, document.title);
+    $('film').onclick = () => this.film();
     Object.assign($('time'), { min: this.start, max: this.end, step: 'any' });
     $('time').oninput = () => this.seek(+$('time').value);
     for (const id of ['forces', 'names', 'tracks', 'water']) $(id).onchange = () => { this.dirty = true; };
@@ -202,6 +205,8 @@ class Page {
       f: () => this.next('forces'),
       n: () => this.next('names'),
       t: () => $('tracks').click(),
+      p: () => $('picture').click(),
+      r: () => $('film').click(),
     };
     names.slice(0, 9).forEach((name, i) => { keys[i + 1] = () => { this.look(name); this.writeAddress(); }; });
     addEventListener('keydown', (event) => {
@@ -230,6 +235,14 @@ class Page {
     this.last = performance.now();
     if (!on) this.writeAddress();
     this.dirty = true;
+  }
+
+  // From now on, as it is played, until it is asked for again.
+  film() {
+    if (this.endFilm) this.endFilm();
+    this.endFilm = this.endFilm ? null : startFilm(this.renderer.domElement, document.title);
+    $('film').textContent = this.endFilm ? 'end film' : 'film';
+    if (this.endFilm) this.play(true);
   }
 
   seek(t) {
