@@ -33,7 +33,8 @@ def crane_ship(heading_deg: float = 0.0) -> Scene:
 
 def rest(scene: Scene) -> tuple[float, float, float]:
     told = statics(scene)
-    return told["heel"].item(), told["trim"].item(), told["draught change"].item()
+    heel, trim = (float(np.degrees(told[name].item())) for name in ("heel", "trim"))
+    return heel, trim, told["draught change"].item()
 
 
 def test_one_force_carries_the_weights_below_their_centre() -> None:

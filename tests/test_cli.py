@@ -188,7 +188,7 @@ def test_show_prints_and_draws_a_result(
     assert "case2, 1 to 5 s" in done.stdout and f"saved {tmp_path / 'case2.png'}" in done.stdout
     assert (tmp_path / "case2.png").read_bytes().startswith(b"\x89PNG")
     told = json.loads(command_line("show", file, "--json").stdout)
-    assert told["rows"]["link tension"]["unit"] == "kN" and "Too short" in told["remarks"][0]
+    assert told["rows"]["link tension"]["unit"] == "N" and "Too short" in told["remarks"][0]
     assert "overwrite" in refusal(command_line("show", file, "--out", tmp_path))
     assert "no result file" in refusal(command_line("show", tmp_path / "none.nc"))
 

@@ -171,7 +171,7 @@ def save_periods(panel: HydroDatabase, strip: HydroDatabase) -> None:
             ]
         )
         off = 100.0 * (np.abs(found[1] - found[0]) / found[0].max(axis=0)).max(axis=0)
-        below = sea.energy(omega_min=panel.omega[0], omega_max=strip.trusted_band[0]) / sea.moment(0)
+        below = sea.energy(minimum_omega=panel.omega[0], maximum_omega=strip.trusted_band[0]) / sea.moment(0)
         rows.append([f"{tp}", f"{100.0 * below:.0f}", *(f"{value:.0f}" for value in off)])
     save("strip-motions-by-period", ["Tp s", "below band", *MOTIONS], rows)
 
