@@ -375,10 +375,15 @@ joint = "sleeve"
 minimum_m = -1
 maximum_m = 3
 
-[point]
+[[point]]
 name = "corner"
 body = "box"
 point_m = [0.1, 0.2, 0.3]
+
+[[point]]
+name = "edge"
+body = "hull"
+point_m = [1, 2, 3]
 
 [clearance]
 name = "hull"
@@ -386,6 +391,12 @@ points = ["corner"]
 body = "hull"
 center_m = [1, 0, 2]
 size_m = [3, 4, 5]
+
+[relative]
+name = "corner over the edge"
+point = "corner"
+to = "edge"
+axes = "hull"
 
 [[limit_state]]
 channel = "link_tension"
@@ -536,7 +547,9 @@ def every_table() -> Scene:
     scene.add_limit_state(channel="vessel_motion", maximum=np.radians(90), names={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
+    scene.add_point(name="edge", body="hull", point=(1, 2, 3))
     scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
+    scene.add_relative(name="corner over the edge", point="corner", to="edge", axes="hull")
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
         prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1)),

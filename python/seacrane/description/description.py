@@ -41,6 +41,7 @@ KINDS: Mapping[str, str] = {
     "provenance": "provenance",
     "limit_states": "limit state",
     "clearances": "clearance",
+    "relatives": "relative",
     "meshes": "mesh",
 }
 ELEMENTS = tuple(COMPILED)
@@ -79,6 +80,8 @@ class Description:
     limit_states : dict of str to LimitState
     clearances : dict of str to Clearance
         Distances of points from boxes, which are recorded.
+    relatives : dict of str to Relative
+        Points whose motion over others is recorded.
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -110,6 +113,7 @@ class Description:
     ranges: dict[str, Range] = field(default_factory=dict)
     limit_states: dict[str, LimitState] = field(default_factory=dict)
     clearances: dict[str, Any] = field(default_factory=dict)
+    relatives: dict[str, Any] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
     meshes: dict[str, Any] = field(default_factory=dict)

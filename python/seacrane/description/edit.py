@@ -21,6 +21,7 @@ EDITED = (
     "ranges",
     "limit_states",
     "clearances",
+    "relatives",
     "meshes",
 )  # tables of what has a name of its own
 
@@ -81,8 +82,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance" or "mesh"; needed
-        where elements of several kinds have this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance", "relative" or
+        "mesh"; needed where elements of several kinds have this name.
 
     Raises
     ------
@@ -129,6 +130,11 @@ def _users(scene: Description, key: str, name: str) -> Iterator[str]:
             f"clearance {gap.name!r}"
             for gap in gaps
             if name in (gap.points if key == "points" else (gap.body,))
+        )
+        yield from (
+            f"relative {one.name!r}"
+            for one in scene.relatives.values()
+            if name in ((one.point, one.to) if key == "points" else (one.axes,))
         )
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)

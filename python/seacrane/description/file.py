@@ -44,6 +44,7 @@ from seacrane.description.limit_states import limit_states_from_node, limit_stat
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_point, add_range, record_coordinate
+from seacrane.description.relatives import relatives_from_node, relatives_to_data
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
@@ -81,11 +82,13 @@ _ADDED_LATER: dict[str, Any] = {
     "ranges": [],
     "limit_states": [],
     "clearances": [],
+    "relatives": [],
     "roles": None,
     "provenance": None,
     "meshes": [],
     "databases": [],
 }  # what older files of this version lack
+UNMOVING = ("notes", "provenance", "limit_states", "clearances", "relatives", "meshes")  # tables
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
 
@@ -181,6 +184,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "ranges",
         "limit_states",
         "clearances",
+        "relatives",
         "roles",
         "provenance",
         "meshes",
@@ -194,10 +198,10 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, databases, limit states, clearances and meshes do not count, and of C functions only
-    their names.
+    Notes, provenance, databases, limit states, clearances, relatives and meshes do not count, and of C
+    functions only their names.
     """
-    data = _elements(scene.copy(notes={}, provenance={}, limit_states={}, clearances={}, meshes={}))
+    data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
         if not free_drives(scene, scene.roles[roles["prefix"]]):
             roles.pop("held", None)  # nothing is, and scenes of before 0.3 have no such entry
@@ -228,6 +232,7 @@ def _scene(root: Node, scene: Some) -> Some:
             add_range(scene, **limits)
     limit_states_from_node(root.at("limit_states"), scene)
     clearances_from_node(root.at("clearances"), scene)
+    relatives_from_node(root.at("relatives"), scene)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -286,6 +291,7 @@ def _elements(scene: Description) -> dict[str, Any]:
     later = {
         "limit_states": limit_states_to_data(scene),
         "clearances": clearances_to_data(scene),
+        "relatives": relatives_to_data(scene),
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
     }
     out |= {key: value for key, value in later.items() if value}  # as for points

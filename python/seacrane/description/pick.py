@@ -78,7 +78,7 @@ def pick_of(
         text, items, after = channel.channel, list(channel.names.items()), channel.after
     else:
         text, items, after = _read(what, channel)
-    if text in MOTIONS and not items:
+    if text in MOTIONS and not items and "body" not in (names or {}):  # yaw is a channel of bodies too
         text, items = "vessel_motion", [("motion", text)]
     if held is not None and text not in held:
         raise SceneError(f"channel {shown(text)} is not in this result; it holds {', '.join(held)}")

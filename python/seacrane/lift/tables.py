@@ -24,6 +24,7 @@ from seacrane.description import (
     limit_states,
     meshes,
     recorded,
+    relatives,
 )
 from seacrane.description.curves import spline_curve
 from seacrane.description.description import Description
@@ -448,6 +449,7 @@ _ALL = (
     _call(
         "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
     ),
+    _call("relative", relatives.add_relative),
     _call(
         "limit_state", limit_states.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},

@@ -10,13 +10,17 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
+from seacrane.description.description import GROUND
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
+from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.result.about import About, StageSpan
@@ -279,7 +283,7 @@ class Result(Mapping[str, Array]):
             For a dimension the channel has not, or a name it does not hold; for a text that says from when
             on, which is for `to_dataframe`.
         """
-        if isinstance(channel, Pick) or channel not in self.channels:
+        if isinstance(channel, Pick) or channel in MOTIONS or channel not in self.channels:
             pick = self._picked(channel, names)
             if pick.after is not None:
                 raise SceneError(f"select {channel!s}: a view has all outputs; index it by time")
@@ -318,6 +322,36 @@ class Result(Mapping[str, Array]):
             listed = "; ".join(f"{dim}: one of {', '.join(known)}" for dim, known in several.items())
             raise SceneError(f"channel {pick.channel!r} holds several curves; give {listed}")
         return values.reshape(self.time.size)
+
+    def place_of(self, body: str, point: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
+        """Where a point of a body, or of the ground, was at every output.
+
+        Parameters
+        ----------
+        body : str
+        point : array_like, shape (3,)
+            Coordinates of the body, m; default: its origin.
+
+        Returns
+        -------
+        ndarray, shape (n, 3)
+            Inertial frame, m.
+
+        Raises
+        ------
+        SceneError
+            For a body that is not there, and where poses were not recorded or the result has no scene.
+        """
+        what = f"place_of {shown(body)}"
+        place, scene = shaped_of(f"{what}: point", point, (3,)), self.scene
+        missing = [name for name in POSE if name not in self.channels]
+        if missing:
+            raise SceneError(f"{what}: channel {missing[0]!r} was not recorded; ask for it in channels=[...]")
+        if scene is None:
+            raise SceneError(f"{what}: this result has no scene; ask that of the run, or its file")
+        if body not in scene.bodies and body != GROUND:
+            raise SceneError(f"{what}: there is no such body; the scene has {', '.join(scene.bodies)}")
+        return position_of(scene, self.channels, body, place)
 
     def _picked(self, channel: str | Pick, names: Mapping[str, str]) -> Pick:
         """A selector as a value; KeyError for a plain name that is no channel."""

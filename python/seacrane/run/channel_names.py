@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.body_motion import position_of
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED
 from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
@@ -16,8 +17,9 @@ from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.run.hanging import lead_angles, position_of, tip_velocities
+from seacrane.run.hanging import lead_angles, tip_velocities
 from seacrane.run.hook_loads import hook_loads, suspensions
+from seacrane.run.motions import motions, winch_lines
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -49,6 +51,8 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
         "piston": list(piston_areas(scene)),
         "suspension": suspensions(scene),
         "gap": list(scene.clearances),
+        "pair": list(scene.relatives),
+        "winch": list(winch_lines(scene)),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
         "tip": list(tips(scene)),
@@ -59,6 +63,8 @@ NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
     "gap": "a clearance: add_clearance one",
+    "pair": "two points: add_relative them",
+    "winch": "a line on a winch: add_winch one",
 }
 
 
@@ -108,12 +114,12 @@ def hanging_weights(scene: Description) -> dict[str, float]:
 
 
 def named_channels(
-    scene: Description, arrays: dict[str, Array], asked: Iterable[str] | None = None
+    scene: Description, arrays: dict[str, Array], asked: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Adds what results call by the roles of cranes: strokes, drives, tensions, tips and how payloads hang.
 
     Slew and link have no axis of their own where there is one of them. `asked`: which of tip_velocity,
-    offlead and sidelead, that cost most, are wanted; None: all.
+    offlead, sidelead and those of `motions`, that cost most, are wanted; None: all.
     """
     strokes = {label: (joint, "displacement") for label, joint in cylinders(scene).items()}
     drives = slews(scene)
@@ -142,6 +148,7 @@ def named_channels(
         "sidelead": _without_axis_of_one(sidelead),
     }
     out = arrays | {name: values for name, values in found.items() if values is not None}
+    out |= motions(scene, arrays, asked)
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
 
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from seacrane.description.body_motion import MOTION, POSE, position_of, velocity_of
 from seacrane.description.crane_parts import tips
 from seacrane.description.roles import CraneRoles
 
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
-POSE = ("position", "quaternion")
-MOTION = (*POSE, "velocity", "angular_velocity")
 
 
 def tip_velocities(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
@@ -24,7 +23,7 @@ def tip_velocities(scene: Description, arrays: Mapping[str, Array]) -> Array | N
     found = tips(scene)
     if not found or not all(name in arrays for name in MOTION):
         return None
-    return np.stack([_velocity(scene, arrays, body, point) for body, point in found.values()], axis=1)
+    return np.stack([velocity_of(scene, arrays, body, point) for body, point in found.values()], axis=1)
 
 
 def lead_angles(scene: Description, arrays: Mapping[str, Array]) -> tuple[Array, Array] | None:
@@ -68,28 +67,3 @@ def _angles_of(scene: Description, arrays: Mapping[str, Array], crane: CraneRole
         np.arctan2(np.einsum("ij,ij->i", hang, out), down),
         np.arctan2(np.einsum("ij,ij->i", hang, across), down),
     )
-
-
-def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
-    """From the centre of mass of a body to a point of it, inertial frame, m."""
-    in_body = np.asarray(point, float) - np.asarray(scene.bodies[body].center_of_mass)
-    w, axis = (part for part in np.split(arrays["quaternion"][:, _place(scene, body)], [1], axis=1))
-    across = np.cross(axis, in_body)
-    return np.asarray(in_body + 2.0 * (w * across + np.cross(axis, across)))
-
-
-def position_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
-    """Of a point of a body, or of the ground, inertial frame, m, shape (time, 3)."""
-    if body not in scene.bodies:  # the ground
-        return np.broadcast_to(np.asarray(point, float), (len(arrays["position"]), 3)).copy()
-    return np.asarray(arrays["position"][:, _place(scene, body)] + _lever(scene, arrays, body, point))
-
-
-def _velocity(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
-    place = _place(scene, body)
-    turning = np.cross(arrays["angular_velocity"][:, place], _lever(scene, arrays, body, point))
-    return np.asarray(arrays["velocity"][:, place] + turning)
-
-
-def _place(scene: Description, body: str) -> int:
-    return list(scene.bodies).index(body)

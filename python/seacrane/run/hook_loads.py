@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.body_motion import position_of
 from seacrane.description.line_weights import hooked_body
 from seacrane.description.loads import lines_of, path_of
-from seacrane.run.hanging import position_of
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -296,7 +296,7 @@ class Run:
     def measure(self) -> dict[str, Array]:
         """All channels at the present instant, by the names of a result."""
         arrays = {name: values for name, values in self.core.snapshot().items() if name != "time"}
-        named = named_channels(self.scene, arrays, self.outputs.channels or ())
+        named = named_channels(self.scene, arrays, set(self.outputs.channels or ()))
         return {name: values[0] for name, values in named.items()}
 
     def named(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
@@ -308,15 +308,14 @@ class Run:
         asked = self.outputs.channels
         if asked is not None and not DERIVED.keys() & set(asked):
             return {name: values for name, values in arrays.items() if name in asked}
-        named = self.named(arrays)
-        if asked is not None:
-            return {name: values for name, values in named.items() if name in set(asked)}
-        limited = {state.channel for state in self.scene.limit_states.values()}
-        return {
-            name: values
-            for name, values in named.items()
-            if name not in DERIVED or DERIVED[name].by_default or name in limited
-        }
+        if asked is None:
+            limited = {state.channel for state in self.scene.limit_states.values()}
+            kept = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
+            kept |= arrays.keys() - {"time"}
+        else:
+            kept = set(asked)
+        named = named_channels(self.scene, {name: v for name, v in arrays.items() if name != "time"}, kept)
+        return {name: values for name, values in named.items() if name in kept}
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""

@@ -25,6 +25,7 @@ from seacrane.description import (
     meshes,
     places,
     recorded,
+    relatives,
 )
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
@@ -99,10 +100,10 @@ class Scene(Description):
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
         `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
-    recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
+    recorded, ranges, limit_states, clearances, relatives, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
-        which distances are recorded, the parts of cranes, where vessels come from, what bodies are drawn by,
-        and the user's own notes.
+        which distances and relative motions are recorded, the parts of cranes, where vessels come from, what
+        bodies are drawn by, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -114,6 +115,7 @@ class Scene(Description):
     add_point = recorded.add_point
     add_limit_state = limit_states.add_limit_state
     add_clearance = clearances.add_clearance
+    add_relative = relatives.add_relative
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table
@@ -213,6 +215,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     )
     found.append(("limit states", list(scene.limit_states)))
     found.append(("clearances", list(scene.clearances)))
+    found.append(("relatives", list(scene.relatives)))
     found.append(("meshes", list(scene.meshes)))
     return [(kind, names) for kind, names in found if names]
 

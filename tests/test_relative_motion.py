@@ -1,0 +1,165 @@
+"""Relative motion, angles of bodies, hooks and winches against quaternions by hand and differences."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+
+from seacrane import FileFormatError, Result, Scene, SceneError, simulate
+from seacrane.description.file import scene_digest
+
+Array = NDArray[np.float64]
+CORNER, EDGE, COM = (1.0, -2.0, -3.0), (4.0, 5.0, 1.5), (0.3, -0.2, 0.6)
+
+
+def tumbling() -> Scene:
+    """A load that tumbles over a hull that turns about all its axes."""
+    scene = Scene(name="tumbling")
+    scene.add_body(
+        name="load", mass=1e3, inertia=(1e3, 2e3, 2.5e3), position=(3.0, 2.0, 12.0), velocity=(0.5, 0.2, 1.0),
+        angular_velocity=(0.2, -0.7, 0.4), gravity=False,
+    )  # fmt: skip
+    scene.add_body(
+        name="hull", mass=1e6, inertia=(1e7, 3e7, 3.5e7), center_of_mass=COM, position=(1.0, 0.0, 0.0),
+        angular_velocity=(0.3, 0.1, -0.2), velocity=(0.1, 0.0, -0.2), gravity=False,
+    )  # fmt: skip
+    scene.add_point(name="corner", body="load", point=CORNER)
+    scene.add_point(name="edge", body="hull", point=EDGE)
+    return scene
+
+
+def turned(q: Array, vectors: Any) -> Array:
+    w, u = q[:, :1], q[:, 1:]
+    v = np.broadcast_to(vectors, (len(q), 3))
+    return np.asarray(v + 2.0 * np.cross(u, np.cross(u, v) + w * v))
+
+
+def by_hand(result: Result) -> Array:
+    """The corner over the edge, along the axes of the hull, by quaternions."""
+    load, hull = ([result.select(name, body=body) for name in ("position", "quaternion")]
+                  for body in ("load", "hull"))  # fmt: skip
+    apart = load[0] + turned(load[1], CORNER) - hull[0] - turned(hull[1], np.subtract(EDGE, COM))
+    return turned(hull[1] * [1.0, -1.0, -1.0, -1.0], apart)
+
+
+def test_over_a_deck_by_quaternions_and_differences() -> None:
+    scene = tumbling()
+    scene.add_relative(name="over deck", point="corner", to="edge", axes="hull")
+    scene.add_relative("apart", point="corner", to="edge")
+    result = simulate(scene, 5.0, dt_out=0.01, rtol=1e-10)
+    over, rate = (result.select(f"relative_{what}", pair="over deck") for what in ("position", "velocity"))
+    assert_allclose(over, by_hand(result), atol=1e-12)
+    assert np.ptp(over, axis=0).min() > 1.0
+    for pair in ("over deck", "apart"):
+        told = result.select("relative_position", pair=pair)
+        speed = result.select("relative_velocity", pair=pair)
+        assert_allclose(speed[1:-1], (told[2:] - told[:-2]) / 0.02, atol=2e-4)
+    points = result["point_position"], result["point_velocity"]
+    names = result.coords["point"]
+    corner, edge = (names.index(one) for one in ("corner", "edge"))
+    for values, name in zip(points, ("relative_position", "relative_velocity"), strict=True):
+        apart = result.select(name, pair="apart")
+        assert_allclose(apart, values[:, corner] - values[:, edge], atol=1e-12)
+    assert np.abs(rate - result.select("relative_velocity", pair="apart")).max() > 1.0
+
+
+def test_angles_of_bodies_turn_the_axes_back() -> None:
+    result = simulate(tumbling(), 5.0, channels=["heel", "trim", "yaw", "quaternion"])
+    for body in ("load", "hull"):
+        heel, trim, yaw = (result.select(name, body=body) for name in ("heel", "trim", "yaw"))
+        q = result.select("quaternion", body=body)
+        half = [(np.cos(0.5 * angle), np.sin(0.5 * angle)) for angle in (heel, trim, yaw)]
+        (cr, sr), (cp, sp), (cy, sy) = half
+        again = np.column_stack([
+            cy * cp * cr + sy * sp * sr, cy * cp * sr - sy * sp * cr,
+            cy * sp * cr + sy * cp * sr, sy * cp * cr - cy * sp * sr,
+        ])  # fmt: skip
+        assert_allclose(again * np.sign(np.sum(again * q, axis=1, keepdims=True)), q, atol=1e-9)
+    with pytest.raises(SceneError, match="vessel_motion"):
+        result.curve("yaw")  # by itself that of a vessel, which is not there
+    assert_allclose(result.curve("yaw[hull]"), result.select("yaw", body="hull"))
+
+
+def hoisting() -> Scene:
+    scene = Scene(name="hoisting")
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -10.0))
+    scene.add_line(name="wire", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 1)], EA=1e7, length=9.0)
+    scene.add_winch("wire", rate=-0.5, minimum_length=2.0)
+    return scene
+
+
+def test_wire_and_hook_of_a_winch() -> None:
+    asked = ["hook_speed", "wire_paid_out", "wire_spare", "position", "quaternion"]
+    result = simulate(hoisting(), 4.0, dt_out=0.05, channels=asked)
+    assert list(result) == [one for one in result if one in asked] and len(result) == 5
+    assert_allclose(result.curve("wire_paid_out"), -0.5 * result.time, atol=1e-9)
+    assert_allclose(result.curve("wire_spare"), 7.0 - 0.5 * result.time, atol=1e-9)
+    end = result.place_of("load", (0.0, 0.0, 1.0))
+    assert result.curve("hook_speed[wire]").mean() == pytest.approx(0.5, abs=0.05)
+    assert np.trapezoid(result.curve("hook_speed"), result.time) == pytest.approx(
+        end[-1, 2] - end[0, 2], abs=1e-2
+    )
+
+
+def test_place_of_any_point_after_a_run(tmp_path: Path) -> None:
+    result = simulate(tumbling(), 2.0)
+    edge = result.place_of("hull", EDGE)
+    assert edge.shape == (result.time.size, 3)
+    assert_allclose(edge, result.select("point_position", point="edge"), atol=1e-12)
+    assert_allclose(result.place_of("ground", (1, 2, 3)), np.tile([1.0, 2.0, 3.0], (len(edge), 1)))
+    result.save(tmp_path / "run.nc")
+    assert np.array_equal(Result.load(tmp_path / "run.nc").place_of("hull", EDGE), edge)
+    with pytest.raises(SceneError, match="there is no such body; the scene has load, hull"):
+        result.place_of("ship")
+    with pytest.raises(SceneError, match="point"):
+        result.place_of("hull", (1.0, 2.0))
+    with pytest.raises(SceneError, match="channel 'quaternion' was not recorded; ask for it"):
+        simulate(tumbling(), 0.1, channels=["position"]).place_of("hull")
+
+
+def test_files_keep_it_and_digests_do_not_change(tmp_path: Path) -> None:
+    scene = tumbling()
+    digest = scene_digest(scene)
+    scene.save(tmp_path / "without.json")
+    assert "relatives" not in (tmp_path / "without.json").read_text()
+    scene.add_relative(name="over deck", point="corner", to="edge", axes="hull")
+    assert scene_digest(scene) == digest
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json").relatives == scene.relatives
+    text = (tmp_path / "scene.json").read_text().replace('"to": "edge"', '"to": "brink"')
+    (tmp_path / "scene.json").write_text(text)
+    with pytest.raises(FileFormatError, match="there is no point 'brink'"):
+        Scene.load(tmp_path / "scene.json")
+
+
+def test_what_it_needs_is_not_removed() -> None:
+    scene = tumbling()
+    scene.add_relative("over deck", point="corner", to="edge", axes="hull")
+    with pytest.raises(SceneError, match="point 'edge': relative 'over deck' refer to it"):
+        scene.remove("edge")
+    with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
+        scene.remove("hull")
+    scene.remove("over deck")
+    with pytest.raises(SceneError, match="'relative_velocity' is unknown to this scene; it needs two points"):
+        simulate(scene, 0.1, channels=["relative_velocity"])
+    with pytest.raises(SceneError, match="'wire_spare' is unknown to this scene"):
+        simulate(scene, 0.1, channels=["wire_spare"])
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"point": "top"}, "relative 'a': there is no point 'top'; add_point it first"),
+        ({"to": "hull"}, "there is no point 'hull'; add_point it first, the scene has 'corner', 'edge'"),
+        ({"axes": "barge"}, "there is no body 'barge'"),
+        ({"name": ""}, "relative: name is empty"),
+    ],
+)
+def test_what_makes_no_sense_is_told(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        tumbling().add_relative(**({"name": "a", "point": "corner", "to": "edge"} | given))
