@@ -56,6 +56,9 @@ def ten_body_scene() -> Scene:
         memory=[],
         kinematics=vessel.kinematics,
     )
+    # By its own loads still; its added mass is the hull's.
+    bare = scene.vessels[hull.name].__getstate__()
+    scene.vessels[hull.name] = type(vessel)(**bare | {"database": vessel.database})
     return scene
 
 
