@@ -398,6 +398,10 @@ point = "corner"
 to = "edge"
 axes = "hull"
 
+[channel]
+name = "drop"
+expression = "edge.z - box.z"
+
 [[limit_state]]
 channel = "link_tension"
 maximum_N = 8e4
@@ -550,6 +554,7 @@ def every_table() -> Scene:
     scene.add_point(name="edge", body="hull", point=(1, 2, 3))
     scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
     scene.add_relative(name="corner over the edge", point="corner", to="edge", axes="hull")
+    scene.add_channel(name="drop", expression="edge.z - box.z")
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
         prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1)),

@@ -40,6 +40,7 @@ def all_kinds() -> Scene:
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
     scene.add_clearance(name="gap", points="corner", center=(1.0, 2.0, 1.0 / 3.0), size=(3.0, 0.0, 1.0))
     scene.add_relative(name="itself", point="corner", to="corner", axes="hull")
+    scene.add_channel(name="drop", expression="corner.z - hull.z")
     scene.add_limit_state(channel="constraint_error", maximum=1e-6)
     scene.add_mesh(body="hull", vertices=np.eye(3), faces=[[0, 1, 2]])
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)

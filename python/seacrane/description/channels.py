@@ -5,7 +5,8 @@ The core's channels come from its own table. Those that Python derives from them
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -26,7 +27,8 @@ class Channel:
     by_default : bool
         Whether a run records it unasked.
     made_of : tuple of str
-        The core's channels from which it is derived, as far as a scene has them; empty for the core's own.
+        The core's channels from which it is derived, as far as a scene has them; empty for the core's own
+        and for expressions, which say it themselves.
     turns : bool
         Whether it is an angle that counts whole turns.
     """
@@ -146,6 +148,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "line_unstretched_length",
             by_default=False,
         ),
+        "own": _derived("expression", "SI", "channel of one's own, in the unit of its expression", ""),
         "tip_velocity": _derived(
             "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
         ),
@@ -176,7 +179,17 @@ FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 # Dimensions whose names belong to the scene.
 NAMED = frozenset(dim for channel in CHANNELS.values() for dim in channel.dims_of_several[1:]) - set(FIXED)
+COUNTED_ON = ("energy_balance", "impact_loss")  # each run of stages counts from its own start
+OWN = "own"  # expressions of other channels
 AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
+
+
+def unit_of(channel: str, names: Collection[str]) -> str:
+    """Of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
+    for unit, listed in re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit):
+        if set(names) & set(listed.split(", ")):
+            return str(unit).strip()
+    return CHANNELS[channel].unit
 
 
 def attributes(name: str) -> dict[str, str]:

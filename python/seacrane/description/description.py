@@ -42,6 +42,7 @@ KINDS: Mapping[str, str] = {
     "limit_states": "limit state",
     "clearances": "clearance",
     "relatives": "relative",
+    "channels": "channel",
     "meshes": "mesh",
 }
 ELEMENTS = tuple(COMPILED)
@@ -82,6 +83,8 @@ class Description:
         Distances of points from boxes, which are recorded.
     relatives : dict of str to Relative
         Points whose motion over others is recorded.
+    channels : dict of str to OwnChannel
+        Expressions of channels, which are recorded.
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -114,6 +117,7 @@ class Description:
     limit_states: dict[str, LimitState] = field(default_factory=dict)
     clearances: dict[str, Any] = field(default_factory=dict)
     relatives: dict[str, Any] = field(default_factory=dict)
+    channels: dict[str, Any] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
     meshes: dict[str, Any] = field(default_factory=dict)

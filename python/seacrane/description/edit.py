@@ -9,6 +9,7 @@ from seacrane import _core
 from seacrane.description.databases import require_alike
 from seacrane.description.description import ELEMENTS, KINDS, Description
 from seacrane.description.loads import named
+from seacrane.description.own_channels import picks
 from seacrane.description.range import Range
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
@@ -22,6 +23,7 @@ EDITED = (
     "limit_states",
     "clearances",
     "relatives",
+    "channels",
     "meshes",
 )  # tables of what has a name of its own
 
@@ -82,8 +84,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance", "relative" or
-        "mesh"; needed where elements of several kinds have this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance", "relative",
+        "channel" or "mesh"; needed where elements of several kinds have this name.
 
     Raises
     ------
@@ -136,6 +138,10 @@ def _users(scene: Description, key: str, name: str) -> Iterator[str]:
             for one in scene.relatives.values()
             if name in ((one.point, one.to) if key == "points" else (one.axes,))
         )
+    dim = {"bodies": "body", "points": "point"}.get(key)
+    for channel, curves in picks(scene).items():
+        if dim and any(pick.names.get(dim) == name for pick in curves):
+            yield f"channel {channel!r}"
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
     body = {"bodies": name, "vessels": getattr(scene.vessels.get(name), "body", None)}.get(key)

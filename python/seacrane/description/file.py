@@ -43,6 +43,7 @@ from seacrane.description.joints import add_joint
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
+from seacrane.description.own_channels import own_channels_from_node, own_channels_to_data
 from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.relatives import relatives_from_node, relatives_to_data
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
@@ -83,12 +84,13 @@ _ADDED_LATER: dict[str, Any] = {
     "limit_states": [],
     "clearances": [],
     "relatives": [],
+    "channels": [],
     "roles": None,
     "provenance": None,
     "meshes": [],
     "databases": [],
 }  # what older files of this version lack
-UNMOVING = ("notes", "provenance", "limit_states", "clearances", "relatives", "meshes")  # tables
+UNMOVING = ("notes", "provenance", "limit_states", "clearances", "relatives", "channels", "meshes")  # tables
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
 
@@ -185,6 +187,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "limit_states",
         "clearances",
         "relatives",
+        "channels",
         "roles",
         "provenance",
         "meshes",
@@ -198,8 +201,8 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, databases, limit states, clearances, relatives and meshes do not count, and of C
-    functions only their names.
+    Notes, provenance, databases, limit states, clearances, relatives, channels and meshes do not
+    count, and of C functions only their names.
     """
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
@@ -233,6 +236,7 @@ def _scene(root: Node, scene: Some) -> Some:
     limit_states_from_node(root.at("limit_states"), scene)
     clearances_from_node(root.at("clearances"), scene)
     relatives_from_node(root.at("relatives"), scene)
+    own_channels_from_node(root.at("channels"), scene)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -292,6 +296,7 @@ def _elements(scene: Description) -> dict[str, Any]:
         "limit_states": limit_states_to_data(scene),
         "clearances": clearances_to_data(scene),
         "relatives": relatives_to_data(scene),
+        "channels": own_channels_to_data(scene),
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
     }
     out |= {key: value for key, value in later.items() if value}  # as for points

@@ -10,9 +10,10 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, JointedCrane, Payload, load_crane
-from seacrane.description.channels import CHANNELS
+from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
+from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
@@ -20,7 +21,6 @@ from seacrane.lift.check_keys import SHIPPED
 from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
-from seacrane.result.units import unit_of
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
@@ -107,18 +107,26 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
 
 
 def require_unit_of_channel(
-    keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str]
+    keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str], unit: str = ""
 ) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
-    if channel not in CHANNELS:
+    if channel not in CHANNELS and not unit:
         return  # the run says so
-    own = unit_of(channel, list(names.values())).split(EITHER)
+    own = (unit or unit_of(channel, list(names.values()))).split(EITHER)
     for key in keys:
         for spelling, unit in key.spellings.items():
             if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
                 right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
                 fix = f"give {' or '.join(right)}" if right else "name one of its curves in channel"
                 raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
+
+
+def _unit_of_own(scene: Scene, channel: str, names: Mapping[str, str]) -> str:
+    """Of a channel of one's own, which its expression says; no text for others."""
+    if channel.partition("[")[0].strip() != OWN:
+        return ""
+    name = pick_of("limit state", channel, names).names.get("expression", "")
+    return f"{scene.channels[name].unit}{EITHER}SI" if name in scene.channels else ""
 
 
 class Caller:
@@ -131,7 +139,8 @@ class Caller:
         """Add to a scene what a table describes; at rest, without what only moves it."""
         given = keywords(table.keys, values, scene)
         if table.name == "limit_state":
-            require_unit_of_channel(table.keys, values, values["channel"], values.get("names", {}))
+            channel, names = values["channel"], values.get("names", {})
+            require_unit_of_channel(table.keys, values, channel, names, _unit_of_own(scene, channel, names))
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)

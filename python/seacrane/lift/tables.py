@@ -23,6 +23,7 @@ from seacrane.description import (
     joints,
     limit_states,
     meshes,
+    own_channels,
     recorded,
     relatives,
 )
@@ -450,6 +451,7 @@ _ALL = (
         "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
     ),
     _call("relative", relatives.add_relative),
+    _call("channel", own_channels.add_channel),
     _call(
         "limit_state", limit_states.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},

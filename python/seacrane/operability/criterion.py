@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
-from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 
 STATISTICS = {

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick, column_name
 from seacrane.errors import SceneError
-from seacrane.result.units import unit_of
 
 if TYPE_CHECKING:
     import pandas

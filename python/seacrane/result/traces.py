@@ -10,11 +10,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS
+from seacrane.description.channels import CHANNELS, unit_of
 from seacrane.description.pick import Pick
 from seacrane.result.about import About
 from seacrane.result.events import Event
-from seacrane.result.units import unit_of
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone

@@ -1,9 +1,8 @@
-"""The unit of one curve of a channel, and of tables that people read."""
+"""The units of a channel's curves, and of tables that people read."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 
 import numpy as np
 
@@ -16,14 +15,6 @@ READ: dict[str, tuple[float, str]] = {
     "N m": (1e-3, "kN m"),
     "Pa": (1e-5, "bar"),
 }
-
-
-def unit_of(channel: str, names: Collection[str]) -> str:
-    """Of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
-    for unit, listed in re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit):
-        if set(names) & set(listed.split(", ")):
-            return str(unit).strip()
-    return CHANNELS[channel].unit
 
 
 def units_of(channel: str) -> list[str]:

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
 from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
-from seacrane.result.units import read_as, unit_of
+from seacrane.result.units import read_as
 
 Array = NDArray[np.float64]
 HEAD = ("limit state", "limit", "reached", "unit", "at [s]", "utilisation")

@@ -20,6 +20,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.run.hanging import lead_angles, tip_velocities
 from seacrane.run.hook_loads import hook_loads, suspensions
 from seacrane.run.motions import motions, winch_lines
+from seacrane.run.own import require_own, with_sources
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -52,6 +53,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
         "suspension": suspensions(scene),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
+        "expression": list(scene.channels),
         "winch": list(winch_lines(scene)),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
@@ -64,6 +66,7 @@ NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "suspension": "a link, a wire or a line: add one",
     "gap": "a clearance: add_clearance one",
     "pair": "two points: add_relative them",
+    "expression": "an expression: add_channel one",
     "winch": "a line on a winch: add_winch one",
 }
 
@@ -78,12 +81,13 @@ def require_names(scene: Description, wanted: Iterable[str]) -> None:
 
 
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
-    """SceneError where a limit state names a channel, or a place in it, that the scene does not have."""
+    """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
     known = model.channel_names(defaults_only=False)
     axes = {**model.axes, **derived_coords(scene), **FIXED}
+    require_own(scene, axes)
     for name, state in scene.limit_states.items():
         try:
-            core_channels([state.channel], known)
+            core_channels(with_sources(scene, [state.channel]), known)
             require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error

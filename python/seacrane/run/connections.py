@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from seacrane.description.channels import NAMED
 from seacrane.description.description import KINDS, LOADS, Some
 from seacrane.description.loads import named
+from seacrane.description.own_channels import picks
+from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
 from seacrane.scene.scene import Scene
 
@@ -49,7 +52,14 @@ def without(scene: Some, names: Iterable[str]) -> Some:
                 del elements[other]
         if joint:
             _forget(out, name)
+        for channel in [key for key, curves in picks(out).items() if _told_of(curves, name)]:
+            del out.channels[channel]
     return out
+
+
+def _told_of(curves: Iterable[Pick], name: str) -> bool:
+    """Whether one of the curves is of an element of this name."""
+    return any(name == one for pick in curves for dim, one in pick.names.items() if dim in NAMED)
 
 
 def _forget(scene: Any, joint: str) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.channels import CHANNELS, NAMED
+from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED
 from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -18,7 +18,6 @@ from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-COUNTED_ON = ("energy_balance", "impact_loss")  # each run counts from its own start
 SUMS = (
     "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
     "projections", "restarts", "dense_solves", "events",

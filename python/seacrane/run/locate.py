@@ -144,7 +144,7 @@ def excess_now(run: Run, condition: Condition) -> float:
         held = {name.removesuffix(".minimum").removesuffix(".maximum") for name in run.state.closed or ()}
         holds = condition.limit in held or condition.limit in (run.state.closed or ())
         return 1.0 if holds == condition.holds else -1.0
-    now = {name: values[None] for name, values in run.measure().items()}
+    now = run.named(run.core.snapshot())
     return float(condition.excess(condition.series(run, now))[0])
 
 
@@ -250,7 +250,7 @@ def _waits_for(stage: Stage, run: Run) -> str:
     for condition in stage.conditions:
         now = "not yet"
         if isinstance(condition, Level):
-            measured = {name: values[None] for name, values in run.measure().items()}
+            measured = run.named(run.core.snapshot())
             now = f"it is {float(condition.series(run, measured)[0]):.6g}"
         said.append(f"{condition.text} ({now})")
     return " or ".join(said)

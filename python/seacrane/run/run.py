@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
-from seacrane.description.channels import CHANNELS, DERIVED
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
@@ -52,6 +52,7 @@ from seacrane.run.method import Method
 from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
+from seacrane.run.own import own_values, with_sources
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
@@ -295,13 +296,20 @@ class Run:
 
     def measure(self) -> dict[str, Array]:
         """All channels at the present instant, by the names of a result."""
-        arrays = {name: values for name, values in self.core.snapshot().items() if name != "time"}
-        named = named_channels(self.scene, arrays, set(self.outputs.channels or ()))
+        arrays = self.core.snapshot()
+        named = self.named(arrays, set(self.outputs.channels or ()))
         return {name: values[0] for name, values in named.items()}
 
-    def named(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
-        """Channels of the core by the names of a result."""
-        return named_channels(self.scene, {name: v for name, v in arrays.items() if name != "time"})
+    def named(self, arrays: Mapping[str, Array], asked: Collection[str] | None = None) -> dict[str, Array]:
+        """Channels of the core by the names of a result; of those that cost much the ones asked for."""
+        scene, known = self.scene, {name: values for name, values in arrays.items() if name != "time"}
+        wanted = None if asked is None else with_sources(scene, asked)
+        out = named_channels(scene, known, wanted)
+        if asked is None or OWN in asked:
+            names = {**self.model.axes, **derived_coords(scene), **FIXED}
+            own = own_values(scene, out, names, len(arrays["time"]))
+            out |= {} if own is None else {OWN: own}
+        return out
 
     def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """As `named`, those that the outputs ask for."""
@@ -311,10 +319,10 @@ class Run:
         if asked is None:
             limited = {state.channel for state in self.scene.limit_states.values()}
             kept = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
-            kept |= arrays.keys() - {"time"}
+            kept |= {*arrays.keys() - {"time"}, *with_sources(self.scene, [OWN])}
         else:
             kept = set(asked)
-        named = named_channels(self.scene, {name: v for name, v in arrays.items() if name != "time"}, kept)
+        named = self.named(arrays, kept)
         return {name: values for name, values in named.items() if name in kept}
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
@@ -458,8 +466,8 @@ def _options(run: Run) -> _core.RunOptions:
     """How the core steps a run, and what it records."""
     model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
     usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
-    asked = usual if outputs.channels is None else list(outputs.channels)
-    channels = core_channels(asked, model.channel_names(defaults_only=False))
+    asked = [*usual, OWN] if outputs.channels is None else list(outputs.channels)
+    channels = core_channels(with_sources(run.scene, asked), model.channel_names(defaults_only=False))
     times = output_times(
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,

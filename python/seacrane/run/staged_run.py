@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium
+from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
@@ -24,7 +25,7 @@ from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.joined import COUNTED_ON, Piece, counters, joined
+from seacrane.run.joined import Piece, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import checked_stages, planned_scene, waiting
@@ -294,7 +295,7 @@ class StagedRun:
         if self.outputs.channels is None:
             return None
         still = self._still(self._scene, self._model, self._state)
-        there = {*still.measure(), *still.model.channel_names(defaults_only=False)}
+        there = {*still.named(still.core.snapshot()), OWN, *still.model.channel_names(defaults_only=False)}
         return [name for name in self.outputs.channels if name in there]
 
     def _began(self, run: Run) -> None:

@@ -23,6 +23,7 @@ from seacrane.description import (
     joints,
     limit_states,
     meshes,
+    own_channels,
     places,
     recorded,
     relatives,
@@ -100,10 +101,11 @@ class Scene(Description):
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
         `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
-    recorded, ranges, limit_states, clearances, relatives, roles, provenance, meshes, notes
+    recorded, ranges, limit_states, clearances, relatives, channels, roles, provenance, meshes,
+    notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
-        which distances and relative motions are recorded, the parts of cranes, where vessels come from, what
-        bodies are drawn by, and the user's own notes.
+        which distances, relative motions and expressions are recorded, the parts of cranes, where vessels
+        come from, what bodies are drawn by, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -116,6 +118,7 @@ class Scene(Description):
     add_limit_state = limit_states.add_limit_state
     add_clearance = clearances.add_clearance
     add_relative = relatives.add_relative
+    add_channel = own_channels.add_channel
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table
@@ -216,6 +219,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     found.append(("limit states", list(scene.limit_states)))
     found.append(("clearances", list(scene.clearances)))
     found.append(("relatives", list(scene.relatives)))
+    found.append(("channels", list(scene.channels)))
     found.append(("meshes", list(scene.meshes)))
     return [(kind, names) for kind, names in found if names]
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
 from seacrane.renamed import refusing
 from seacrane.result import Result
-from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
 from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings

@@ -1,0 +1,153 @@
+"""Channels of one's own, expressions of others: added, and as plain data for files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+from seacrane.description.channels import CHANNELS, COUNTED_ON, OWN, unit_of
+from seacrane.description.description import Description, insert
+from seacrane.description.dimensions import UNITS, Dimension, unit_text
+from seacrane.description.expression import Curve, Number, Program, dimension_of, parsed, worked_out
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.pick import Pick, pick_of
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, text_of
+from seacrane.inputs.node import Node
+from seacrane.inputs.shown import shown
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnChannel:
+    """An expression of curves that results hold under a name, as ``own[name]``.
+
+    Attributes
+    ----------
+    name, expression : str
+    unit : str
+        SI, by the units of its curves.
+    """
+
+    name: str
+    expression: str
+    unit: str
+
+
+def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel:
+    """Record an expression of other channels: the channel own, at this name, as in ``own[residual]``.
+
+    An expression has curves ("hook_load[main]", "roll"), named points and bodies by axis ("tip.z", "load.z",
+    of a body its centre of mass), numbers with a unit ("3 m", "10 deg"; without one pure), + - * /,
+    parentheses, sqrt, abs, hypot, atan2, min and max. What is added or compared has one unit; atan2 gives
+    rad. No code is run. The channels that it needs are recorded by themselves.
+
+    Parameters
+    ----------
+    name : str
+        Along the dimension "expression" of the channel.
+    expression : str
+        Such as "tip.z - load.z".
+
+    Returns
+    -------
+    OwnChannel
+
+    Raises
+    ------
+    SceneError
+        For a text that is none, a channel, point or body that is not there, and units that do not fit. A name
+        along a channel that the scene does not have is refused when a run starts.
+    """
+    what = f"channel {name_of('channel', name)!r}"
+    text = text_of(f"{what}: expression", expression)
+    program = parsed(what, text)
+
+    def leaf(step: Number | Curve) -> Dimension:
+        if isinstance(step, Number):
+            return step.dimension
+        return _dimension(scene, what, picked(scene, what, step))
+
+    found = worked_out(program, leaf, lambda call, values: dimension_of(what, call, values))
+    added: OwnChannel = insert(
+        "channel", scene.channels, OwnChannel(name=name, expression=text, unit=unit_text(found))
+    )
+    return added
+
+
+def programs(scene: Description) -> dict[str, Program]:
+    """Of every channel of one's own."""
+    return {name: parsed(f"channel {name!r}", one.expression) for name, one in scene.channels.items()}
+
+
+def picks(scene: Description) -> dict[str, list[Pick]]:
+    """The curves that every channel of one's own is made of."""
+    return {
+        name: [picked(scene, f"channel {name!r}", step) for step in program if isinstance(step, Curve)]
+        for name, program in programs(scene).items()
+    }
+
+
+def picked(scene: Description, what: str, curve: Curve) -> Pick:
+    """A curve of an expression as a selector; SceneError where the scene has no such place or channel."""
+    if not curve.axis:
+        pick = pick_of(what, curve.text)
+    else:
+        there = [key for key in ("points", "bodies") if curve.text in getattr(scene, key)]
+        if len(there) != 1:
+            raise SceneError(f"{what}: {_which(scene, curve, several=len(there) > 1)}")
+        channel, dim = {"points": ("point_position", "point"), "bodies": ("position", "body")}[there[0]]
+        pick = Pick(channel=channel, names={dim: curve.text, "axis": curve.axis})
+    if pick.after is not None:
+        raise SceneError(f"{what}: {pick} is from a time on; leave after out")
+    if pick.channel == OWN:
+        raise SceneError(f"{what}: {pick} is a channel of your own too; write its expression here")
+    if CHANNELS[pick.channel].turns or pick.channel in COUNTED_ON:
+        raise SceneError(
+            f"{what}: {pick.channel} counts on over a whole run, which an expression does not; take another"
+        )
+    return pick
+
+
+def _which(scene: Description, curve: Curve, *, several: bool) -> str:
+    if several:
+        return (
+            f"{shown(curve.text)} is a point and a body; write "
+            f"point_position[{curve.text}, {curve.axis}] or position[{curve.text}, {curve.axis}]"
+        )
+    near = get_close_matches(curve.text, [*scene.points, *scene.bodies], n=1)
+    fix = f"did you mean {near[0]!r}?" if near else "add_point or add_body it first"
+    return f"there is no point or body {shown(curve.text)}; {fix}"
+
+
+def _dimension(scene: Description, what: str, pick: Pick) -> Dimension:
+    unit = unit_of(pick.channel, pick.names.values())
+    straight, _, angular = unit.partition(" or ")
+    if angular and (coordinate := _coordinate(scene, pick)):
+        unit = angular if coordinate in ANGLES else straight
+    if unit not in UNITS:
+        raise SceneError(f"{what}: {pick} is in {unit}, which says not what it is; name a curve of one unit")
+    return UNITS[unit][1]
+
+
+def _coordinate(scene: Description, pick: Pick) -> str:
+    """The coordinate of a joint that a curve is of; no text where it is of none that is known."""
+    if name := pick.names.get("joint_coordinate"):
+        return scene.recorded[name][1] if name in scene.recorded else ""
+    for dim, table in (("actuator", scene.actuators), ("driver", scene.drivers)):
+        if pick.names.get(dim) in table:
+            return str(table[pick.names[dim]].coordinate)
+    return ""
+
+
+def own_channels_to_data(scene: Description) -> list[dict[str, Any]]:
+    """As plain data."""
+    return [{"name": one.name, "expression": one.expression} for one in scene.channels.values()]
+
+
+def own_channels_from_node(node: Node, scene: Description) -> None:
+    """Give a scene what `own_channels_to_data` wrote; raises FileFormatError."""
+    for entry in node.items():
+        entry.expect(("name", "expression"))
+        with entry.scene_errors():
+            add_channel(scene, entry.at("name").text(), expression=entry.at("expression").text())
