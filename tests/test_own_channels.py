@@ -22,11 +22,15 @@ from seacrane import (
     SceneError,
     Stage,
     Until,
+    cases,
+    ensemble,
     simulate,
     simulate_stages,
 )
+from seacrane.analysis import linear_model
 from seacrane.description.expression import DEEPEST, FUNCTIONS, LONGEST, parsed
 from seacrane.description.file import scene_digest
+from seacrane.operability.linear_channels import linear_channels
 
 
 def z(result: Result, body: str) -> Any:
@@ -140,13 +144,13 @@ def test_a_stage_ends_where_it_says(tmp_path: Path) -> None:
     assert_array_equal(Result.load(path)["own"], result["own"])
 
 
-def test_files_keep_it_and_digests_do_not_change(tmp_path: Path) -> None:
+def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
     scene = tumbling()
     digest, path = scene_digest(scene), tmp_path / "scene.json"
     scene.save(path)
     assert '"channels"' not in path.read_text()
     described(scene)
-    assert scene_digest(scene) == digest
+    assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
     scene.save(path)
     assert Scene.load(path).channels == scene.channels
     path.write_text(path.read_text().replace("corner.z", "croner.z"))
@@ -275,3 +279,15 @@ def test_random_texts_are_read_or_refused() -> None:
         except SceneError as error:
             assert str(error).startswith("fuzz")
     assert read > 500
+
+
+def test_ensembles_and_linear_models_take_it() -> None:
+    scene = cases.vessel(hs=1.0, tp=8.0)
+    scene.add_channel("bow", expression="vessel_motion[heave] - 60 m * vessel_motion[pitch] / 1 rad")
+    kept = ensemble(scene, over={"seed": [1, 2]}, keep={"bow": "own[bow].max"}, t_end=10.0)
+    assert not kept.failures
+    values = kept.dataset["bow"].values
+    assert values.shape == (2,) and values[0] != values[1]
+    motions = [Criterion(channel=channel, maximum=1.0) for channel in ("own[bow]", "heave", "pitch")]
+    known = linear_channels(linear_model(scene), motions)
+    assert_allclose(known.c[0], known.c[1] - 60.0 * known.c[2], atol=1e-9)

@@ -90,7 +90,7 @@ _ADDED_LATER: dict[str, Any] = {
     "meshes": [],
     "databases": [],
 }  # what older files of this version lack
-UNMOVING = ("notes", "provenance", "limit_states", "clearances", "relatives", "channels", "meshes")  # tables
+UNMOVING = ("notes", "provenance", "limit_states", "clearances", "meshes")  # tables
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
 
@@ -201,8 +201,8 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, databases, limit states, clearances, relatives, channels and meshes do not
-    count, and of C functions only their names.
+    Notes, provenance, databases, limit states, clearances and meshes do not count, and of C functions only
+    their names. Relatives and channels of one's own do: a file goes on with those that it has begun with.
     """
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
