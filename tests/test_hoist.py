@@ -88,7 +88,7 @@ def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
         slings={"length": 5.0, "EA": 5e7}, winch={"lag": 0.1},
     )  # fmt: skip
     still = simulate(scene, 2.0)
-    assert still.select("hook_load", suspension="hoist") == pytest.approx(500.0 * G, rel=1e-4)
+    assert still.select("hook_load", suspension="hoist") == pytest.approx(500.0 * G, rel=1e-3)
     assert np.ptp(still.curve("position[load, z]")) < 1e-6
     stages = [
         Stage(name="lift", until=Until.release("load on vessel"), maximum_duration=30.0,

@@ -135,7 +135,8 @@ def test_a_killed_ensemble_goes_on_to_the_same_bits(tmp_path: Path) -> None:
         "rtol": 1e-9,
     }
     whole = ensemble(counted, store=store, **given)
-    assert len(ran) <= 100 - done.sum() + 2  # first and last stand for the study
+    # First and last stand for the study; those that were being written may come again.
+    assert len(ran) <= 100 - done.sum() + 4
     assert np.array_equal(left.track.to_numpy()[done], whole.dataset.track.to_numpy()[done])
     assert whole.dataset.identical(ensemble(pendulum, **given).dataset)
 

@@ -102,6 +102,8 @@ def _add_variable(file: Any, name: str, dims: tuple[str, ...], contents: Content
     variable = file.createVariable(
         name, "f8", dims, compression="zlib", complevel=1, chunksizes=chunks, fill_value=False
     )
+    # Written chunk by chunk: the library's own cache would hold 64 MB of every variable.
+    variable.set_var_chunk_cache(size=2 * 8 * math.prod(chunks), nelems=2, preemption=1.0)
     variable.setncatts(attributes(name))
 
 
