@@ -19,7 +19,7 @@ from seacrane.warnings import UrdfWarning
 
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
 BESIDE = (SHIPPED / "service_arm_5t.toml").read_text(encoding="utf-8")
-RECORDED = Path(__file__).parents[1] / "benchmarks" / "peers" / "results" / "service_arm.json"
+RECORDED = Path(__file__).parents[1] / "benchmarks" / "peers" / "references" / "service_arm.json"
 REFERENCE = json.loads(RECORDED.read_text(encoding="utf-8"))
 
 

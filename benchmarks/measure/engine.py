@@ -20,6 +20,8 @@ LIST = "measured.json"  # in a folder of tables: by file, what measured it
 # What the compiler reads, group 1, among comments and blanks. Comments of CMake count as code.
 TOKENS = re.compile(r"""//[^\n]*|/\*.*?\*/|\s+|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'|.)""", re.DOTALL)
 
+SAME = ("engine", "seacrane", "machine")  # what one measurement has to share with another; the day may differ
+
 Measured = dict[str, str]  # "engine", "seacrane", "machine", "day"
 
 
@@ -46,8 +48,11 @@ def record(table: Path, of: Sequence[Path] = ()) -> None:
         "day": datetime.now(UTC).date().isoformat(),
     }  # fmt: skip
     if of:
-        every = [measured(one) for one in of]
-        told = every[0] if all(one == every[0] for one in every) else None
+        every = [measured(one) or {} for one in of]
+        same = all(
+            one.get(key) is not None and one.get(key) == every[0].get(key) for one in every for key in SAME
+        )
+        told = max(every, key=lambda one: one.get("day", "")) if same else None
     known = _list(table.parent)
     known.pop(table.name, None)
     if told:

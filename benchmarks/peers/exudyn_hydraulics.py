@@ -1,7 +1,7 @@
 """A mass on a hydraulic actuator in Exudyn; run by the peers' Python: ``exudyn_hydraulics.py [FILE]``.
 
 Writes time, length, speed of the mass and both pressures (ObjectConnectorHydraulicActuatorSimple) to FILE, by
-default ``results/hydraulics.csv``, which benchmarks/compared/hydraulics.py compares with.
+default ``references/hydraulics.csv``, which benchmarks/compared/hydraulics.py compares with.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-RESULT = Path(__file__).parent / "results" / "hydraulics.csv"
+RESULT = Path(__file__).parent / "references" / "hydraulics.csv"
 HEAD = ("time, s", "length, m", "speed, m/s", "full side, Pa", "rod side, Pa")
 T_END, EVERY = 1.0, 0.02  # s
 STEP = 2e-5  # s

@@ -1,7 +1,7 @@
 """A hook on a line over three sheaves in Exudyn; run by the peers' Python: ``exudyn_reeving.py [FILE]``.
 
 Writes time, place of the hook, length and tension of the line (ReevingSystemSprings) to FILE, by default
-``results/reeving.csv``, which benchmarks/compared/reeving.py compares with.
+``references/reeving.csv``, which benchmarks/compared/reeving.py compares with.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-RESULT = Path(__file__).parent / "results" / "reeving.csv"
+RESULT = Path(__file__).parent / "references" / "reeving.csv"
 HEAD = ("time, s", "x, m", "y, m", "z, m", "length, m", "tension, N")
 T_END, EVERY = 4.0, 0.1  # s
 STEP = 2e-4  # s

@@ -2,7 +2,7 @@
 ``pinocchio_urdf.py [FILE]``.
 
 States are random; the loop of the jib's cylinder is open, as URDF has it. Writes
-``results/service_arm.json``, which a test holds seacrane to.
+``references/service_arm.json``, which a test holds seacrane to.
 """
 
 import json
@@ -14,7 +14,7 @@ import pinocchio as pin
 
 ROOT = Path(__file__).resolve().parents[2]
 URDF = ROOT / "python" / "seacrane" / "data" / "cranes" / "service_arm_5t.urdf"
-RESULT = Path(__file__).parent / "results" / "service_arm.json"
+RESULT = Path(__file__).parent / "references" / "service_arm.json"
 STATES = 3
 
 model = pin.buildModelFromUrdf(str(URDF))
