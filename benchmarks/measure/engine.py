@@ -49,9 +49,8 @@ def record(table: Path, of: Sequence[Path] = ()) -> None:
     }  # fmt: skip
     if of:
         every = [measured(one) or {} for one in of]
-        same = all(
-            one.get(key) is not None and one.get(key) == every[0].get(key) for one in every for key in SAME
-        )
+        shared = [[one.get(key) for key in SAME] for one in every]
+        same = None not in shared[0] and all(one == shared[0] for one in shared)
         told = max(every, key=lambda one: one.get("day", "")) if same else None
     known = _list(table.parent)
     known.pop(table.name, None)
