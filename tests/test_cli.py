@@ -146,7 +146,7 @@ def test_a_run_writes_its_file_and_a_summary(
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in folder.iterdir()) == ["case2.nc"]
     assert "times real time" in done.stdout and "worst constraint error" in done.stdout
-    (tension,) = [line.split() for line in done.stdout.splitlines() if line.startswith("link tension")]
+    (tension,) = [line.split() for line in done.stdout.splitlines() if line.startswith("hoist tension")]
     assert tension[2:4] == ["kN", "98.07"]
     assert f"saved {folder / 'case2.nc'}" in done.stdout
 
@@ -188,7 +188,7 @@ def test_show_prints_and_draws_a_result(
     assert "case2, 1 to 5 s" in done.stdout and f"saved {tmp_path / 'case2.png'}" in done.stdout
     assert (tmp_path / "case2.png").read_bytes().startswith(b"\x89PNG")
     told = json.loads(command_line("show", file, "--json").stdout)
-    assert told["rows"]["link tension"]["unit"] == "N" and "Too short" in told["remarks"][0]
+    assert told["rows"]["hoist tension"]["unit"] == "N" and "Too short" in told["remarks"][0]
     assert "overwrite" in refusal(command_line("show", file, "--out", tmp_path))
     assert "no result file" in refusal(command_line("show", tmp_path / "none.nc"))
 

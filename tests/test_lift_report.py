@@ -58,7 +58,7 @@ def page(lift: Result) -> Report:
 
 def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) -> None:
     assert titles(page) == [
-        "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Link and wire tension",
+        "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Hook load and tension",
         "Limits", "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
     ]  # fmt: skip
 
@@ -87,8 +87,8 @@ def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> Non
 
 def test_the_summary_is_not_told_twice(lift: Result, page: Report) -> None:
     named = {one.title for one in statistics_of(lift)[0]}
-    assert len(named) > 10 and not {"link tension", "cylinder force main", "vessel motion roll"} & named
-    row = Page(page.html).row("link tension")
+    assert len(named) > 10 and not {"hoist tension", "cylinder force main", "vessel motion roll"} & named
+    row = Page(page.html).row("hoist tension")
     assert row[0] == "kN" and row[1] == "98.07"
 
 
@@ -123,7 +123,7 @@ def test_an_interrupted_run_with_values_that_are_none(tmp_path: Path) -> None:
     run["arrays"]["link_tension"][-1] = np.nan
     page = report(Result.from_arrays(**run, interrupted=True))
     assert "Interrupted: the run ended at 5 s" in page.html and "nan" not in Page(page.html).row(
-        "link tension"
+        "hoist tension"
     )
 
 
@@ -232,7 +232,7 @@ def test_a_run_that_left_a_channel_open_has_a_report() -> None:
     for name in ("link_tension", "vessel_motion", "cylinder_force"):
         run["arrays"][name][:] = np.nan
     page = report(Result.from_arrays(**run, interrupted=True))
-    assert "Largest link tension" not in page.html and "Largest slew torque" in page.html
+    assert "Largest hook load" not in page.html and "Largest slew torque" in page.html
 
 
 def test_a_result_that_is_not_there_is_named(tmp_path: Path) -> None:

@@ -721,6 +721,6 @@ def test_a_stage_that_is_run_again_calls_its_controllers_at_the_same_times() -> 
 
 def test_the_weight_on_a_line_is_known_though_it_is_let_go_at_last() -> None:
     table = summary(simulate_stages(on_deck(), lift_off(), dt_out=0.1, rtol=1e-5))
-    row = table["line tension hoist"]
+    row = table["hoist tension hoist"]
     assert row.static_known and row.static == pytest.approx(MASS * G)
     assert row.factor is not None and row.factor > 1.0

@@ -198,7 +198,7 @@ def test_it_is_a_labelled_value() -> None:
     assert "slew [deg]" in str(told) and "<td" in told._repr_html_()
     assert told.to_dict()["hook load"] == pytest.approx([20e3 * G, 20e3 * G])
     assert told.to_xarray()["cylinder force main"].attrs["units"] == "N"
-    with pytest.raises(KeyError, match="no column 'roll'; statics has tip radius, tip height, hook load"):
+    with pytest.raises(KeyError, match="no column 'roll'; statics has tip radius, tip height, cylinder"):
         told["roll"]
 
 
@@ -325,7 +325,7 @@ def test_numbers_give_numbers_and_rows_give_axes() -> None:
     assert one["tip radius"].shape == () and f"{one['tip radius']:.3f}" == "20.000"
     row = statics(scene, slew=-0.5, radius=[20.0, 22.0])
     assert row["tip radius"] == pytest.approx([20.0, 22.0])
-    assert row["link tension"][0] == pytest.approx(one["link tension"], rel=1e-6)
+    assert row["hoist tension"][0] == pytest.approx(one["hoist tension"], rel=1e-6)
     assert str(one).count("\n") == 2 and str(row).count("\n") == 3
     assert one.to_xarray()["tip radius"].dims == () and row.to_xarray()["tip radius"].dims == ("radius",)
     assert one.to_xarray()["tip radius"].coords["slew"].item() == -0.5

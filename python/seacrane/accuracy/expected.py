@@ -10,8 +10,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from seacrane.description.crane_parts import hooks
 from seacrane.description.given import floating_bodies
+from seacrane.description.suspension import hung_loads
 from seacrane.run.method import Method
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def unit_error(scene: Scene, quantity: Quantity) -> float:
     if quantity.unit in SCALE:
         return SCALE[quantity.unit]
     if quantity.name == "hook_tension":
-        mass = max(scene.bodies[scene.joints[link].second].mass for link in hooks(scene).values())
+        mass = max(scene.bodies[one.load].mass for one in hung_loads(scene) if one.crane is not None)
     else:
         floating = floating_bodies(scene)
         mass = sum(body.mass for body in scene.bodies.values() if body.name not in floating)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS, DERIVED
-from seacrane.description.crane_parts import cylinders, hooks, payloads
+from seacrane.description.crane_parts import cylinders, payloads
 from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
+from seacrane.description.suspension import Place, hung_loads
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import rotation_matrix
@@ -118,7 +119,8 @@ def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -
 
 
 def _offered(scene: Scene) -> dict[str, Quantity]:
-    hung, found = list(payloads(scene).values()), []
+    on_cranes = [one for one in hung_loads(scene) if one.crane is not None]
+    hung, found = list(dict.fromkeys([*payloads(scene).values(), *(one.load for one in on_cranes)])), []
     if hung:
         found.append(
             Quantity(
@@ -130,8 +132,8 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
                 ),
             )
         )
-    if hooks(scene):
-        found.append(_tip_velocity(scene))
+    if on_cranes:
+        found.append(_tip_velocity(scene, [one.hangs_from for one in on_cranes]))
     if len(scene.vessels) > len(given_vessels(scene)):
         found.append(
             Quantity(
@@ -145,24 +147,25 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
     driven |= {driver.joint for driver in with_holds(scene).drivers.values()}
     if cylinders(scene) and driven.issuperset(cylinders(scene).values()):
         found.append(_channel("cylinder_force", unit="N"))
-    if hooks(scene):
+    if on_cranes:
+        names = [one.suspension.channel for one in on_cranes]
         found.append(
             Quantity(
                 name="hook_tension",
                 unit="N",
-                channels=("link_tension",),
-                values=lambda result: result["link_tension"].reshape(result.time.size, -1, 1),
+                channels=("hook_load",),
+                values=lambda result: np.stack(
+                    [result.select("hook_load", suspension=name) for name in names], axis=1
+                )[:, :, None],
             )
         )
     return {quantity.name: quantity for quantity in found}
 
 
-def _tip_velocity(scene: Scene) -> Quantity:
-    """Velocity of the points that links hang from, inertial axes."""
-    links = [scene.joints[link] for link in hooks(scene).values()]
+def _tip_velocity(scene: Scene, tips: Sequence[Place]) -> Quantity:
+    """Velocity of the points that loads hang from, inertial axes."""
     levers = [
-        (link.first, np.asarray(link.first_frame.point) - np.asarray(scene.bodies[link.first].center_of_mass))
-        for link in links
+        (body, np.asarray(point) - np.asarray(scene.bodies[body].center_of_mass)) for body, point in tips
     ]
 
     def velocity(result: Result, body: str, lever: Array) -> Array:

@@ -7,6 +7,7 @@ import numpy as np
 from seacrane.answers.blocks import cards
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import energy_balanced, findings_of, joints_closed
+from seacrane.answers.reported_curves import HOOK, reported_curves
 from seacrane.answers.section import Section
 from seacrane.result import Result
 from seacrane.result.traces import Trace, traces
@@ -31,16 +32,19 @@ def _largest(result: Result, channel: str, label: str) -> Cards:
     return {label: (f"{one.values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", None)}
 
 
-def _tensions(result: Result) -> Cards:
-    found = _finite(result, "link_tension")
+def _hook_loads(result: Result) -> Cards:
+    found = [one for one in reported_curves(result) if one.kind == HOOK and np.isfinite(one.values).any()]
     if not found:
         return {}
-    low = min(found, key=lambda trace: float(np.nanmin(trace.values)))
-    value = float(np.nanmin(low.values))
-    at = result.time[int(np.nanargmin(low.values))]
+    largest = max(found, key=lambda one: float(np.nanmax(one.values)))
+    least = min(found, key=lambda one: float(np.nanmin(one.values)))
+    places = {
+        "Largest hook load": (largest, int(np.nanargmax(largest.values))),
+        "Least hook load": (least, int(np.nanargmin(least.values))),
+    }
     return {
-        **_largest(result, "link_tension", "Largest link tension"),
-        "Least link tension": (f"{value:.4g} {low.unit} at {at:.4g} s", value >= 0.0 or None),
+        text: (f"{one.values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", one.values[at] >= 0.0 or None)
+        for text, (one, at) in places.items()
     }
 
 
@@ -91,7 +95,7 @@ def _html(result: Result) -> str:
     return cards(
         {
             **span,
-            **_tensions(result),
+            **_hook_loads(result),
             **_largest(result, "limit_force", "Largest force of a wire, stop or seat"),
             **_largest(result, "cylinder_force", "Largest cylinder force"),
             **_largest(result, "slew_torque", "Largest slew torque"),

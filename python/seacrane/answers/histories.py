@@ -13,7 +13,7 @@ from seacrane.plotting.panel import draw
 from seacrane.result import Result
 from seacrane.result.history import history_sheet
 
-TENSIONS = ("link_tension", "limit_force")
+TENSIONS = ("hook_load", "line_tension", "limit_force")
 
 
 def _tensions(result: Result) -> list[str]:
@@ -23,7 +23,9 @@ def _tensions(result: Result) -> list[str]:
 def _loads(result: Result) -> str:
     figure = draw(history_sheet(result, *_tensions(result)))
     return drawn(
-        figure, "Tension", "Links and limits over time; triangles mark the largest and the smallest value."
+        figure,
+        "Tension",
+        "Hook loads, lines and limits over time; triangles mark the largest and the smallest value.",
     )
 
 
@@ -46,7 +48,7 @@ def _track(result: Result) -> str:
 
 
 LOADS: Section[Result] = Section(
-    title="Link and wire tension", applies=lambda result: bool(_tensions(result)), html=_loads
+    title="Hook load and tension", applies=lambda result: bool(_tensions(result)), html=_loads
 )
 HISTORIES: Section[Result] = Section(title="Histories", applies=_drawable, html=_histories)
 TRACKS: Section[Result] = Section(

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.suspension import ROD
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.overview import payload_bodies
 from seacrane.result import Result
 from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.run.hanging import swing_of
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
 TENSIONS = ("hook_load", "link_tension", "tension", "line_tension")
+HOOK = "hook load"
 CRANE = ("cylinder_force", "slew_torque")
 LEADS = ("offlead", "sidelead")
 GAPS = "clearance"
@@ -49,6 +53,8 @@ class Curve:
         Whether it is a tension, which may go slack.
     static : float or None
         In the unit, where the run noted it.
+    rung : str
+        Of what a load hangs on; empty for all else.
     """
 
     kind: str
@@ -58,6 +64,7 @@ class Curve:
     load: bool = False
     pulls: bool = False
     static: float | None = None
+    rung: str = ""
 
     @property
     def name(self) -> str:
@@ -79,13 +86,17 @@ def reported_curves(result: Result) -> list[Curve]:
 
 def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
+    hung = hung_in(result)
+    shown = {name for one in hung for name in one["parts"]}
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
     links = set(result.coords[result.dims["tension"][1]]) if "tension" in held else set()
     found = [
         _load(result, one)
         for name in loads
         for one in beyond_rounding(traces(result, name))
-        if name != "hook_load" or one.names[0] not in links  # a link's is its tension
+        if not (name in TENSIONS and shown & {*one.names, *(f"{part} line" for part in one.names)})
+        and not (name == "hook_load" and one.names[0] in links)  # a link's is its tension
+        and not (name == "link_tension" and shown)
     ]
     leads = [
         Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
@@ -97,7 +108,43 @@ def _curves(result: Result) -> list[Curve]:
         Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
         for one in (traces(result, GAPS) if GAPS in held else [])
     ]
-    return [*found, *_offsets(result), *leads, *gaps, *_motions(result)]
+    hoists = [curve for one in hung for curve in _hoist(result, one, hung)]
+    return [*hoists, *found, *_offsets(result), *leads, *gaps, *_motions(result)]
+
+
+def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, Any]]) -> list[Curve]:
+    """Load on the hook, and tension of what it hangs on at the upper end: of a line in one of its falls."""
+    cranes = [other for other in every if other["crane"] is not None]
+    label = "" if one["crane"] is not None and len(cranes) == 1 else one["label"]
+    lower, upper, hook = one["suspension"], one["top"], one["label"]
+    weights = result.about.hanging_weight
+    load = _first_of(result, ("hook_load", lower), ("link_tension", hook), ("tension", lower))
+    pull = _first_of(result, ("line_tension", upper.removesuffix(" line")), ("line_tension", upper),
+                     ("link_tension", hook), ("tension", upper), ("hook_load", upper))  # fmt: skip
+    found = []
+    if load is not None:
+        per_tonne = TONNES[load.unit] / STANDARD_GRAVITY
+        found.append((HOOK, "t", per_tonne * load.values, weights.get(lower, (None, 1))))
+    if pull is not None:
+        factor, unit = REPORTED.get(pull.unit, (1.0, pull.unit))
+        found.append(("hoist tension", unit, factor * pull.values, weights.get(upper, (None, 1))))
+    return [
+        Curve(kind=kind, label=label, unit=unit, values=values, load=True, pulls=True, rung=one["rung"],
+              static=None if weight is None else
+              weight * si_factor(unit) / (1 if kind == HOOK else falls))
+        for kind, unit, values, (weight, falls) in found
+    ]  # fmt: skip
+
+
+def _first_of(result: Result, *wanted: tuple[str, str]) -> Trace | None:
+    """The first of these curves that was recorded, by channel and name, and is more than rounding."""
+    for channel, name in wanted:
+        if channel in result.channels:
+            every = traces(result, channel)
+            for one in beyond_rounding(every):
+                if one.names == (name,) or (not one.names and channel == "link_tension"):
+                    return one
+    return None
 
 
 SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad"}
@@ -122,20 +169,15 @@ def _load(result: Result, one: Trace) -> Curve:
 
 
 def _hanging_weight(result: Result, one: Trace) -> float | None:
-    """Of the load on a link, N, as the run noted it."""
-    weights, on_lines = result.about.hanging_weight, result.about.line_weight
+    """Of the load on a rod, wire or line, N, as the run noted it; on one of its falls."""
     name = one.names[0] if one.names else ""
-    if one.channel == "line_tension":
-        weight = on_lines[name][0] / on_lines[name][1] if name in on_lines else None
-    elif one.channel == "hook_load" and name in on_lines:
-        weight = on_lines[name][0]
-    elif one.channel in ("tension", "hook_load"):
-        weight = weights.get(name)
-    else:
-        links = {f"{one['prefix']}hook": one["link"] for one in result.about.cranes if one["link"]}
-        link = links.get(name) if one.names else next(iter(links.values()), None)
-        weight = weights.get(link or "")
-    return None if weight is None else float(weight)
+    weights = result.about.hanging_weight
+    if one.channel == "line_tension" and f"{name} line" in weights:
+        name = f"{name} line"
+    if name not in weights:
+        return None
+    weight, falls = weights[name]
+    return float(weight) / (falls if one.channel == "line_tension" else 1)
 
 
 def _offsets(result: Result) -> list[Curve]:
@@ -145,7 +187,7 @@ def _offsets(result: Result) -> list[Curve]:
         curves = {
             ("offset", "x", "m"): vector[:, 0],
             ("offset", "y", "m"): vector[:, 1],
-            ("swing", "", "deg"): np.degrees(swing(vector)),
+            ("swing", "", "deg"): np.degrees(swing_of(vector)),
         }
         found += [
             Curve(kind=f"{body} {what}", label=axis, unit=unit, values=values)
@@ -166,25 +208,33 @@ def _motions(result: Result) -> list[Curve]:
 
 
 def hanging_vectors(result: Result) -> dict[str, Array]:
-    """From the upper to the lower end of the one link that each load hangs on, (n, 3), m, inertial axes.
+    """From where each load hangs to where it is held, (n, 3), m, inertial axes.
 
-    By body. Empty where the poses were not recorded, or a result notes no links.
+    By body. Empty where the poses were not recorded, or a result does not note what hangs.
     """
     if not set(POSES) <= set(result.channels):
         return {}
-    links = result.about.outline.get("links", [])
-    found = {}
+    return {one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in hung_in(result)}
+
+
+def hung_in(result: Result) -> list[Mapping[str, Any]]:
+    """What hangs, as the run noted it; of results of before 0.3 what hangs on one link."""
+    if result.about.hung:
+        return list(result.about.hung)
+    found: list[Mapping[str, Any]] = []
     for body in payload_bodies(result):
-        own = [link for link in links if link[2] == body]
+        own = [link for link in result.about.outline.get("links", []) if link[2] == body]
+        crane = next((one for one in result.about.cranes if one["payload"] == body and one["link"]), None)
         if len(own) == 1:
             first, first_point, _, point = own[0]
-            found[body] = _place(result, body, point) - _place(result, first, first_point)
+            link = "" if crane is None else str(crane["link"])
+            found.append({
+                "label": "" if crane is None else f"{crane['prefix']}hook",
+                "crane": None if crane is None else crane["prefix"],
+                "suspension": link, "top": link, "parts": [link], "rung": ROD, "load": body,
+                "from": [first, first_point], "to": [body, point],
+            })  # fmt: skip
     return found
-
-
-def swing(vector: Array) -> Array:
-    """Angle (n,) of hanging vectors (n, 3) from straight down, rad."""
-    return np.arctan2(np.hypot(vector[:, 0], vector[:, 1]), -vector[:, 2])
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:

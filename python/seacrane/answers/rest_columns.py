@@ -14,13 +14,14 @@ from seacrane.analysis.crane_poses import drive_name
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_parts import cylinders, hooks, luffing_ropes, luffs, piston_areas, slews
+from seacrane.description.crane_parts import cylinders, luffing_ropes, luffs, piston_areas, slews
 from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.roles import CraneRoles
+from seacrane.description.suspension import hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.one_thread import one_thread
 from seacrane.run.hook_loads import hook_loads
@@ -58,11 +59,6 @@ class AtRest:
         drivers = [name for name, kind, _, _ in self.model.elements if kind == "driver"]
         return float(self.channels["driver_force"][drivers.index(drive_name((joint, coordinate)))])
 
-    def tension(self, link: str) -> float:
-        """Of a link, N."""
-        links = [name for name, joint in self.scene.joints.items() if joint.kind == "distance"]
-        return float(self.channels["tension"][links.index(link)])
-
     def rope_tension(self, place: tuple[str, str], rope: LuffingRope) -> float:
         """Of each fall of a rope that carries a hinge's moment, N; below zero where it would be slack."""
         joint = self.scene.joints[place[0]]
@@ -85,7 +81,7 @@ class AtRest:
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Unit (SI) and value of everything that is told, by name."""
-    return {**_vessels(at_rest), **_cranes(at_rest), **_lines(at_rest)}
+    return {**_vessels(at_rest), **_cranes(at_rest), **_hoists(at_rest), **_lines(at_rest)}
 
 
 def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
@@ -115,11 +111,7 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
             found[f"{roles.prefix}tip radius"] = ("m", at_rest.radius(roles))
         if roles.tip is not None:
             found[f"{roles.prefix}tip height"] = ("m", at_rest.height(*roles.tip))
-    several, areas = len(hooks(scene)) > 1, piston_areas(scene)
-    for label, link in hooks(scene).items():
-        tension = at_rest.tension(link)
-        found[f"hook load {label}" if several else "hook load"] = ("N", tension)
-        found[f"link tension {label}" if several else "link tension"] = ("N", tension)
+    areas = piston_areas(scene)
     for label, joint in cylinders(scene).items():
         force = at_rest.drive(joint, "displacement")
         found[f"cylinder force {label}"] = ("N", force)
@@ -139,16 +131,35 @@ def _lines(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Load, tension and lengths of elastic lines, as they are stretched."""
     scene, found = at_rest.scene, {}
     lines = lines_of(scene.loads)
-    if not lines:
-        return {}
-    loads = hook_loads(scene, {name: values[None] for name, values in at_rest.channels.items()})
-    assert loads is not None
-    carried = loads[0, -len(lines) :]
+    carried = _hook_loads(at_rest)
+    hung = {part for one in hung_loads(scene) for part in one.suspension.parts}
     for i, name in enumerate(lines):
-        found[f"hook load {name}"] = ("N", float(carried[i]))
+        if name not in hung:
+            found[f"hook load {name}"] = ("N", carried.get(f"{name} line", carried.get(name, np.nan)))
         for channel, (what, unit) in LINES.items():
             found[f"line {what} {name}"] = (unit, float(at_rest.channels[channel][i]))
     return found
+
+
+def _hoists(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    """Load on each hook, and tension of what it hangs on, at the upper end: of a line in one of its falls."""
+    every, carried, found = hung_loads(at_rest.scene), _hook_loads(at_rest), {}
+    lines = list(lines_of(at_rest.scene.loads))
+    several = sum(one.crane is not None for one in every) > 1
+    for one in every:
+        label = "" if one.crane is not None and not several else f" {one.label}"
+        found[f"hook load{label}"] = ("N", carried[one.suspension.channel])
+        top = one.suspension.top.removesuffix(" line")
+        pull = at_rest.channels["line_tension"][lines.index(top)] if top in lines else carried[top]
+        found[f"hoist tension{label}"] = ("N", float(pull))
+    return found
+
+
+def _hook_loads(at_rest: AtRest) -> dict[str, float]:
+    """N, by the names along `suspension`."""
+    loads = hook_loads(at_rest.scene, {name: values[None] for name, values in at_rest.channels.items()})
+    names = names_of_suspensions(at_rest.scene)
+    return {} if loads is None else dict(zip(names, map(float, loads[0]), strict=True))
 
 
 def displaced_weight(scene: Description, vessel: _core.VesselHydrodynamics, motion: Array) -> float:

@@ -181,7 +181,7 @@ def statics(
     Statics
         heel (rad; positive lifts port), trim (rad; positive lowers the bow), draught change (m, of the
         reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
-        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), link tension (N),
+        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), hoist tension (N),
         cylinder forces (N, positive pushes), slew torque (N m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
         that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
 from seacrane.answers.statics import Statics
+from seacrane.description.rungs import RIGID
+from seacrane.description.suspension import ROD
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
@@ -24,6 +26,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor", "min/static")
+DASHED = (
+    "- it went slack on a rod or a rigid wire, which knows no snap, lift-off or landing: no factor. Let it hang "
+    "on a line of rung 'elastic' or 'auto'."
+)
+BLIND = (ROD, RIGID)  # a quasi-static line ends the run where it goes slack
+SLACK = 0.02  # of the static load: less is slack, or stands on something
 STARRED = "* at the first output told of: no static value is known."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
@@ -55,6 +63,8 @@ class SummaryRow:
         where no static load is known.
     slack_margin : float or None
         Smallest tension over the static one, of what pulls; zero and below is slack.
+    blind : bool
+        Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
     printed : str
         The unit in which the row is printed.
     """
@@ -71,6 +81,7 @@ class SummaryRow:
     maximum_at: float
     factor: float | None
     slack_margin: float | None = None
+    blind: bool = False
     printed: str = ""
 
 
@@ -135,7 +146,8 @@ class Summary:
     def notes(self) -> list[str]:
         """What stands below the table: what a star means, and the remarks."""
         starred = any(not row.static_known for row in self.rows)
-        return [*([STARRED] if starred else []), *self.remarks]
+        blind = any(row.blind for row in self.rows)
+        return [*([STARRED] if starred else []), *([DASHED] if blind else []), *self.remarks]
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """By row and column, plain values."""
@@ -172,7 +184,7 @@ def _cells(row: SummaryRow) -> list[str]:
     numbers = (
         per * row.mean, per * row.std, per * row.minimum, row.minimum_at, per * row.maximum, row.maximum_at
     )  # fmt: skip
-    factor = "" if row.factor is None else f"{row.factor:.2f}"
+    factor = ("-" if row.blind else "") if row.factor is None else f"{row.factor:.2f}"
     margin = "" if row.slack_margin is None else f"{row.slack_margin:.2f}"
     return [row.name, row.printed, f"{_shown(per * row.static)}{star}", *map(_shown, numbers), factor, margin]
 
@@ -274,13 +286,16 @@ def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
     static = float(first if curve.static is None else curve.static)
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
     per = si_factor(curve.unit)
+    blind = known and curve.rung in BLIND and float(values[low]) < SLACK * static
+    has_factor = curve.load and known and not blind
     return SummaryRow(
         name=curve.name, unit=SI_UNITS.get(curve.unit, curve.unit), printed=curve.unit,
         static=static / per, static_known=known,
         mean=float(np.nanmean(values)) / per, std=float(np.nanstd(values)) / per,
         minimum=float(values[low]) / per, minimum_at=float(time[low]),
         maximum=float(values[high]) / per, maximum_at=float(time[high]),
-        factor=_factor(static, float(values[low]), float(values[high])) if curve.load and known else None,
+        factor=_factor(static, float(values[low]), float(values[high])) if has_factor else None,
+        blind=blind,
         slack_margin=float(values[low]) / static if curve.pulls and known and static > 0.0 else None,
     )  # fmt: skip
 

@@ -55,6 +55,7 @@ def add_crane(
     damping: bool = True,
     held: bool | None = None,
     hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
+    design_factor: float = 1.0,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload hanging at rest; its coordinates keep the data file's ranges.
@@ -88,6 +89,8 @@ def add_crane(
         `add_hydraulic_cylinder` beside its geometry: that cylinder is hydraulic, named as its joint, and
         holds the crane and its payload at the start. Areas default to the data file's, or to those of its
         barrel and rod. Default: what the data file says; it may say nothing.
+    design_factor : float
+        Dynamic factor that the crane's capacity contains, 1 or more, as of `add_roles`.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -156,6 +159,7 @@ def add_crane(
         luffs={label: prefix + name for label, name in parts.luffs.items()},
         ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
         held=is_held is not False,
+        design_factor=design_factor,
     )
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import rows_of
+from seacrane.inputs.checked import number_of, rows_of
 
 Array = NDArray[np.float64]
+LARGEST_FACTOR = 10.0
 Capacity = tuple[tuple[float, float], ...]  # radius, m, and load, kg
 
 
@@ -23,6 +24,17 @@ def capacity_of(what: str, given: Any) -> Capacity:
             "above zero"
         )
     return tuple((float(radius), float(load)) for radius, load in rows)
+
+
+def design_factor_of(what: str, given: Any) -> float:
+    """The dynamic factor that a table contains; SceneError below 1."""
+    factor = number_of(f"{what}: design_factor", given)
+    if not 1.0 <= factor <= LARGEST_FACTOR:
+        raise SceneError(
+            f"{what}: design_factor is {factor:g}; give the dynamic factor that the capacity contains, from "
+            f"1 to {LARGEST_FACTOR:g}"
+        )
+    return factor
 
 
 def allowed_at(capacity: Capacity, radius: ArrayLike) -> Array:

@@ -134,6 +134,28 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             _MOTION,
             by_default=False,
         ),
+        "slack_margin": _derived(
+            "suspension",
+            "1",
+            "load on the lower end over the weight that hangs on it alone; slack at zero",
+            f"tension line_tension {_POSE}",
+            by_default=False,
+        ),
+        "sling_angle": _derived(
+            "suspension",
+            "rad",
+            "angle of the last straight part of a link, a wire or a line above the horizontal",
+            _POSE,
+            by_default=False,
+        ),
+        "utilisation": _derived(
+            "",
+            "1",
+            "hook load over what the crane's table allows at this radius, times its design factor",
+            f"tension line_tension {_POSE}",
+            several="hook",
+            by_default=False,
+        ),
         "wire_paid_out": _derived(
             "winch",
             "m",
@@ -152,17 +174,25 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "tip_velocity": _derived(
             "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
         ),
+        "swing": _derived(
+            "",
+            "rad",
+            "angle of the load from straight below the crane's tip",
+            _POSE,
+            several="hook",
+            by_default=False,
+        ),
         "offlead": _derived(
             "",
             "rad",
-            "angle of the link from the vertical, away from the crane positive",
+            "angle of link or line below the tip from the vertical, away from the crane positive",
             _POSE,
             several="hook",
         ),
         "sidelead": _derived(
             "",
             "rad",
-            "angle of the link from the vertical across the boom, to its left positive",
+            "angle of link or line below the tip from the vertical across the boom, to its left positive",
             _POSE,
             several="hook",
         ),

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.capacity import capacity_of
+from seacrane.description.capacity import capacity_of, design_factor_of
 from seacrane.description.cylinder_areas import Areas, areas_by_label
 from seacrane.description.description import GROUND, Description, coordinate_of
 from seacrane.description.given import floating_bodies
@@ -37,6 +37,7 @@ def add_roles(
     areas: Mapping[str, Any] | None = None,
     luffs: Mapping[str, str | tuple[str, str]] | None = None,
     ropes: Mapping[str, LuffingRope] | None = None,
+    design_factor: float = 1.0,
     held: bool = False,
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
@@ -69,6 +70,9 @@ def add_roles(
         Hinge that raises and lowers the jib, or hinge and coordinate, by its label.
     ropes : mapping of str to LuffingRope, optional
         That holds a hinge, by the hinge's label.
+    design_factor : float
+        Dynamic factor that the capacity contains, 1 or more: the channel utilisation allows a hook load,
+        block and rigging included, of so many times the capacity.
     held : bool
         Whether a slew drive, luff or cylinder on which nothing acts when the scene is compiled is held where
         it is described, as those of `add_crane` are.
@@ -119,6 +123,7 @@ def add_roles(
         capacity=capacity_of(what, capacity),
         areas=areas_by_label(what, {} if areas is None else areas, cylinders or {}),
         held=flag_of(f"{what}: held", held),
+        design_factor=design_factor_of(what, design_factor),
     )
     scene.roles[prefix] = roles
     return roles

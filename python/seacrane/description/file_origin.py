@@ -36,6 +36,8 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         more["ropes"] = [{"luff": label, **_rope_to_data(rope)} for label, rope in roles.ropes.items()]
     if roles.held:
         more["held"] = True
+    if roles.design_factor != 1.0:
+        more["design_factor"] = roles.design_factor
     if roles.line:
         more["line"] = roles.line
     return {
@@ -51,7 +53,9 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(_ROLES, optional=("capacity", "areas", "luffs", "ropes", "held", "line"))
+        entry.expect(
+            _ROLES, optional=("capacity", "areas", "luffs", "ropes", "held", "line", "design_factor")
+        )
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
         found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
@@ -71,6 +75,8 @@ def roles_from_node(node: Node, scene: Description) -> None:
             found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
         if "line" in entry.value:
             found["line"] = entry.at("line").text()
+        if "design_factor" in entry.value:
+            found["design_factor"] = entry.at("design_factor").number()
         if "held" in entry.value:  # files of before 0.3 lack it: a crane that nothing held was free
             found["held"] = entry.at("held").flag()
         with entry.scene_errors():

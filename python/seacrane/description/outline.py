@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.crane_parts import tips
 from seacrane.description.description import GROUND, Description
 from seacrane.description.given import floating_bodies, given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.range import Range
+from seacrane.description.suspension import hung_loads
 
 Array = NDArray[np.float64]
 NO_BOUND = 1e7  # m or rad: a bound here or beyond is none
@@ -42,6 +44,10 @@ def outline_of(scene: Description) -> dict[str, Any]:
                 bodies[name]["points"].append(point)
         if joint.kind == "distance":
             links.append([*ends[0], *ends[1]])
+    for tip in tips(scene).values():
+        name, point = tip[0], _relative(scene, *tip)
+        if point not in bodies[name]["points"]:
+            bodies[name]["points"].append(point)
     for _, spring in springs_of(scene.springs, scene.loads):
         ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
         links.append([*ends[0], *ends[1]])
@@ -50,6 +56,34 @@ def outline_of(scene: Description) -> dict[str, Any]:
             ends = _ends(scene, *start, *end)
             links.append([*ends[0], *ends[1]])
     return {"bodies": bodies, "links": links}
+
+
+def hung_notes(scene: Description) -> list[dict[str, Any]]:
+    """What hangs, cranes first, as plain data.
+
+    Returns
+    -------
+    list of dict
+        "label" ("hook" after the crane's prefix, or that of the suspension), "crane" (its prefix, or None),
+        "suspension", "top" and "parts" (names, in the channels over `suspension`, of its lower end, its upper
+        end and all of it), "rung", "load", "from" and "to": body and point, m from its centre of mass, of the
+        tip or what else it hangs from, and of the load.
+    """
+    return [
+        {
+            "label": one.label,
+            "crane": None if one.crane is None else one.crane.prefix,
+            "suspension": one.suspension.channel,
+            "top": one.suspension.top,
+            "parts": sorted(one.suspension.parts | {one.suspension.channel, one.suspension.top}),
+            "rung": one.suspension.rung,
+            "load": one.load,
+            "from": [from_body, _relative(scene, from_body, from_point)],
+            "to": [one.load, _relative(scene, one.load, one.point)],
+        }
+        for one in hung_loads(scene)
+        for from_body, from_point in [one.hangs_from]
+    ]
 
 
 def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:

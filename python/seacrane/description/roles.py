@@ -42,6 +42,8 @@ class CraneRoles:
         Full side and rod side of the piston, m2, by the cylinder's label, where they are known.
     held : bool
         Whether a drive on which nothing acts when the scene is compiled is held as it is described.
+    design_factor : float
+        Dynamic factor that the capacity contains: a hook load may be that many times its weight.
     """
 
     prefix: str = ""
@@ -55,6 +57,7 @@ class CraneRoles:
     luffs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     ropes: Mapping[str, LuffingRope] = field(default_factory=dict)
     held: bool = False
+    design_factor: float = 1.0
     line: str | None = None
 
     def __post_init__(self) -> None:

@@ -15,6 +15,7 @@ from seacrane.description import crane_parts
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.joint_coordinates import start_pose
+from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
@@ -71,9 +72,15 @@ class Drawing:
             {"kind": "tip", "name": label, "at": end_of(self.scene, bodies, body, point)}
             for label, (body, point) in crane_parts.tips(self.scene).items()
         ]
+        hung = dict.fromkeys(one.load for one in hung_loads(self.scene))
+        labels = {body: label for label, body in crane_parts.payloads(self.scene).items()}
         hanging = [
-            {"kind": "payload", "name": label, "at": [list(bodies).index(body), 0.0, 0.0, 0.0]}
-            for label, body in crane_parts.payloads(self.scene).items()
+            {
+                "kind": "payload",
+                "name": labels.get(body, body),
+                "at": [list(bodies).index(body), 0.0, 0.0, 0.0],
+            }
+            for body in hung
         ]
         return [*tips, *hanging]
 

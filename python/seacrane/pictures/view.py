@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.crane import Crane
 from seacrane.description.description import Description
+from seacrane.description.suspension import suspensions
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.atomic import atomic_write
@@ -33,7 +34,7 @@ from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.packing import Blob
 from seacrane.pictures.page_sea import sea_components, without_sea
 from seacrane.pictures.palette import HULL, SLACK, TRACKS, WIRES, body_colour
-from seacrane.pictures.pose_curves import STEPS, Motion, linear_rows
+from seacrane.pictures.pose_curves import POSES, STEPS, Motion, linear_rows
 from seacrane.pictures.shapes import HullShape, MeshShape
 from seacrane.pictures.strip import Choice, strip_of
 from seacrane.pictures.wheels import Wheel
@@ -48,7 +49,7 @@ SLOT = re.compile(r"@@(\w+)@@")
 INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
 Array = NDArray[np.float64]
 FINENESS = 2.0**-14  # step of a force over the largest of its group
-GROUPS = {"link": "link and wire tension", "wave": "wave force", "joint": "joint reaction"}
+GROUPS = {"link": "link and line tension", "wave": "wave force", "joint": "joint reaction"}
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -300,7 +301,11 @@ def arrows_of(
     """Arrows with their point of application and their force over the frames, N, inertial axes."""
     if result is None:
         return []
-    found = [*_reactions(scene, result, motion, bodies), *_waves(scene, result, motion, bodies)]
+    found = [
+        *_reactions(scene, result, motion, bodies),
+        *_pulls(scene, result, motion, bodies),
+        *_waves(scene, result, motion, bodies),
+    ]
     largest = {group: 0.0 for group in GROUPS}
     for arrow, rows in found:
         largest[arrow["group"]] = max(largest[arrow["group"]], float(np.linalg.norm(rows, axis=0).max()))
@@ -333,6 +338,24 @@ def _reactions(
             "at": end_of(scene, bodies, body, frame.point),
         }
         out.append((arrow, linear_rows(motion, result.time, result.select("reaction_force", joint=name))))
+    return out
+
+
+def _pulls(
+    scene: Description, result: Result, motion: Motion, bodies: Sequence[str]
+) -> list[tuple[dict[str, Any], Array]]:
+    """What each line exerts on the body at its lower end."""
+    if not {"hook_load", *POSES} <= set(result.channels):
+        return []
+    out = []
+    for one in suspensions(scene):
+        if one.name in scene.joints or one.channel not in result.coords["suspension"]:
+            continue
+        up = result.place_of(*one.upper) - result.place_of(*one.lower)
+        pull = result.select("hook_load", suspension=one.channel)[:, None] * up
+        pull /= np.linalg.norm(up, axis=1, keepdims=True)
+        arrow = {"name": one.name, "group": "link", "at": end_of(scene, bodies, *one.lower)}
+        out.append((arrow, linear_rows(motion, result.time, pull)))
     return out
 
 

@@ -47,10 +47,11 @@ class About:
         Roles of each crane, as a scene file holds them.
     outline, bounds
         As `outline_of` and `bounds_of` make them.
-    hanging_weight : mapping of str to float
-        Weight on each link, N.
-    line_weight : mapping
-        Weight on each elastic line, N, and on how many of its falls.
+    hung : sequence of mapping
+        What hangs, as `hung_notes` tells it.
+    hanging_weight : mapping
+        Weight on each rod, wire or line, N, and on how many of its falls, by the name in the channels over
+        `suspension`.
     """
 
     settings: Mapping[str, Any] = field(default_factory=dict)
@@ -59,8 +60,8 @@ class About:
     cranes: Sequence[Mapping[str, Any]] = ()
     outline: Mapping[str, Any] = field(default_factory=dict)
     bounds: Sequence[Mapping[str, Any]] = ()
-    hanging_weight: Mapping[str, float] = field(default_factory=dict)
-    line_weight: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    hung: Sequence[Mapping[str, Any]] = ()
+    hanging_weight: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     def to_attributes(self) -> dict[str, str]:
         """As files hold it; ValueError or TypeError for what no file can hold."""
@@ -72,6 +73,7 @@ def _json(value: Mapping[str, Any]) -> str:
     return json.dumps(dict(value), default=vars, sort_keys=True, allow_nan=False)
 
 
+LINES = "line_weight"  # of results of before 0.3
 NAMES = tuple(one.name for one in fields(About))
 
 
@@ -80,9 +82,9 @@ def parted(attributes: Mapping[str, Any]) -> tuple[dict[str, Any], About]:
 
     Files of 0.1 and 0.2 hold each part of the rest as a text of its own.
     """
-    stats = {name: value for name, value in attributes.items() if name not in (ABOUT, *NAMES)}
+    stats = {name: value for name, value in attributes.items() if name not in (ABOUT, *NAMES, LINES)}
     try:
-        parts = {name: json.loads(attributes[name]) for name in NAMES if name in attributes}
+        parts = {name: json.loads(attributes[name]) for name in (*NAMES, LINES) if name in attributes}
         return stats, _made({**json.loads(attributes.get(ABOUT, "{}")), **parts})
     except (LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
         raise ValueError(f"its notes are none that a run writes: {error}") from error
@@ -90,6 +92,7 @@ def parted(attributes: Mapping[str, Any]) -> tuple[dict[str, Any], About]:
 
 def _made(data: Mapping[str, Any]) -> About:
     given = {name: value for name, value in data.items() if name in NAMES}
+    given = _with_weights(given, data.get(LINES, {}))
     for name, value in given.items():
         kind = dict if isinstance(getattr(About(), name), dict) else list
         if not isinstance(value, kind):
@@ -99,6 +102,16 @@ def _made(data: Mapping[str, Any]) -> About:
     stages = tuple(StageSpan(**one) for one in given.pop("stages", ()))
     limit_states = tuple(_limit_state(**one) for one in given.pop("limit_states", ()))
     return About(**given, stages=stages, limit_states=limit_states)
+
+
+def _with_weights(given: dict[str, Any], on_lines: Mapping[str, Any]) -> dict[str, Any]:
+    """Results of before 0.3 hold the weights on links as numbers, and those on lines beside them."""
+    weights = given.get("hanging_weight", {})
+    if not isinstance(weights, dict) or not isinstance(on_lines, dict):
+        raise TypeError("weights are no mapping")
+    one = {name: [one, 1] if isinstance(one, int | float) else one for name, one in weights.items()}
+    lines = {f"{name} line" if name in weights else name: two for name, two in on_lines.items()}
+    return given | {"hanging_weight": one | lines} if one or lines else given
 
 
 def _limit_state(*, where: Mapping[str, str] | None = None, **known: Any) -> LimitState:

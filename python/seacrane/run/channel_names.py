@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -12,13 +11,21 @@ from numpy.typing import NDArray
 from seacrane.description.body_motion import position_of
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED
 from seacrane.description.clearances import Clearance, distance_from_box
-from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
+from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
+from seacrane.description.suspension import names_of_suspensions
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.run.hanging import lead_angles, tip_velocities
-from seacrane.run.hook_loads import hook_loads, suspensions
+from seacrane.run.hanging import (
+    lead_angles,
+    on_cranes,
+    sling_angles,
+    swings,
+    tip_velocities,
+    utilisations,
+)
+from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins
 from seacrane.run.motions import motions, winch_lines
 from seacrane.run.own import require_own, with_sources
 
@@ -50,13 +57,13 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
     return {
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
-        "suspension": suspensions(scene),
+        "suspension": names_of_suspensions(scene),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
         "expression": list(scene.channels),
         "winch": list(winch_lines(scene)),
         "slew": list(slews(scene)),
-        "hook": list(hooks(scene)),
+        "hook": [one.label for one in on_cranes(scene)],
         "tip": list(tips(scene)),
     }
 
@@ -99,36 +106,18 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
                 )
 
 
-def hanging_bodies(scene: Description) -> list[str]:
-    """The bodies that hang on links or wires and carry no other by one."""
-    hanging = [scene.joints[name] for name in _links(scene)]
-    carrying = {joint.first for joint in hanging}
-    return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
-
-
-def hanging_weights(scene: Description) -> dict[str, float]:
-    """Weight (N) of what hangs on one link and on nothing else, by the link: its static tension."""
-    ends = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
-    hung = {name: scene.joints[name].second for name in _links(scene)}
-    return {
-        name: scene.bodies[body].mass * scene.gravity
-        for name, body in hung.items()
-        if body in scene.bodies and ends[body] == 1 and scene.bodies[body].gravity
-    }
-
-
 def named_channels(
     scene: Description, arrays: dict[str, Array], asked: Collection[str] | None = None
 ) -> dict[str, Array]:
     """Adds what results call by the roles of cranes: strokes, drives, tensions, tips and how payloads hang.
 
-    Slew and link have no axis of their own where there is one of them. `asked`: which of tip_velocity,
-    offlead, sidelead and those of `motions`, that cost most, are wanted; None: all.
+    Slew and hook have no axis of their own where there is one of them. `asked`: which of those that cost most
+    are wanted; None: all.
     """
     strokes = {label: (joint, "displacement") for label, joint in cylinders(scene).items()}
     drives = slews(scene)
-    links = _links(scene)
-    wanted = {"tip_velocity", "offlead", "sidelead"} & set(DERIVED if asked is None else asked)
+    wanted = set(DERIVED if asked is None else asked)
+    loads = hook_loads(scene, arrays)
     leads = lead_angles(scene, arrays) if wanted & {"offlead", "sidelead"} else None
     offlead, sidelead = leads or (None, None)
     found = {
@@ -138,27 +127,26 @@ def named_channels(
         "cylinder_pressure": _pressures(scene, arrays, strokes),
         "slew_angle": _turned(_recorded(scene, arrays.get("coordinate"), drives)),
         "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
-        "link_tension": _without_axis_of_one(
-            _columns(
-                arrays.get("tension"), [links.index(link) for link in hooks(scene).values() if link in links]
-            )
+        "link_tension": _without_axis_of_one(link_tensions(scene, arrays, loads)),
+        "hook_load": loads,
+        "slack_margin": slack_margins(scene, loads)
+        if loads is not None and "slack_margin" in wanted
+        else None,
+        "utilisation": _without_axis_of_one(
+            None if loads is None or "utilisation" not in wanted else utilisations(scene, arrays, loads)
         ),
-        "hook_load": hook_loads(scene, arrays),
         "clearance": clearances(scene, arrays),
         "tip_velocity": _without_axis_of_one(
             tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
         ),
+        "swing": _without_axis_of_one(swings(scene, arrays) if "swing" in wanted else None),
+        "sling_angle": sling_angles(scene, arrays) if "sling_angle" in wanted else None,
         "offlead": _without_axis_of_one(offlead),
         "sidelead": _without_axis_of_one(sidelead),
     }
     out = arrays | {name: values for name, values in found.items() if values is not None}
     out |= motions(scene, arrays, asked)
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
-
-
-def _links(scene: Description) -> list[str]:
-    """Distance joints, in the order of the core's tensions."""
-    return [name for name, joint in scene.joints.items() if joint.kind == "distance"]
 
 
 def _columns(array: Array | None, places: Sequence[int]) -> Array | None:

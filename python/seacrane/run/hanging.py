@@ -1,4 +1,4 @@
-"""Where the tip of a crane is, and how its payload hangs from it, out of what the core records of bodies."""
+"""Where the tip of a crane is, and how its load hangs from it, out of what the core records of bodies."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.body_motion import MOTION, POSE, position_of, velocity_of
+from seacrane.description.capacity import allowed_at
 from seacrane.description.crane_parts import tips
+from seacrane.description.crane_reach import tip_radius
 from seacrane.description.roles import CraneRoles
+from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions, suspensions
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -27,35 +30,99 @@ def tip_velocities(scene: Description, arrays: Mapping[str, Array]) -> Array | N
 
 
 def lead_angles(scene: Description, arrays: Mapping[str, Array]) -> tuple[Array, Array] | None:
-    """Offlead and sidelead of every link, rad, shape (time, hook) each; None where no crane slews.
+    """Offlead and sidelead of what hangs on cranes, rad, (time, hook) each; None where no crane slews.
 
-    Both are angles of the link from the vertical: offlead in the vertical plane through slew axis and tip,
-    positive away from the crane; sidelead across it, positive towards increasing slew angles about a vertical
-    axis that points up. NaN for a crane without a slew drive, and while the tip is on the slew axis.
+    Both are angles from the vertical, of the line from the tip to where the rod or wire ends: offlead in the
+    vertical plane through slew axis and tip, positive away from the crane; sidelead across it, positive
+    towards increasing slew angles about a vertical axis that points up. NaN for a crane without a slew drive,
+    and while the tip is on the slew axis.
     """
-    cranes = [crane for crane in scene.roles.values() if crane.link in scene.joints]
-    slewing = [_slews(scene, crane) for crane in cranes]
+    every = on_cranes(scene)
+    slewing = [_slews(scene, one.crane) for one in every]
     if not any(slewing) or not all(name in arrays for name in POSE):
         return None
     unknown = np.full(len(arrays["position"]), np.nan)
     angles = [
-        _angles_of(scene, arrays, crane) if known else (unknown, unknown)
-        for crane, known in zip(cranes, slewing, strict=True)
+        _angles_of(scene, arrays, one) if known else (unknown, unknown)
+        for one, known in zip(every, slewing, strict=True)
     ]
     offlead, sidelead = (np.stack(both, axis=1) for both in zip(*angles, strict=True))
     return offlead, sidelead
 
 
-def _slews(scene: Description, crane: CraneRoles) -> bool:
-    known = crane.slew is not None and crane.slew[0] in scene.joints
-    return known and crane.tip is not None and crane.tip[0] in scene.bodies
+def swings(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
+    """Angles of the loads on cranes from straight below their tips, rad, (time, hook); None without poses."""
+    every = on_cranes(scene)
+    if not every or not all(name in arrays for name in POSE):
+        return None
+    hangs = [
+        position_of(scene, arrays, one.load, one.point) - position_of(scene, arrays, *one.hangs_from)
+        for one in every
+    ]
+    return np.stack([swing_of(hang) for hang in hangs], axis=1)
 
 
-def _angles_of(scene: Description, arrays: Mapping[str, Array], crane: CraneRoles) -> tuple[Array, Array]:
-    assert crane.tip is not None and crane.slew is not None and crane.link is not None
-    link, slew = scene.joints[crane.link], scene.joints[crane.slew[0]]
-    tip = position_of(scene, arrays, *crane.tip)
-    hook = position_of(scene, arrays, link.second, link.second_frame.point)
+def sling_angles(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
+    """Of the last straight part of every rod, wire and line above the horizontal, rad, (time, suspension)."""
+    found: dict[str, Array] = {}
+    if not all(name in arrays for name in POSE):
+        return None
+    for one in suspensions(scene):
+        up = position_of(scene, arrays, *one.upper) - position_of(scene, arrays, *one.lower)
+        angle = np.arctan2(up[:, 2], np.hypot(up[:, 0], up[:, 1]))
+        found |= dict.fromkeys((one.channel, *one.parts), angle)
+    columns = [found[name] for name in names_of_suspensions(scene)]
+    return np.stack(columns, axis=1) if columns else None
+
+
+def utilisations(scene: Description, arrays: Mapping[str, Array], loads: Array) -> Array | None:
+    """Hook loads over what the cranes' tables allow there with their design factors, (time, hook).
+
+    NaN of a crane without a table; infinite beyond its last radius. None where no crane has one.
+    """
+    every, names = on_cranes(scene), names_of_suspensions(scene)
+    if not all(name in arrays for name in POSE) or not any(_rated(one.crane) for one in every):
+        return None
+    return np.stack(
+        [_utilisation(scene, arrays, one, loads[:, names.index(one.suspension.channel)]) for one in every],
+        axis=1,
+    )
+
+
+def _rated(crane: CraneRoles | None) -> bool:
+    return crane is not None and bool(crane.capacity) and crane.slew is not None and crane.tip is not None
+
+
+def _utilisation(scene: Description, arrays: Mapping[str, Array], one: Hung, load: Array) -> Array:
+    if one.crane is None or not _rated(one.crane):
+        return np.full(len(load), np.nan)
+    radius = tip_radius(scene, one.crane, arrays["position"], arrays["quaternion"])
+    allowed = allowed_at(one.crane.capacity, radius) * one.crane.design_factor * scene.gravity
+    with np.errstate(divide="ignore"):
+        return np.asarray(load / allowed)
+
+
+def swing_of(hang: Array) -> Array:
+    """Angle (n,) of hanging vectors (n, 3) from straight down, rad."""
+    return np.asarray(np.arctan2(np.hypot(hang[:, 0], hang[:, 1]), -hang[:, 2]))
+
+
+def on_cranes(scene: Description) -> list[Hung]:
+    """What hangs on the cranes, in their order."""
+    return [one for one in hung_loads(scene) if one.crane is not None]
+
+
+def _slews(scene: Description, crane: CraneRoles | None) -> bool:
+    if crane is None or crane.slew is None or crane.tip is None:
+        return False
+    return crane.slew[0] in scene.joints and crane.tip[0] in scene.bodies
+
+
+def _angles_of(scene: Description, arrays: Mapping[str, Array], one: Hung) -> tuple[Array, Array]:
+    assert one.crane is not None and one.crane.slew is not None
+    slew = scene.joints[one.crane.slew[0]]
+    tip = position_of(scene, arrays, *one.hangs_from)
+    hook = position_of(scene, arrays, *one.suspension.lower)
     out = tip - position_of(scene, arrays, slew.first, slew.first_frame.point)
     out[:, 2] = 0.0
     with np.errstate(invalid="ignore"):  # a tip on the slew axis has no plane: NaN

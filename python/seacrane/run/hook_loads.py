@@ -1,4 +1,4 @@
-"""What links, wires and lines carry at their lower ends, out of what the core records."""
+"""What rods, wires and lines carry at their lower ends, out of what the core records."""
 
 from __future__ import annotations
 
@@ -9,37 +9,55 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.body_motion import position_of
-from seacrane.description.line_weights import hooked_body
+from seacrane.description.body_motion import POSE, position_of
+from seacrane.description.crane_parts import hooks
 from seacrane.description.loads import lines_of, path_of
+from seacrane.description.suspension import (
+    hooked_body,
+    hung_loads,
+    names_of_suspensions,
+    weights_on,
+)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
-NEEDED = ("position", "quaternion")
-
-
-def suspensions(scene: Description) -> list[str]:
-    """Links and wires, then elastic lines, by name; a line that has a link's name is "<name> line"."""
-    links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
-    return [*links, *(f"{name} line" if name in links else name for name in lines_of(scene.loads))]
 
 
 def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
     """Loads (time, suspension), N; None where there is none, or the core recorded too little.
 
-    Of a link or wire its tension. Of a line the resultant of all its sections on the body that it reaches
+    Of a rod or wire its tension. Of a line the resultant of all its sections on the body that it reaches
     last, from its first point on: of n falls n times the tension where they are parallel.
     """
     lines = list(lines_of(scene.loads).values())
     parts = [arrays["tension"]] if "tension" in arrays else []
     if lines:
-        if not all(name in arrays for name in ("line_tension", *NEEDED)):
+        if not all(name in arrays for name in ("line_tension", *POSE)):
             return None
         parts += [(arrays["line_tension"][:, i] * _falls(scene, arrays, line))[:, None]
                   for i, line in enumerate(lines)]  # fmt: skip
     return np.concatenate(parts, axis=1) if parts else None
+
+
+def link_tensions(scene: Description, arrays: Mapping[str, Array], loads: Array | None) -> Array | None:
+    """Tensions (time, hook) of the links of cranes, N; of a line there its hook load. None without links."""
+    links = hooks(scene)
+    if not links or "tension" not in arrays:
+        return None
+    names = names_of_suspensions(scene)
+    known = arrays["tension"] if loads is None else loads
+    unknown = np.full(len(known), np.nan)
+    columns = [names.index(one.suspension.channel) for one in hung_loads(scene) if one.crane is not None]
+    return np.stack([known[:, i] if i < known.shape[1] else unknown for i in columns], axis=1)
+
+
+def slack_margins(scene: Description, loads: Array) -> Array:
+    """Hook loads (time, suspension) over the weights that hang there; NaN where that is not known."""
+    weights = weights_on(scene)
+    known = [weights.get(name, (np.nan, 1))[0] for name in names_of_suspensions(scene)]
+    return np.asarray(loads / known)
 
 
 def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:

@@ -187,16 +187,13 @@ def _lost_in_impacts(piece: Piece) -> float:
 
 
 def _about(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> About:
-    """As of the last stage, with the weights of what hangs in any."""
+    """As of the last stage, with what hangs in any, and its weight."""
     every = [piece.result.about for piece in pieces]
-    weights: dict[str, float] = {}
-    on_lines: dict[str, Sequence[float]] = {}
-    for one in every:
-        weights |= one.hanging_weight
-        on_lines |= one.line_weight
+    weights = {name: weight for one in every for name, weight in one.hanging_weight.items()}
+    hung = {hook["label"]: hook for one in every for hook in one.hung}
     settings = {**every[-1].settings, "t_end": float(pieces[-1].result.time[-1])}
     return replace(
-        every[-1], settings=settings, stages=tuple(spans), hanging_weight=weights, line_weight=on_lines
+        every[-1], settings=settings, stages=tuple(spans), hanging_weight=weights, hung=tuple(hung.values())
     )
 
 

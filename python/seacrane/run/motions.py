@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from seacrane.description.body_motion import relative_motion, velocity_of
 from seacrane.description.channels import DERIVED
-from seacrane.description.line_weights import hooked_body
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import lines_of
+from seacrane.description.suspension import lower_ends
 from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def motions(
         "heel": (bool(scene.bodies), _heel),
         "trim": (bool(scene.bodies), _trim),
         "yaw": (bool(scene.bodies), _yaw),
-        "hook_speed": (bool(_lower_ends(scene)), _hook_speeds),
+        "hook_speed": (bool(lower_ends(scene)), _hook_speeds),
         "wire_paid_out": (bool(winch_lines(scene)), _paid_out),
         "wire_spare": (bool(winch_lines(scene)), _spare),
     }
@@ -84,18 +84,8 @@ def _yaw(_: Description, arrays: Mapping[str, Array]) -> Array:
     return np.asarray(np.arctan2(turn[..., 1, 0], turn[..., 0, 0]))
 
 
-def _lower_ends(scene: Description) -> list[tuple[str, tuple[float, ...]]]:
-    """Body and point of each suspension, links first: of a line the last of its points on what hangs."""
-    links = [joint for joint in scene.joints.values() if joint.kind == "distance"]
-    ends = [(joint.second, tuple(joint.second_frame.point)) for joint in links]
-    for line in lines_of(scene.loads).values():
-        hooked = hooked_body(line)
-        ends.append([(body, tuple(point)) for body, point in path_of(line) if body == hooked][-1])
-    return ends
-
-
 def _hook_speeds(scene: Description, arrays: Mapping[str, Array]) -> Array:
-    return np.stack([velocity_of(scene, arrays, *end)[:, 2] for end in _lower_ends(scene)], axis=1)
+    return np.stack([velocity_of(scene, arrays, *end)[:, 2] for end in lower_ends(scene)], axis=1)
 
 
 def _paid_out(scene: Description, arrays: Mapping[str, Array]) -> Array:

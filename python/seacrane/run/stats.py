@@ -8,13 +8,12 @@ from typing import Any
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.file_origin import roles_to_data
-from seacrane.description.line_weights import line_weights
-from seacrane.description.outline import bounds_of, outline_of
+from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
+from seacrane.description.suspension import hung_loads, weights_on
 from seacrane.description.waves import Waves
 from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About
-from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -55,8 +54,8 @@ def about_of(scene: Scene) -> About:
         cranes=[roles_to_data(roles) for roles in scene.roles.values()],
         outline=outline_of(scene),
         bounds=bounds_of(scene),
-        hanging_weight=hanging_weights(scene),
-        line_weight=line_weights(scene),
+        hung=hung_notes(scene),
+        hanging_weight=weights_on(scene),
     )
 
 
@@ -66,7 +65,7 @@ def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Me
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
-        "payload": "\n".join(hanging_bodies(scene)) or None,
+        "payload": "\n".join(dict.fromkeys(one.load for one in hung_loads(scene))) or None,
         "formulation": formulation,
         "integrator": method.integrator,
         "simulated_s": None,

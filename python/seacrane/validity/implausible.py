@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +12,9 @@ from seacrane import _core
 from seacrane.description.given import floating_bodies
 from seacrane.description.holding import free_drives
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.loads import kind_of
+from seacrane.description.loads import bodies_of, kind_of
 from seacrane.description.references import references
+from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
@@ -36,16 +36,7 @@ LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
-JUDGED_LOADS = (
-    "point force",
-    "actuator",
-    "flow force",
-    "limit",
-    "friction",
-    "soft stop",
-    "pendulum damping",
-    "span drag",
-)
+WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or the next wave turns it
 
 
 def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:
@@ -108,28 +99,23 @@ def _warn_of_masses(scene: Description) -> None:
             )
     floating = floating_bodies(scene)
     hulls = [body.mass for name, body in scene.bodies.items() if name in floating]
-    links = {name: joint for name, joint in scene.joints.items() if joint.kind == "distance"}
-    if not hulls or not links:
-        return
-    joined = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
-    for name, joint in links.items():
-        for end in (joint.first, joint.second):
-            mass = scene.bodies[end].mass if end in scene.bodies else math.inf
-            if joined[end] == 1 and mass < HUNG_SHARE * max(hulls):
-                warn_caller(
-                    f"body {end!r}: {mass:.6g} kg hang on {name!r}, in a scene with a vessel of "
-                    f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
-                    MassUnitWarning,
-                )
+    for one, below in bodies_below(scene) if hulls else []:
+        mass = sum(scene.bodies[body].mass for body in below)
+        if mass < HUNG_SHARE * max(hulls):
+            warn_caller(
+                f"body {below[0]!r}: {mass:.6g} kg hang on {one.name!r}, in a scene with a vessel of "
+                f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
+                MassUnitWarning,
+            )
 
 
 def _warn_of_ballast(scene: Description) -> None:
-    """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
-    if any(kind_of(load) not in JUDGED_LOADS for load in scene.all_loads()):
-        return
+    """Weights on a vessel against forces on it, by its restoring; not where other loads hold it."""
     for vessel in (one for one in scene.vessels.values() if one.floats):
         hull = scene.bodies[vessel.body]
         carried = carried_by(scene, vessel.body)
+        if any(_holds(scene, load, carried) for load in scene.all_loads()):
+            continue
         weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
         restoring = np.asarray(vessel.restoring)[2:5, 2:5]
         if not weights or not np.all(np.diag(restoring) > 0.0):
@@ -145,6 +131,13 @@ def _warn_of_ballast(scene: Description) -> None:
         lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
         load = [lift.sum(), lift @ port, -lift @ forward]
         _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
+
+
+def _holds(scene: Description, load: Any, carried: set[str]) -> bool:
+    """Whether a load pushes what a vessel carries from outside, with a force that is not known here."""
+    ends = set(bodies_of(load, scene.joints))
+    known = kind_of(load) == "point force" or kind_of(load) in WITHOUT_WEIGHT
+    return bool(ends & carried) and not known and (len(ends) == 1 or not ends <= carried)
 
 
 def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.capacity import allowed_at
-from seacrane.description.crane_parts import hooks
 from seacrane.description.crane_reach import placed, tip_radius
-from seacrane.description.loads import lines_of, path_of
 from seacrane.description.outline import box_edges, ship_size
+from seacrane.description.rungs import WITH_MASS
+from seacrane.description.suspension import hung_loads, suspensions, weights_on
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
@@ -42,7 +41,7 @@ def lifting(scene: Description, time: Array, channels: Channels) -> list[Finding
 
 
 def _swings(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
-    for what, upper_end, lower_end in [*_links(scene), *_lines(scene)]:
+    for what, upper_end, lower_end in _hanging(scene):
         upper, _ = placed(scene, *upper_end, position, quaternion)
         lower, _ = placed(scene, *lower_end, position, quaternion)
         hung = np.broadcast_to(lower - upper, (time.size, 3))
@@ -62,56 +61,49 @@ def _swings(scene: Description, time: Array, position: Array, quaternion: Array)
         )
 
 
-def _links(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
-    for link in hooks(scene).values():
-        joint = scene.joints[link]
-        first, second = joint.first_frame.point, joint.second_frame.point
-        yield f"link {link!r}", (joint.first, first), (joint.second, second)
-
-
-def _lines(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
-    """The last spans of lines that alone hold a body."""
-    lines = lines_of(scene.loads)
-    used = Counter(body for line in lines.values() for body in set(line.bodies))
-    used.update(end for joint in scene.joints.values() for end in (joint.first, joint.second))
-    for name, line in lines.items():
-        upper, lower = path_of(line)[-2:]
-        if used[lower[0]] == 1 and lower[0] in scene.bodies and upper[0] != lower[0]:
-            yield f"line {name!r}", upper, lower
+def _hanging(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
+    """The last straight parts of what alone holds something, or hangs on a crane."""
+    on_cranes = {one.suspension.name for one in hung_loads(scene) if one.crane is not None}
+    alone = weights_on(scene)
+    for one in suspensions(scene):
+        rod = one.name in scene.joints  # by itself it may be any mechanism's
+        if one.rung != WITH_MASS and (one.name in on_cranes or (one.channel in alone and not rod)):
+            yield f"{'link' if rod else 'line'} {one.name!r}", one.upper, one.lower
 
 
 def _overloads(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
-    for roles in scene.roles.values():
-        if not _rated(scene, roles):
+    for one in hung_loads(scene):
+        roles = one.crane
+        if roles is None or not _rated(scene, roles):
             continue
-        mass = scene.bodies[str(roles.payload)].mass
+        weight = scene.bodies[one.load].mass * scene.gravity if one.weight is None else one.weight
+        mass = weight / scene.gravity if scene.gravity else scene.bodies[one.load].mass
         radius = np.atleast_1d(tip_radius(scene, roles, position, quaternion))
         allowed = allowed_at(roles.capacity, radius)
         at = int(allowed.argmin())
         if mass > allowed[at]:
             yield (
                 OverloadWarning,
-                f"crane {roles.prefix!r}: its load {roles.payload!r} of {mass / 1e3:.4g} t is above the "
-                f"{allowed[at] / 1e3:.4g} t of the crane's table at a radius of {radius[at]:.4g} m, where it "
-                f"is at t = {time[at]:.6g} s. Lift less, keep the tip nearer (seacrane.load_chart tells how "
-                "near), or correct the table",
+                f"crane {roles.prefix!r}: its load {one.load!r} of {mass / 1e3:.4g} t, with what holds it, "
+                f"is above the {allowed[at] / 1e3:.4g} t of the crane's table at a radius of "
+                f"{radius[at]:.4g} m, where it is at t = {time[at]:.6g} s. Lift less, keep the tip nearer "
+                "(seacrane.load_chart tells how near), or correct the table",
             )
 
 
 def _rated(scene: Description, roles: CraneRoles) -> bool:
-    """Whether a crane has a table, a load, and a radius to look it up at."""
+    """Whether a crane has a table, and a radius to look it up at."""
     joined = roles.slew is not None and roles.slew[0] in scene.joints
-    held = roles.payload in scene.bodies and roles.tip is not None and roles.tip[0] in scene.bodies
-    return bool(roles.capacity) and joined and held
+    return bool(roles.capacity) and joined and roles.tip is not None and roles.tip[0] in scene.bodies
 
 
 def warn_of_loads_in_hulls(scene: Description) -> None:
     """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel."""
-    for roles in scene.roles.values():
-        load = scene.bodies.get(roles.payload or "")
+    for one in hung_loads(scene):
+        load = scene.bodies[one.load]
         for vessel in scene.vessels.values():
             hull = scene.bodies[vessel.body]
-            if load is None or load is hull:
+            if load is hull:
                 continue
             centre, half = _inside(hull, load)
             length, breadth = ship_size(hull)
@@ -120,11 +112,11 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
             across = abs(centre[0]) < 0.5 * length and abs(centre[1]) < 0.5 * breadth
             if across and centre[2] - half < deck - CLEAR and centre[2] + half > keel:
                 warn_caller(
-                    f"body {roles.payload!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
+                    f"body {one.load!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
                     f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
                     f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. "
-                    "Nothing keeps bodies apart: shorten the link, or turn the crane out before the load is "
-                    "lowered",
+                    "Nothing keeps bodies apart: shorten what it hangs on, or turn the crane out before the "
+                    "load is lowered",
                     LoadInHullWarning,
                 )
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of, whole_of
 from seacrane.description.rungs import QUASI_STATIC
+from seacrane.description.suspension import line_weights
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import (
     FleetAngleWarning,

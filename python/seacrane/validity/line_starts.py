@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.line_path import Laid, described_poses, laid
-from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of
+from seacrane.description.suspension import line_weights
 from seacrane.inputs.caller import warn_caller
 from seacrane.validity.line_checks import STRONGEST
 from seacrane.warnings import LiftedStartWarning, WinchLimitWarning

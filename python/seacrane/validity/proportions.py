@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.line_weights import line_weights
 from seacrane.description.places import placed
+from seacrane.description.suspension import line_weights
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from seacrane.description.given import floating_bodies
 from seacrane.description.loads import named
+from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import UnstableRestWarning
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def warn_of_capsize(scene: Description) -> None:
     """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
 
-    Weights that hang on a link count at its upper end; those on lines are left to `seacrane.statics`.
+    Weights that hang count at the upper end of what they hang on.
     """
     for vessel in (one for one in scene.vessels.values() if one.floats):
         restoring = float(np.asarray(vessel.restoring)[3, 3])
@@ -55,6 +55,8 @@ def carried_by(scene: Description, vessel: str) -> set[str]:
         if joint.kind != "free" or name in stopped | driven:
             neighbours.setdefault(joint.first, []).append(joint.second)
             neighbours.setdefault(joint.second, []).append(joint.first)
+    for one, below in bodies_below(scene):
+        neighbours.setdefault(one.held_at[0], []).extend(below)
     found, open_ = {vessel}, [vessel]
     while open_:
         new = set(neighbours.get(open_.pop(), ())) - found
@@ -67,17 +69,9 @@ def carried_by(scene: Description, vessel: str) -> set[str]:
 
 def _height(scene: Description, body: _core.Body, hull: _core.Body) -> float:
     """Above a hull's origin at which a body's weight acts, m: that of the point from which it hangs."""
-    joints = list(scene.joints.values())
-    joined = Counter(end for joint in joints for end in (joint.first, joint.second))
-    for joint in joints:
-        if joint.kind == "distance" and body.name in (joint.first, joint.second) and joined[body.name] == 1:
-            upper, frame = (
-                (joint.first, joint.first_frame)
-                if joint.second == body.name
-                else (joint.second, joint.second_frame)
-            )
-            if upper in scene.bodies:
-                return _above(scene.bodies[upper], frame.point, hull)
+    for one, below in bodies_below(scene):
+        if body.name in below and one.held_at[0] in scene.bodies:
+            return _above(scene.bodies[one.held_at[0]], one.held_at[1], hull)
     return _above(body, body.center_of_mass, hull)
 
 

@@ -1,0 +1,331 @@
+"""What hangs on what: rods, wires and lines by the bodies that they carry, whatever their rung."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import TYPE_CHECKING, Any
+
+from seacrane.description.given import floating_bodies
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
+from seacrane.description.rungs import RIGID, WITH_MASS
+
+if TYPE_CHECKING:
+    from seacrane import _core
+    from seacrane.description.description import Description
+    from seacrane.description.roles import CraneRoles
+
+ROD = "rod"
+Point = tuple[float, float, float]
+Place = tuple[str, Point]  # a body, or the ground, and a point in its coordinates, m
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suspension:
+    """One rod, wire or line, by what it holds at its lower end.
+
+    Attributes
+    ----------
+    name : str
+        Of the joint, or of the line; of a line with mass the whole of it.
+    channel : str
+        Its name, or that of its lowest segment, in the channels over `suspension`.
+    top : str
+        That of its uppermost segment.
+    rung : str
+        "rod", which pushes too, or that of a line.
+    first, upper, lower : (str, (float, float, float))
+        Body and point, in its coordinates, m: where it begins, and both ends of its last straight part.
+    falls : int
+        Straight parts that hold the lower body.
+    parts : frozenset of str
+        The elements that it is made of.
+    """
+
+    name: str
+    channel: str
+    top: str
+    rung: str
+    first: Place
+    upper: Place
+    lower: Place
+    falls: int
+    parts: frozenset[str]
+
+    @property
+    def held_at(self) -> Place:
+        """On what carries it: the upper end of its last straight part, or of all of a line with mass."""
+        return self.first if self.rung == WITH_MASS else self.upper
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hung:
+    """A load that hangs on a crane, or on something else by itself.
+
+    Attributes
+    ----------
+    label : str
+        "hook" after the crane's prefix; of a load that hangs on no crane, the name of the suspension.
+    crane : CraneRoles or None
+    suspension : Suspension
+        On which it hangs, with block and slings where it has them.
+    load : str
+        The body.
+    point : (float, float, float)
+        Of it, in its coordinates, m: where it is held, in the middle of its slings.
+    weight : float or None
+        Of all that the suspension carries, N; None where something else carries it too.
+    """
+
+    label: str
+    crane: CraneRoles | None
+    suspension: Suspension
+    load: str
+    point: Point
+    weight: float | None
+
+    @property
+    def hangs_from(self) -> Place:
+        """The tip of its crane, or the upper end of what holds it."""
+        if self.crane is None or self.crane.tip is None:
+            return self.suspension.upper
+        return self.crane.tip
+
+
+def suspensions(scene: Description) -> list[Suspension]:
+    """Rods and wires, then lines, in the order of the scene."""
+    wires = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "wire"}
+    rods = [
+        _of_joint(name, joint, RIGID if name in wires else ROD)
+        for name, joint in scene.joints.items()
+        if joint.kind == "distance"
+    ]
+    whole: dict[str, dict[str, _core.Line]] = {}
+    for name, line in lines_of(scene.loads).items():
+        whole.setdefault(whole_of(name, line), {})[name] = line
+    taken = {one.name for one in rods}
+    return [*rods, *(_of_lines(name, segments, taken) for name, segments in whole.items())]
+
+
+def names_of_suspensions(scene: Description) -> list[str]:
+    """Along `suspension`: rods, wires, then lines; a line with the name of a joint is "<name> line"."""
+    joints = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
+    return [*joints, *(_beside(name, joints) for name in lines_of(scene.loads))]
+
+
+def lower_ends(scene: Description) -> list[Place]:
+    """Where each of `names_of_suspensions` ends: of a line the last of its points on what hangs."""
+    joints = [joint for joint in scene.joints.values() if joint.kind == "distance"]
+    ends = [(joint.second, _point(joint.second_frame.point)) for joint in joints]
+    for line in lines_of(scene.loads).values():
+        hooked = hooked_body(line)
+        ends.append([(body, _point(point)) for body, point in path_of(line) if body == hooked][-1])
+    return ends
+
+
+def weight_on(scene: Description, suspension: Suspension) -> float | None:
+    """Weight (N) of all that hangs on it; None where something else carries a part of that.
+
+    A seat or a free joint does not carry it for good, and does not count.
+    """
+    return _Ties(scene).weight(suspension)
+
+
+def weights_on(scene: Description) -> dict[str, tuple[float, int]]:
+    """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
+    ties, found = _Ties(scene), {}
+    for one in suspensions(scene):
+        weight = ties.weight(one)
+        if weight is not None:
+            found[one.channel] = (weight, one.falls)
+            found[one.top] = (weight + ties.weight_of(_inside(scene, one)), one.falls)
+    return found
+
+
+def line_weights(scene: Description) -> dict[str, tuple[float, int]]:
+    """`weights_on` the lines without mass that stretch, by the name of the line."""
+    ties, found = _Ties(scene), {}
+    for one in suspensions(scene):
+        weight = None if one.rung in (ROD, RIGID, WITH_MASS) else ties.weight(one)
+        if weight is not None:
+            found[one.name] = (weight, one.falls)
+    return found
+
+
+def bodies_below(scene: Description) -> list[tuple[Suspension, list[str]]]:
+    """What hangs on each suspension and on nothing else, its own masses too; the uppermost one first."""
+    ties, found = _Ties(scene), []
+    for one in suspensions(scene):
+        below = ties.below(one)
+        if below:
+            found.append((one, [*below, *sorted(_inside(scene, one))]))
+    return sorted(found, key=lambda pair: -len(pair[1]))
+
+
+def hung_loads(scene: Description) -> list[Hung]:
+    """What hangs on the cranes, then what hangs by itself on something else."""
+    every, ties = suspensions(scene), _Ties(scene)
+    found = [_on_crane(scene, roles, every, ties) for roles in scene.roles.values()]
+    on_cranes = [one for one in found if one is not None]
+    carried = {body for one in on_cranes for body in (one.load, *ties.below(one.suspension))}
+    others = []
+    for one in every:
+        weight, body = ties.weight(one), one.lower[0]
+        if weight is not None and body not in carried:
+            load = _lowest(scene, one, every, ties.below(one))
+            carried |= {load, *ties.below(one)}
+            others.append(_hung(scene, one.name, None, one, load, every, weight))
+    return [*on_cranes, *others]
+
+
+def hooked_body(line: Any) -> str:
+    """The body that a line reaches last."""
+    return str(list(dict.fromkeys(line.bodies))[-1])
+
+
+def _of_joint(name: str, joint: _core.Joint, rung: str) -> Suspension:
+    first = (joint.first, _point(joint.first_frame.point))
+    second = (joint.second, _point(joint.second_frame.point))
+    return Suspension(
+        name=name, channel=name, top=name, rung=rung, first=first, upper=first, lower=second, falls=1,
+        parts=frozenset([name]),
+    )  # fmt: skip
+
+
+def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[str]) -> Suspension:
+    """Of a line, or of the segments of one with mass from its first end on."""
+    (highest, highest_line), (lowest, last) = next(iter(segments.items())), list(segments.items())[-1]
+    path, hooked = path_of(last), hooked_body(last)
+    spans = [pair for pair in pairwise(path) if (pair[0][0] == hooked) != (pair[1][0] == hooked)]
+    upper, lower = sorted(spans[-1], key=lambda end: end[0] == hooked)
+    return Suspension(
+        name=name,
+        channel=_beside(lowest, joints),
+        top=_beside(highest, joints),
+        rung=WITH_MASS if len(segments) > 1 or name != lowest else last.rung,
+        first=_place(path_of(highest_line)[0]),
+        upper=_place(upper),
+        lower=_place(lower),
+        falls=len(spans),
+        parts=frozenset(segments),
+    )
+
+
+def _inside(scene: Description, one: Suspension) -> set[str]:
+    """The masses between the segments of a line."""
+    lines = lines_of(scene.loads)
+    on = {body for part in one.parts if part in lines for body in lines[part].bodies}
+    return {body for body in on if one.rung == WITH_MASS and body not in (one.first[0], one.lower[0])}
+
+
+def _beside(name: str, joints: Iterable[str]) -> str:
+    return f"{name} line" if name in joints else name
+
+
+def _place(end: tuple[str, Any]) -> Place:
+    return end[0], _point(end[1])
+
+
+def _point(values: Any) -> Point:
+    x, y, z = map(float, values)
+    return x, y, z
+
+
+class _Ties:
+    """Which bodies hold together by what carries weight: a graph of bodies, and its elements by name."""
+
+    def __init__(self, scene: Description) -> None:
+        self._scene = scene
+        self._held = floating_bodies(scene)
+        self._ties = list(_ties(scene))
+
+    def weight(self, suspension: Suspension) -> float | None:
+        """Weight of what hangs on it, N; None where that hangs on something else too."""
+        return self.weight_of(self.below(suspension)) or None
+
+    def weight_of(self, bodies: Iterable[str]) -> float:
+        """N; of what feels no gravity nothing."""
+        heavy = [self._scene.bodies[body] for body in bodies if self._scene.bodies[body].gravity]
+        return sum(body.mass for body in heavy) * self._scene.gravity
+
+    def below(self, suspension: Suspension) -> list[str]:
+        """The bodies that it carries, that at its end first; none where something else carries them too."""
+        neighbours: dict[str, list[str]] = {}
+        for name, first, second in self._ties:
+            if name not in suspension.parts:
+                neighbours.setdefault(first, []).append(second)
+                neighbours.setdefault(second, []).append(first)
+        found, ahead = [], [suspension.lower[0]]
+        ends = {suspension.upper[0], suspension.first[0], *self._held}
+        while ahead:
+            body = ahead.pop()
+            if body in ends or body not in self._scene.bodies:
+                return []
+            if body not in found:
+                found.append(body)
+                ahead += neighbours.get(body, [])
+        return found
+
+
+def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
+    """Name, first and second body of everything that may carry a weight."""
+    seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
+    for name, joint in scene.joints.items():
+        if name not in seats and joint.kind != "free":
+            yield name, joint.first, joint.second
+    for name, line in lines_of(scene.loads).items():
+        for first, second in combinations(dict.fromkeys(line.bodies), 2):
+            yield name, first, second
+    for name, spring in [*scene.springs.items(), *springs_of({}, scene.loads)]:
+        yield name, spring.first, spring.second
+    for name, cylinder in hydraulic_cylinders(scene).items():
+        yield name, cylinder.first, cylinder.second
+
+
+def _on_crane(scene: Description, roles: CraneRoles, every: list[Suspension], ties: _Ties) -> Hung | None:
+    """What hangs on a crane, by its role, or from its tip."""
+    named = {one.name: one for one in every}
+    one = named.get(roles.link or roles.line or "")
+    if one is None and not (roles.link or roles.line) and roles.tip is not None:
+        from_tip = [one for one in every if one.upper[0] == roles.tip[0] and ties.below(one)]
+        one = from_tip[0] if len(from_tip) == 1 else None
+    if one is None:
+        return None
+    load = roles.payload if roles.payload in scene.bodies else _lowest(scene, one, every, ties.below(one))
+    if load not in scene.bodies:
+        return None
+    return _hung(scene, f"{roles.prefix}hook", roles, one, str(load), every, ties.weight(one))
+
+
+def _lowest(scene: Description, one: Suspension, every: list[Suspension], below: list[str]) -> str:
+    """Of the bodies on a suspension the heaviest that carries none of the others."""
+    carrying = {other.upper[0] for other in every if other.name != one.name}
+    lowest = [body for body in below if body not in carrying] or below or [one.lower[0]]
+    return max(lowest, key=lambda body: scene.bodies[body].mass if body in scene.bodies else 0.0)
+
+
+def _hung(
+    scene: Description,
+    label: str,
+    crane: CraneRoles | None,
+    one: Suspension,
+    load: str,
+    every: list[Suspension],
+    weight: float | None,
+) -> Hung:
+    """With the middle of the points by which the load is held."""
+    points = [one.lower[1]] if one.lower[0] == load else list(_held_at(scene, load, every))
+    middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True)) or (0.0, 0.0, 0.0)
+    return Hung(label=label, crane=crane, suspension=one, load=load, point=_point(middle), weight=weight)
+
+
+def _held_at(scene: Description, load: str, every: list[Suspension]) -> Iterator[Point]:
+    """Points of a body, in its coordinates, m, by which slings and hooks hold it."""
+    for one in every:
+        if one.lower[0] == load:
+            yield one.lower[1]
+    for joint in scene.joints.values():
+        if joint.kind == "spherical" and joint.second == load:
+            yield _point(joint.second_frame.point)
