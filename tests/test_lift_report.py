@@ -123,7 +123,7 @@ def test_an_interrupted_run_with_values_that_are_none(tmp_path: Path) -> None:
     run["arrays"]["link_tension"][-1] = np.nan
     page = report(Result.from_arrays(**run, interrupted=True))
     assert "Interrupted: the run ended at 5 s" in page.html and "nan" not in Page(page.html).row(
-        "hoist tension"
+        "link tension"
     )
 
 

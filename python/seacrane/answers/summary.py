@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor", "min/static")
 DASHED = (
-    "- it went slack on a rod or a rigid wire, which knows no snap, lift-off or landing: no factor. Let it hang "
-    "on a line of rung 'elastic' or 'auto'."
+    "- it went slack on a rod or a rigid wire, which knows no snap, lift-off or landing: no factor. Let it "
+    "hang on a line of rung 'elastic' or 'auto'."
 )
 BLIND = (ROD, RIGID)  # a quasi-static line ends the run where it goes slack
 SLACK = 0.02  # of the static load: less is slack, or stands on something

@@ -80,11 +80,17 @@ NEEDS = {  # what a channel of Python's own has its names from, by the dimension
 
 def require_names(scene: Description, wanted: Iterable[str]) -> None:
     """SceneError where nothing in the scene has a derived channel that is asked for."""
+    for channel, need in missing_names(scene, wanted).items():
+        raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {need}")
+
+
+def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
+    """Of derived channels that nothing in the scene has: what each needs."""
     names = derived_coords(scene)
-    for channel in wanted:
-        for dim in CHANNELS[channel].dims if channel in DERIVED else ():
-            if dim in NEEDS and not names[dim]:
-                raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {NEEDS[dim]}")
+    dims = {channel: CHANNELS[channel].dims for channel in wanted if channel in DERIVED}
+    return {
+        channel: NEEDS[dim] for channel, own in dims.items() for dim in own if dim in NEEDS and not names[dim]
+    }
 
 
 def require_limited_channels(scene: Description, model: _core.Model) -> None:

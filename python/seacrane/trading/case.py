@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.channels import DERIVED
+from seacrane.run.channel_names import missing_names
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 
@@ -48,10 +49,9 @@ class Case:
 
     def outputs(self, channels: Iterable[str]) -> Outputs:
         """At the times of the case, those of the channels that the scene has."""
-        known = offered_channels(self.model)
-        return Outputs(
-            dt_out=self.dt_out, channels=[name for name in dict.fromkeys(channels) if name in known]
-        )
+        wanted = list(dict.fromkeys(channels))
+        known = offered_channels(self.model) - missing_names(self.scene, wanted).keys()
+        return Outputs(dt_out=self.dt_out, channels=[name for name in wanted if name in known])
 
 
 def offered_channels(model: _core.Model) -> set[str]:
