@@ -58,8 +58,8 @@ def add_limit_state(
     if not isinstance(names or {}, Mapping):
         raise SceneError(f"limit state: names is {shown(names)}; give names by dimension")
     pick = pick_of("limit state", channel, names)
-    if pick.after is not None:
-        raise SceneError(f"limit state {pick}: holds at all times; leave after out")
+    if pick.parts:
+        raise SceneError(f"limit state {pick}: holds at all times; leave {pick.parts} out")
     words = [pick.channel.replace("_", " "), *pick.names.values()]
     name = name_of("limit state", name, " ".join(words))
     high, low = _bound(name, "maximum", maximum), _bound(name, "minimum", minimum)

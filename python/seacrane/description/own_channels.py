@@ -98,8 +98,8 @@ def picked(scene: Description, what: str, curve: Curve) -> Pick:
             raise SceneError(f"{what}: {_which(scene, curve, several=len(there) > 1)}")
         channel, dim = {"points": ("point_position", "point"), "bodies": ("position", "body")}[there[0]]
         pick = Pick(channel=channel, names={dim: curve.text, "axis": curve.axis})
-    if pick.after is not None:
-        raise SceneError(f"{what}: {pick} is from a time on; leave after out")
+    if pick.parts:
+        raise SceneError(f"{what}: {pick} is of a part of a run; leave {pick.parts} out")
     if pick.channel == OWN:
         raise SceneError(f"{what}: {pick} is a channel of your own too; write its expression here")
     if CHANNELS[pick.channel].turns or pick.channel in COUNTED_ON:

@@ -4,6 +4,7 @@
     vessel_motion[roll]                roll
     position[load, z]                  position[body=load, axis=z]
     hook_load[main, after=60]
+    hook_load[main, stage=lift]
 
 A name without its dimension goes to the one that holds it: x, y, z and the six motions to their own, others
 to those that the scene names, in their order. A motion by itself is that of the vessel.
@@ -15,6 +16,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from typing import Any
 
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
 from seacrane.errors import SceneError
@@ -36,15 +38,25 @@ class Pick:
         By dimension; dimensions that are not named are kept.
     after : float or None
         s: earlier outputs are left out; None: nothing is said of it.
+    stage : str or None
+        The outputs of this stage alone.
     """
 
     channel: str
     names: Mapping[str, str] = field(default_factory=dict)
     after: float | None = None
+    stage: str | None = None
+
+    @property
+    def parts(self) -> str:
+        """The words that leave outputs out, such as "after"; none: it is of all of them."""
+        given = {"after": self.after, "stage": self.stage}
+        return " and ".join(word for word, value in given.items() if value is not None)
 
     def __str__(self) -> str:
         words = [f"{dim}={name}" for dim, name in self.names.items()]
         words += [] if self.after is None else [f"after={self.after:g}"]
+        words += [] if self.stage is None else [f"stage={self.stage}"]
         return f"{self.channel}[{', '.join(words)}]" if words else self.channel
 
 
@@ -75,9 +87,10 @@ def pick_of(
         none of its dimensions holds.
     """
     if isinstance(channel, Pick):
-        text, items, after = channel.channel, list(channel.names.items()), channel.after
+        text, items = channel.channel, list(channel.names.items())
+        parts: dict[str, Any] = {"after": channel.after, "stage": channel.stage}
     else:
-        text, items, after = _read(what, channel)
+        text, items, parts = _read(what, channel)
     if text in MOTIONS and not items and "body" not in (names or {}):  # yaw is a channel of bodies too
         text, items = "vessel_motion", [("motion", text)]
     if held is not None and text not in held:
@@ -88,17 +101,17 @@ def pick_of(
             f"{what}: channel {shown(text)} does not exist; "
             + (f"did you mean {near[0]!r}?" if near else "docs/channels.md lists them")
         )
-    return Pick(channel=text, names=_by_dimension(what, text, [*items, *(names or {}).items()]), after=after)
+    return Pick(channel=text, names=_by_dimension(what, text, [*items, *(names or {}).items()]), **parts)
 
 
-def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], float | None]:
-    """Channel, (dimension or nothing, name) and `after` of a text."""
+def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], dict[str, Any]]:
+    """Channel, (dimension or nothing, name), and `after` and `stage` of a text."""
     found = WHOLE.fullmatch(text_of(what, text))
     if not found:
         raise SceneError(f"{what} is {shown(text)}; give a channel, such as 'position[load, z]'")
     channel, inner = found.groups()
     items: list[tuple[str, str]] = []
-    after: float | None = None
+    parts: dict[str, Any] = {"after": None, "stage": None}
     at = 0
     while inner and at < len(inner):
         item = ITEM.match(inner, at)
@@ -106,14 +119,20 @@ def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], float | Non
             raise SceneError(f"{what} is {shown(text)}; give names with commas between, such as 'load, z'")
         at = item.end()
         key, value = item[1] or "", item[2].strip("\"'")
-        if key != "after":
+        if key not in parts:
             items.append((key, value))
-            continue
-        try:
-            after = float(value)
-        except ValueError:
-            raise SceneError(f"{what}: after is {shown(value)}; give a time in s") from None
-    return channel, items, after
+        elif parts[key] is not None:
+            raise SceneError(f"{what} is {shown(text)}; give {key} once")
+        else:
+            parts[key] = value if key == "stage" else _time(what, value)
+    return channel, items, parts
+
+
+def _time(what: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise SceneError(f"{what}: after is {shown(text)}; give a time in s") from None
 
 
 def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> dict[str, str]:

@@ -3,31 +3,28 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
-import inspect
-import json
+import math
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass, field, is_dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
-from seacrane.description.file import scene_digest
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
 from seacrane.ensembles.dataset import table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
+from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.stage_values import Stages
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
@@ -42,14 +39,15 @@ from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
-from seacrane.version import __version__
 
 if TYPE_CHECKING:
     import pandas
     import xarray
     from typing_extensions import Unpack
 
+USUAL_END = 100.0  # s
 MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
 
@@ -112,7 +110,8 @@ def ensemble(
     *,
     over: Over,
     keep: Asked,
-    t_end: float = 100.0,
+    t_end: float | None = None,
+    stages: Stages = (),
     method: Method | None = None,
     outputs: Outputs | None = None,
     start: Start = None,
@@ -143,8 +142,14 @@ def ensemble(
     keep : mapping
         By name: a `Kept` or its short text, such as "hook_load.max", or a function of a `Result` that returns
         numbers.
-    t_end : float
-        End time, s.
+    t_end : float, optional
+        End time, s; default 100. Stages tell it themselves.
+    stages : sequence of Stage, or callable
+        The members are lifts in these stages, as `simulate_stages` runs them, or in those that a function
+        of the scene tells. Their numbers vary by paths such as "stages.lift.duration",
+        "stages.lift.commands.hoist.rate" or, of a `Move`, "stages.lift.commands.slew.to". What is kept may
+        be of one stage, "hook_load[stage=lift].max", and its time, "stage[lift].end" ("start", "duration").
+        A member whose stage is not over in its maximum duration fails, by its name. Stages have no lanes.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     start : State or callable, optional
@@ -213,17 +218,20 @@ def ensemble(
     if executor is not None and not isinstance(executor, Executor):
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
-    wanted, members = checked_keep(keep), members_of(over)
+    wanted, members, in_stages = checked_keep(keep), members_of(over), _checked_stages(stages)
+    if in_stages and accuracy is not None:
+        raise SceneError("ensemble: accuracy is for runs without stages; give rtol")
     targets = () if until is None else targets_of(until, wanted)
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        t_end=number_of("t_end", t_end),
+        t_end=_end(t_end, in_stages),
+        stages=in_stages,
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
         start=_checked_start(start),
-        lanes=_lanes(lanes, pack, members),
+        lanes=_lanes(lanes, pack, members, in_stages=bool(in_stages)),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
@@ -274,8 +282,33 @@ def _require_free_names(members: Members, keep: Keep) -> None:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
-def _lanes(lanes: int | None, pack: int | None, members: Members) -> int:
+def _end(t_end: float | None, stages: Stages) -> float:
+    """Until when the members run, s; in stages as long as these take at most, where that is known."""
+    if not stages:
+        return USUAL_END if t_end is None else number_of("t_end", t_end)
+    if t_end is not None:
+        raise SceneError(f"ensemble: t_end is {t_end!r}, and stages tell their end; leave t_end out")
+    if callable(stages):
+        return math.inf
+    return float(sum(one.duration or one.maximum_duration or 0.0 for one in stages))
+
+
+def _checked_stages(stages: Any) -> Stages:
+    if callable(stages):
+        return stages  # type: ignore[no-any-return]
+    if not isinstance(stages, Sequence) or not all(isinstance(one, Stage) for one in stages):
+        raise SceneError(
+            f"ensemble: stages is {shown(stages)}; give a list of Stage, or a function of a scene"
+        )
+    return tuple(stages)
+
+
+def _lanes(lanes: int | None, pack: int | None, members: Members, *, in_stages: bool) -> int:
     asked = lanes_of(lanes)
+    if in_stages and lanes not in (None, 1):
+        raise SceneError(f"lanes is {lanes}, and stages are run one by one; leave lanes out")
+    if in_stages:
+        return 1
     if lanes is not None:
         return asked
     of_one_lift = any(name in WORDS for name in members.axes)
@@ -349,70 +382,6 @@ def _run(
 def _places(members: Members, number: int, size: int) -> range:
     """Numbers of the members of a pack."""
     return range(number * size, min((number + 1) * size, len(members)))
-
-
-def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
-    """Plain data, equal only for studies whose members have the same results.
-
-    The scenes of the first and the last member stand for what a function uses beyond its own text.
-    """
-    source = study.source
-    begun = {} if study.start is None else {"start": _start(study, members)}
-    return begun | {
-        "version": __version__,
-        "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
-        "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
-        "over": _digest([members.grid, *members.axes.items()]),
-        "members": len(members),
-        "members in a pack": pack,
-        "lanes": study.lanes,
-        "t_end": study.t_end,
-        "method": _text(asdict(study.method)),
-        "outputs": _text(asdict(study.outputs)),
-        "keep": {
-            name: _text(asdict(what)) if isinstance(what, Kept) else _function(what)
-            for name, what in study.keep.items()
-        },
-    }
-
-
-def _start(study: Study, members: Members) -> str:
-    """Of the first member, which stands for what a function makes of the others."""
-    try:
-        state = study.start_of(study.scene(members.values(0)))
-    except Exception as error:  # its failure is recorded when it is run
-        return f"{type(error).__name__}: {error}"
-    assert state is not None
-    return _digest([state.time, *np.asarray(state.values).tolist()])
-
-
-def _scene(study: Study, members: Members, place: int) -> str:
-    try:
-        return scene_digest(study.scene(members.values(place)))
-    except Exception as error:  # its failure is recorded when it is run
-        return f"{type(error).__name__}: {error}"
-
-
-def _function(function: Callable[..., Any]) -> str:
-    """Its name and a digest of its text, or of its code where it has none; of a dataclass its entries."""
-    if is_dataclass(function) and not isinstance(function, type):
-        return f"{type(function).__module__}.{type(function).__qualname__} {_text(asdict(function))}"
-    name = (
-        f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
-    )
-    try:
-        return f"{name} {_digest(inspect.getsource(function))}"
-    except (OSError, TypeError):
-        code = getattr(function, "__code__", None)
-        return f"{name} {_digest([code.co_code.hex(), repr(code.co_names)]) if code else ''}"
-
-
-def _text(data: dict[str, Any]) -> str:
-    return json.dumps(data, sort_keys=True, default=str)
-
-
-def _digest(data: Any) -> str:
-    return hashlib.sha256(json.dumps(data).encode()).hexdigest()[:16]
 
 
 def members_in(folder: Path, data: Mapping[str, Any]) -> Members:

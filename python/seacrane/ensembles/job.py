@@ -19,6 +19,7 @@ from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
+from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 from seacrane.version import __version__
@@ -81,7 +82,7 @@ class Job:
         runs = [run if isinstance(run, str) else _tried(partial(_stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
-    def _begun(self, members: Pack) -> list[Run | str]:
+    def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
         return [_tried(partial(self._prepared.run, values)) for _, values in members]
 
     def _beside(self, runs: Sequence[Run]) -> str:
@@ -96,19 +97,25 @@ class Job:
             raise KeyboardInterrupt
         return ""
 
-    def _outcome(self, index: int, run: Run | str) -> Outcome:
+    def _outcome(self, index: int, run: Run | StagedRun | str) -> Outcome:
         """Of a run at its end, or of why there is none."""
         made = run if isinstance(run, str) else _tried(partial(self._ended, index, run))
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
-    def _ended(self, index: int, run: Run) -> Outcome:
+    def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
         result = require_finite(run.result())
         told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
         return Outcome(index=index, kept=self.study.kept_of(result), **told)
 
 
-def _stepped(run: Run) -> Run:
+def _stepped(run: Run | StagedRun) -> Run | StagedRun:
     """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
+    if isinstance(run, StagedRun):
+        while run.advance():
+            pass
+        if run.interrupted:
+            raise KeyboardInterrupt
+        return run
     with Interrupts() as interrupts:
         run = ended(run, (), interrupts)
     interrupts.take()  # pressed as the run ended: the members after it are not to be run
@@ -143,9 +150,11 @@ class Prepared:
         self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
         self._lock = Lock()
 
-    def run(self, values: Values) -> Run:
+    def run(self, values: Values) -> Run | StagedRun:
         """Of the member with these values, at its start. Raises what describing or compiling it raises."""
         study = self._study
+        if study.stages:
+            return self._in_stages(values)
         sea, others = study.parts(values)
         source = study.source
         if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
@@ -154,6 +163,14 @@ class Prepared:
         waves = study.in_sea(first.scene, sea).waves
         assert waves is not None
         return first.in_sea(waves)
+
+    def _in_stages(self, values: Values) -> StagedRun:
+        study = self._study
+        scene = study.scene(values)
+        return StagedRun(
+            scene, study.stages_of(scene, values), start=study.start_of(scene), method=study.method,
+            outputs=study.outputs,
+        )  # fmt: skip
 
     def _begun(self, scene: Scene) -> Run:
         study = self._study

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -23,6 +24,7 @@ NUMBERS: Mapping[str, Callable[..., Any]] = {
     "maximum": np.max,
     "minimum": np.min,
 }
+STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end|duration)")
 SHORT: Mapping[str, str] = {"max": "maximum", "min": "minimum", "std": "standard_deviation"}
 TEXTS = {
     "mean": "mean",
@@ -52,6 +54,8 @@ class Kept:
         dimensions that are not named are kept.
     after : float
         s: earlier outputs are left out, such as transients of the start.
+    stage : str
+        Of a lift in stages: the outputs of this one alone, such as of ``"hook_load[stage=lift].max"``.
     interval : float, optional
         s between the values of a series, a multiple of the output interval; default: that interval.
 
@@ -66,6 +70,7 @@ class Kept:
     names: Mapping[str, str] = field(default_factory=dict)
     after: float = 0.0
     interval: float | None = None
+    stage: str = ""
 
     def __post_init__(self) -> None:
         if isinstance(self.channel, Pick) or "[" in text_of("kept: channel", self.channel):
@@ -96,14 +101,17 @@ class Kept:
             selector, what = text, "series"
         pick = pick_of(f"kept {shown(text)}", selector)
         kept: Any = what
-        return cls(channel=pick.channel, what=kept, names=pick.names, after=pick.after or 0.0)
+        return cls(
+            channel=pick.channel, what=kept, names=pick.names, after=pick.after or 0.0, stage=pick.stage or ""
+        )
 
     def _take(self, pick: Pick) -> None:
         """The names and the time of a selector, beside which neither `names` nor `after` says the same."""
         if not isinstance(self.names, Mapping) or self.names.keys() & pick.names.keys():
             raise SceneError(f"kept {pick}: names is {shown(self.names)}; give each name once")
-        if pick.after is not None and self.after:
-            raise SceneError(f"kept {pick}: after is given twice; leave one out")
+        if (pick.after is not None and self.after) or (pick.stage is not None and self.stage):
+            raise SceneError(f"kept {pick}: {pick.parts} is given twice; leave one out")
+        object.__setattr__(self, "stage", self.stage or pick.stage or "")
         object.__setattr__(self, "channel", pick.channel)
         object.__setattr__(self, "names", {**pick.names, **self.names})
         object.__setattr__(self, "after", self.after if pick.after is None else pick.after)
@@ -125,21 +133,45 @@ class Kept:
         dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.names)
         coords = {dim: np.array(result.coords[dim]) for dim in dims[1:]}
         told = attributes(self.channel)
-        first = int(np.searchsorted(result.time, self.after))
+        part = result.part(after=self.after, stage=self.stage or None)
+        time, channel = result.time[part], channel[part]
+        if not time.size:
+            raise SceneError(f"kept {self.channel}: the run has no output in the part that is asked for")
         if self.what == "series":
             every = 1
             if self.interval is not None and result.time.size > 1:
                 every = round(self.interval / float(result.time[1] - result.time[0]))
-            time = result.time[first::every]
             return Labelled(
-                values=np.array(channel[first::every]),
+                values=np.array(channel[::every]),
                 dims=dims,
-                coords={"time": time, **coords},
+                coords={"time": time[::every], **coords},
                 attributes=told,
             )
-        values = np.asarray(NUMBERS[self.what](channel[first:], axis=0), dtype=float)
+        values = np.asarray(NUMBERS[self.what](channel, axis=0), dtype=float)
         told = told | {"long_name": f"{TEXTS[self.what]} of {told['long_name']}"}
         return Labelled(values=values, dims=dims[1:], coords=coords, attributes=told)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StageTime:
+    """When a stage of a lift begins or ends, or how long it takes, s: ``"stage[lift].end"``."""
+
+    stage: str
+    what: Literal["start", "end", "duration"] = "end"
+
+    @classmethod
+    def of_text(cls, text: str) -> StageTime | None:
+        """What a short text asks for; None where it asks for something else."""
+        found = STAGE.fullmatch(text)
+        return None if found is None else cls(stage=found[1].strip("\"'"), what=found[2])  # type: ignore[arg-type]
+
+    def __call__(self, result: Result) -> float:
+        """Of a result; SceneError where it has no such stage."""
+        for span in result.stages:
+            if span.name == self.stage:
+                return span.end - span.start if self.what == "duration" else float(getattr(span, self.what))
+        known = ", ".join(span.name for span in result.stages) or "none"
+        raise SceneError(f"kept: there is no stage {self.stage!r}; the run has {known}")
 
 
 def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Labelled:

@@ -7,17 +7,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from seacrane import _core
-from seacrane.ensembles.kept import Kept, made_by
+from seacrane.ensembles.kept import Kept, StageTime, made_by
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.ensembles.paths import require_paths, with_values
+from seacrane.ensembles.stage_values import Stages, scene_values, stage_paths, with_stage_values
 from seacrane.ensembles.variables import RESERVED
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 
 Source = Scene | Callable[..., Scene]
@@ -44,6 +46,8 @@ class Study:
         Where every run begins, or a function of its scene that tells it; default: its assembled start.
     lanes : int
         Runs that are stepped side by side, by the number of the member; 1: none.
+    stages : sequence of Stage, or callable
+        Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
     """
 
     source: Source
@@ -53,12 +57,13 @@ class Study:
     keep: Keep
     start: Start = None
     lanes: int = 1
+    stages: Stages = ()
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
         if not isinstance(self.source, Scene):
             return
-        require_paths(self.source, names, WORDS)
+        require_paths(self.source, names, WORDS, stage_paths(self.stages))
         words = [name for name in names if name in WORDS]
         if words:
             require_same_sea(self.source, words)
@@ -71,13 +76,18 @@ class Study:
     def scene(self, values: Values) -> Scene:
         """The scene of a member."""
         if isinstance(self.source, Scene):
-            sea, others = self.parts(values)
+            sea, others = self.parts(scene_values(values))
             made = with_values(self.source, others)
             return self.in_sea(made, sea) if sea else made
-        made = self.source(**values)
+        made = self.source(**scene_values(values))
         if not isinstance(made, Scene):
             raise SceneError(f"the function returned {shown(made)}; return a Scene")
         return made
+
+    def stages_of(self, scene: Scene, values: Values) -> list[Stage]:
+        """Of a member, its stages with their own values."""
+        given = self.stages(scene) if callable(self.stages) else self.stages
+        return with_stage_values(given, values)
 
     def start_of(self, scene: Scene) -> _core.State | None:
         """Where the run of a scene begins; None: its assembled start."""
@@ -112,13 +122,14 @@ def checked_keep(keep: Any) -> Keep:
                 f"keep: {name} is {shown(what)}; give a text such as 'hook_load.max', a Kept, or a function "
                 "of a Result"
             )
-        found[name] = Kept.of_text(what) if isinstance(what, str) else what
+        found[name] = (StageTime.of_text(what) or Kept.of_text(what)) if isinstance(what, str) else what
     return found
 
 
 def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
     """The outputs; where they name no channels and no function is kept, those that are kept."""
-    if outputs.channels is not None or not all(isinstance(what, Kept) for what in keep.values()):
+    known = all(isinstance(what, Kept | StageTime) for what in keep.values())
+    if outputs.channels is not None or not known:
         return outputs
     channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
     return Outputs(dt_out=outputs.dt_out, channels=tuple(channels))

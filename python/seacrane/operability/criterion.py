@@ -67,8 +67,10 @@ class Criterion:
         if not isinstance(self.names, Mapping):
             raise SceneError(f"criterion: names is {shown(self.names)}; give names by dimension")
         pick = pick_of("criterion", self.channel, self.names)
-        if pick.after is not None:
-            raise SceneError(f"criterion {pick}: after is not a criterion's; what asks for it says start_up")
+        if pick.parts:
+            raise SceneError(
+                f"criterion {pick}: {pick.parts} is not a criterion's; what asks for it says start_up"
+            )
         channel = pick.channel
         object.__setattr__(self, "channel", channel)
         object.__setattr__(self, "names", dict(pick.names))

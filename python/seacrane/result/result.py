@@ -260,6 +260,12 @@ class Result(Mapping[str, Array]):
         known = ", ".join(span.name for span in self.stages) or "none"
         raise ValueError(f"no stage {name!r} in this result; choose from {known}")
 
+    def part(self, *, after: float | None = None, stage: str | None = None) -> slice:
+        """The outputs from a time (s) on, or those of a stage, or both, to index time and channels."""
+        whole = slice(0, self.time.size) if stage is None else self.stage(stage)
+        first = 0 if after is None else int(np.searchsorted(self.time, after))
+        return slice(max(first, whole.start), max(first, whole.stop))
+
     def select(self, channel: str | Pick, /, **names: str) -> Array:
         """A channel at named coordinates, as a read-only view.
 
@@ -285,7 +291,7 @@ class Result(Mapping[str, Array]):
         """
         if isinstance(channel, Pick) or channel in MOTIONS or channel not in self.channels:
             pick = self._picked(channel, names)
-            if pick.after is not None:
+            if pick.parts:
                 raise SceneError(f"select {channel!s}: a view has all outputs; index it by time")
             channel, names = pick.channel, dict(pick.names)
         array = self[channel]
@@ -405,7 +411,13 @@ class Result(Mapping[str, Array]):
         """
         picks = [self._picked(channel, {}) for channel in channels or self.channels]
         arrays = [(pick, self.select(pick.channel, **pick.names)) for pick in picks]
-        return dataframe_of(self.time, arrays, self.dims, self.coords)
+        parts = {(pick.after, pick.stage) for pick, _ in arrays}
+        if len(parts) > 1:
+            raise SceneError(
+                "table: its columns are of one part of the run; give all the same after= and stage="
+            )
+        (after, stage) = next(iter(parts), (None, None))
+        return dataframe_of(self.time, arrays, self.dims, self.coords, self.part(after=after, stage=stage))
 
     def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
         """Write curves as comma-separated values: a line for each output, time first; SI units and radians.

@@ -132,8 +132,8 @@ class Until:
         SceneError
         """
         pick = pick_of("until", channel, names)
-        if pick.after is not None:
-            raise SceneError(f"until {pick}: a stage begins at its own time; leave after out")
+        if pick.parts:
+            raise SceneError(f"until {pick}: a stage begins at its own time; leave {pick.parts} out")
         channel, names = pick.channel, dict(pick.names)
         missing = [dim for dim in CHANNELS[channel].dims[1:] if dim not in names]
         if missing:

@@ -82,7 +82,7 @@ def extremes(
     pick = pick_of("extremes", channel, names, held=results[0].channels)
     begin = number_of("after", after) if pick.after is None else pick.after
     channel, names = pick.channel, dict(pick.names)
-    records = [_record(one, channel, begin, sign, names) for one in results]
+    records = [_record(one, channel, one.part(after=begin, stage=pick.stage), sign, names) for one in results]
     words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
     if isinstance(result, Result):
         (values, step), repeat = records[0], _repeat(result)
@@ -125,14 +125,15 @@ def _several(results: Iterable[Result]) -> list[Result]:
 
 
 def _record(
-    result: Result, channel: str, after: float, sign: float, names: dict[str, str]
+    result: Result, channel: str, part: slice, sign: float, names: dict[str, str]
 ) -> tuple[Array, float]:
-    """One curve from `after` on, and the time between two of its values, s."""
+    """A part of one curve, and the time between two of its values, s."""
     curve = result.curve(channel, **names)
-    late = result.time >= after
-    time, values = result.time[late], sign * curve[late]
+    time, values = result.time[part], sign * curve[part]
     if time.size < FEWEST_VALUES:
-        raise SceneError(f"{time.size} outputs from {after:g} s on: at least {FEWEST_VALUES} are needed")
+        raise SceneError(
+            f"{time.size} outputs in the part that is asked for: at least {FEWEST_VALUES} are needed"
+        )
     if not np.isfinite(values).all():
         raise SceneError(f"channel {channel!r} has gaps: ask for a part of the run, or another channel")
     steps = np.diff(time)
