@@ -20,6 +20,7 @@ from seacrane.ensembles.store import Store, kept_packs
 from seacrane.ensembles.targets import Target
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
+from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
 
 BATCH = 20  # seeds: fewer would be judged too often, by intervals that scatter too much
@@ -155,11 +156,11 @@ def grow(
         while going and batch < growth.batches:
             _run_batch(growth, batch, going, job, store, executor, bar.add, check)
             for cell in going:
-                fresh = [one for number in growth.packs(batch, cell) for one in store.of(number)]
-                cells[cell] += fresh
-                known[cell] = [
-                    certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets
-                ]
+                with interrupts_kept():
+                    cells[cell] += [one for number in growth.packs(batch, cell) for one in store.of(number)]
+                    known[cell] = [
+                        certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets
+                    ]
             batch += 1
             going = [cell for cell in going if not all(one.reached or one.futile for one in known[cell])]
             bar.left(_expected(growth, batch, [known[cell] for cell in going]))

@@ -16,7 +16,7 @@ from seacrane.ensembles.study import Study, Values
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
-from seacrane.run.interrupts import Interrupts
+from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
 from seacrane.run.staged_run import StagedRun
@@ -83,7 +83,7 @@ class Job:
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
     def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
-        return [_tried(partial(self._prepared.run, values)) for _, values in members]
+        return [_tried(interrupts_kept()(partial(self._prepared.run, values))) for _, values in members]
 
     def _beside(self, runs: Sequence[Run]) -> str:
         """Advance runs side by side; why that failed and left them nowhere, or nothing."""
@@ -102,6 +102,7 @@ class Job:
         made = run if isinstance(run, str) else _tried(partial(self._ended, index, run))
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
+    @interrupts_kept()
     def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
         result = require_finite(run.result())
         told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}

@@ -12,6 +12,7 @@ from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.pack_file import read_pack, write_pack
 from seacrane.errors import FileFormatError
 from seacrane.inputs.caller import warn_caller
+from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import LostMembersWarning
 
 if TYPE_CHECKING:
@@ -93,9 +94,11 @@ class Folder:
             return str(error)
         return "" if found == list(indices) else f"{self._file(pack)}: holds other members"
 
+    @interrupts_kept()
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         write_pack(self._file(pack), outcomes)
 
+    @interrupts_kept()
     def of(self, pack: int) -> list[Outcome]:
         return read_pack(self._file(pack))
 

@@ -36,6 +36,7 @@ from seacrane.ensembles.zarr_chunks import (
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write, space_left
 from seacrane.inputs.caller import warn_caller
+from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import LostMembersWarning
 
 if TYPE_CHECKING:
@@ -99,6 +100,7 @@ class ZarrStore:
         except DAMAGED as error:
             return str(error)[:200]
 
+    @interrupts_kept()
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         indices = [one.index for one in outcomes]
         try:
@@ -110,6 +112,7 @@ class ZarrStore:
         with atomic_write(self._mark(pack), tidy=False) as draft:
             draft.write_text(json.dumps(mark_text(indices, chunks)), encoding="utf-8")
 
+    @interrupts_kept()
     def of(self, pack: int) -> list[Outcome]:
         try:
             return self._read(read_mark(self._mark(pack))[0])

@@ -56,3 +56,18 @@ class Interrupts:
             self._before(number, frame)
         else:
             self._pressed.append((number, frame))
+
+
+@contextlib.contextmanager
+def interrupts_kept() -> Iterator[None]:
+    """Hold Ctrl-C back within the block, and do what it stands for at its end.
+
+    Python raises KeyboardInterrupt wherever it is. Within a destructor, the callback of a weak reference or
+    the import of a compiled module, of which libraries have many, it is forgotten.
+    """
+    interrupts = Interrupts()
+    try:
+        with interrupts:
+            yield
+    finally:
+        interrupts.take()
