@@ -106,7 +106,7 @@ def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_pa
     assert len(whole.columns) == sum(array[0].size for array in lift.channels.values())
     late = lift.to_dataframe("vessel_motion[roll, after=1]")
     assert late.index[0] == 1.0
-    with pytest.raises(SceneError, match="begin at one time"):
+    with pytest.raises(SceneError, match="of one part of the run"):
         lift.to_dataframe("vessel_motion[roll, after=1]", "link_tension")
 
     path = lift.to_csv(tmp_path / "lift.csv", "roll", "link_tension")

@@ -9,8 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lift_examples import ON_DECK
 
 from seacrane import (
+    FileFormatError,
+    Lift,
     Move,
     Scene,
     SceneError,
@@ -18,11 +21,17 @@ from seacrane import (
     Stage,
     Until,
     ensemble,
+    equilibrium,
     shipped_database,
     simulate_stages,
 )
 from seacrane.ensembles import Ensemble, sensitivity
 from seacrane.ensembles.other_sea import with_sea
+from seacrane.lift.shown_study import shown_study
+from seacrane.lift.study_run import run_study
+from seacrane.operability import Criterion, allowable_hs
+from seacrane.operability.levels import record_numbers
+from seacrane.statistics import seed_extremes
 
 G = 9.80665
 MASS, EA = 40e3, 2e8
@@ -222,3 +231,127 @@ def test_what_contradicts_is_refused_by_name() -> None:
         feeder(), stages=STAGES, over={"seed": [1]}, keep={"x": "hook_load[stage=down].max"}, **HOW
     )
     assert "no stage 'down'" in told.failures[0]
+
+
+def test_allowable_hs_of_a_lift_in_stages() -> None:
+    """Each storm is the staged run of its own; what a lift reaches in calm water is where Hs is zero."""
+    scene, seeds, heights = feeder(), range(1, 9), (1.0, 3.0)
+    bound = 1.85 * MASS * G
+    criteria = [
+        Criterion(channel="hook_load[stage=up]", maximum=bound, statistic="p90"),
+        Criterion(channel="hook_load", maximum=bound, name="whole", statistic="p90"),
+    ]
+    how: dict[str, Any] = {"dt_out": 0.05, "rtol": 1e-4}
+    told = allowable_hs(
+        scene,
+        criteria=criteria,
+        tp=[8.0],
+        direction_deg=[180.0],
+        hs=heights,
+        seeds=seeds,
+        stages=STAGES,
+        **how,
+    )
+    start = equilibrium(scene)
+    calm = simulate_stages(scene.copy(waves=None), STAGES, start=start, **how)
+    rest = calm.curve("hook_load[hoist]")[calm.stage("up")].max()
+    assert MASS * G < rest < bound
+    peaks = np.array([
+        [_peak(with_sea(scene, {"hs": hs, "seed": seed}), start, how) for seed in seeds] for hs in heights
+    ])  # fmt: skip
+    levels = [float(_gumbel_p90(row - rest)) for row in peaks]
+    below = [(0.0, 0.0), *zip(heights, levels, strict=True)]
+    expected = np.interp(bound - rest, [level for _, level in below], [hs for hs, _ in below])
+    found = told.dataset.by_criterion.sel(criterion="hook load in up").item()
+    assert levels[0] < bound - rest < levels[1]
+    assert found == pytest.approx(expected, rel=1e-9)
+    assert told.dataset.domain.item() == "time" and told.dataset.reason.item() == "a lift in stages"
+    assert "P90 maximum in one lift <= " in str(told)
+
+
+def _peak(scene: Scene, start: Any, how: dict[str, Any]) -> float:
+    run = simulate_stages(scene, STAGES, start=start, **how)
+    return float(record_numbers(run.curve("hook_load[hoist]")[run.stage("up")])[0])
+
+
+def _gumbel_p90(values: Any) -> float:
+    return seed_extremes(values, duration=1.0, exposure=1.0).gumbel.p90.value
+
+
+@pytest.mark.parametrize(
+    ("criterion", "given", "message"),
+    [
+        ({"channel": "hook_load[stage=down]"}, {}, "no stage 'down'; the lift has wait, lift, up"),
+        (
+            {"channel": "hook_load[stage=up]"},
+            {"stages": ()},
+            "stage 'up' is asked for, and the lift has none",
+        ),
+        ({"exposure": 900.0}, {}, "is its own exposure time; leave it out"),
+        ({"statistic": "significant"}, {}, "'significant' is of a long record"),
+        ({"motion": True}, {}, "motion=True is a distance from rest"),
+        ({}, {"duration": 900.0}, "stages tell how long a lift takes; leave duration out"),
+        ({}, {"start_up": 9.0}, "leave start_up out"),
+        ({}, {"domain": "frequency"}, "has no linear model; leave domain out"),
+        ({}, {"stages": [1]}, "stages is .1.; give a list of Stage"),
+    ],
+)
+def test_what_lifts_in_stages_do_not_take(
+    criterion: dict[str, Any], given: dict[str, Any], message: str
+) -> None:
+    asked = Criterion(**{"channel": "hook_load", "maximum": 1e6, **criterion})
+    with pytest.raises(SceneError, match=message):
+        allowable_hs(
+            feeder(), criteria=[asked], tp=[8.0], direction_deg=[180.0], **{"stages": STAGES, **given}
+        )
+
+
+STUDY = """format = "seacrane study"
+version = 2
+lift = "my_lift.toml"
+
+[over]
+"line.EA_N" = [4e7, 5e7]
+"stages.lift off.commands.hoist.rate" = [-0.05, -0.1]
+
+[[keep]]
+name = "peak"
+channel = "hook_load[stage=raise]"
+what = "maximum"
+
+[[keep]]
+name = "lifted"
+channel = "stage[lift off].end"
+"""
+
+
+def test_a_study_file_of_a_lift_in_stages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY, encoding="utf-8")
+    done = run_study(study, tmp_path / "out").dataset
+    for EA in (4e7, 5e7):
+        text = ON_DECK.replace("EA_N = 5e7", f"EA_N = {EA:g}").replace(
+            "value_m_per_s = -0.05", "value_m_per_s = -0.1"
+        )
+        (tmp_path / "other.toml").write_text(text, encoding="utf-8")
+        run = Lift.load(tmp_path / "other.toml").simulate()
+        told = done.sel({"line.EA_N": EA, "stages.lift off.commands.hoist.rate": -0.1})
+        assert float(told.peak.squeeze()) == run.curve("hook_load[hoist]")[run.stage("raise")].max()
+        assert float(told.lifted) == run.stages[1].end
+    assert "end of stage lift off" in str(shown_study(tmp_path / "out"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("lift off.commands.hoist.rate", "lift of.commands.hoist.rate", "nearest: 'stages.lift off.comm"),
+        ("[over]", "[run]\nt_end_s = 3\n\n[over]", r"line 5: \[run\] is for lifts without stages"),
+        ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s is for runs without stages"),
+    ],
+)
+def test_bad_study_files_of_stages_are_named(old: str, new: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
+    (tmp_path / "study.toml").write_text(STUDY.replace(old, new), encoding="utf-8")
+    with pytest.raises(FileFormatError, match=message):
+        run_study(tmp_path / "study.toml", tmp_path / "out")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from math import ceil
@@ -24,7 +24,7 @@ from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS
-from seacrane.ensembles.stage_values import Stages
+from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
@@ -39,7 +39,6 @@ from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -218,7 +217,7 @@ def ensemble(
     if executor is not None and not isinstance(executor, Executor):
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
-    wanted, members, in_stages = checked_keep(keep), members_of(over), _checked_stages(stages)
+    wanted, members, in_stages = checked_keep(keep), members_of(over), checked_stages_of("ensemble", stages)
     if in_stages and accuracy is not None:
         raise SceneError("ensemble: accuracy is for runs without stages; give rtol")
     targets = () if until is None else targets_of(until, wanted)
@@ -291,16 +290,6 @@ def _end(t_end: float | None, stages: Stages) -> float:
     if callable(stages):
         return math.inf
     return float(sum(one.duration or one.maximum_duration or 0.0 for one in stages))
-
-
-def _checked_stages(stages: Any) -> Stages:
-    if callable(stages):
-        return stages  # type: ignore[no-any-return]
-    if not isinstance(stages, Sequence) or not all(isinstance(one, Stage) for one in stages):
-        raise SceneError(
-            f"ensemble: stages is {shown(stages)}; give a list of Stage, or a function of a scene"
-        )
-    return tuple(stages)
 
 
 def _lanes(lanes: int | None, pack: int | None, members: Members, *, in_stages: bool) -> int:

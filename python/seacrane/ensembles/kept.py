@@ -159,6 +159,9 @@ class StageTime:
     stage: str
     what: Literal["start", "end", "duration"] = "end"
 
+    def __str__(self) -> str:
+        return f"{self.what} of stage {self.stage}"
+
     @classmethod
     def of_text(cls, text: str) -> StageTime | None:
         """What a short text asks for; None where it asks for something else."""

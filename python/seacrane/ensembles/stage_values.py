@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
 from seacrane.run.move import Move
 from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
@@ -16,6 +18,15 @@ FIRST = "stages."
 TIMES = ("duration", "maximum_duration")
 MOVED = ("to", "by", "over")  # of a `Move`
 Place = tuple[str, ...]  # of a value in a stage
+
+
+def checked_stages_of(what: str, stages: Any) -> Stages:
+    """The stages, or a SceneError that says whose they are."""
+    if callable(stages):
+        return stages  # type: ignore[no-any-return]
+    if not isinstance(stages, Sequence) or not all(isinstance(one, Stage) for one in stages):
+        raise SceneError(f"{what}: stages is {shown(stages)}; give a list of Stage, or a function of a scene")
+    return tuple(stages)
 
 
 def scene_values(values: Mapping[str, Any]) -> dict[str, Any]:

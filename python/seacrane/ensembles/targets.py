@@ -167,7 +167,7 @@ def with_static_parts(keep: Keep, targets: tuple[Target, ...]) -> Keep:
             continue
         what = keep[target.variable]
         assert isinstance(what, Kept)
-        mean = Kept(channel=what.channel, what="mean", names=what.names, after=what.after)
+        mean = Kept(channel=what.channel, what="mean", names=what.names, after=what.after, stage=what.stage)
         if out.setdefault(target.static, mean) != mean:
             raise SceneError(
                 f"keep: the name {target.static!r} is that of the static part of {target.variable!r}; rename"

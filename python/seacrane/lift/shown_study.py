@@ -19,7 +19,7 @@ from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.study_folder import study_in
-from seacrane.ensembles.targets import EXTREMES, targets_of
+from seacrane.ensembles.targets import targets_of
 from seacrane.ensembles.variables import NOT_RUN
 from seacrane.errors import SceneError
 from seacrane.lift.study_file import StudyFile
@@ -89,8 +89,8 @@ class Told:
         `what` is a sentence.
     over_seeds : bool
         Whether cells hold seeds.
-    exposure : float
-        s, of extremes.
+    exposure : float or None
+        Of extremes, s; None: of one lift in stages.
     cells : tuple of Cell
     """
 
@@ -98,7 +98,7 @@ class Told:
     unit: str
     what: str
     over_seeds: bool
-    exposure: float
+    exposure: float | None
     cells: tuple[Cell, ...]
 
     @property
@@ -126,7 +126,8 @@ class Told:
         head = self.head()
         lines = [f"{self.name}: {self.what}", text_table(head, rows[:MOST_ROWS], right=range(len(head)))]
         if self.extremes:
-            lines.append(f"Maximum in {self.exposure:g} s by Gumbel's distribution, 95 % intervals.")
+            during = "one lift" if self.exposure is None else f"{self.exposure:g} s"
+            lines.append(f"Maximum in {during} by Gumbel's distribution, 95 % intervals.")
         if self.over_seeds and any(cell.failed for cell in self.cells):
             lines.append("Of seeds that did not fail; where some did, no interval holds for all.")
         return "\n".join([*lines, *([f"and {more} rows more"] if more > 0 else [])])
@@ -184,7 +185,7 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     if not (path / FILE).is_file():
         raise SceneError(f"{path} is no folder of a study; give the DIR of `seacrane study --out DIR`")
     file, done = StudyFile.load(path / FILE), Ensemble.load(path / MEMBERS)
-    length = float(study_in(path / MEMBERS)["identity"]["t_end"])
+    length = study_in(path / MEMBERS)["identity"]["t_end"]
     failure = done.dataset.failure.to_numpy()
     left = int((failure == "not run").sum())
     if left == failure.size:
@@ -230,27 +231,28 @@ def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
     return set(map(str, variable.dims)) == set(done.members.shape)
 
 
-def _told(name: str, file: StudyFile, done: Ensemble, length: float) -> Told:
+def _told(name: str, file: StudyFile, done: Ensemble, length: float | None) -> Told:
+    """`length` is that of the runs, s; None of lifts in stages, where an extreme is that of one lift."""
     what = file.keep[name]
     variable = done.dataset[name]
     seeds = "seed" in variable.dims
-    span = length - what.after
+    sign = {"maximum": 1.0, "minimum": -1.0}.get(what.what) if seeds else None
+    span = None if length is None else length - getattr(what, "after", 0.0)
     exposure = span if file.exposure is None else file.exposure
-    several = seeds and what.what in EXTREMES
     cells = tuple(
         Cell(
             parameters=parameters,
             values=values,
             failed=lost.size,
-            sign=-1.0 if what.what == "minimum" else 1.0,
-            extremes=_extremes(what, values, span, exposure) if several else None,
+            sign=sign or 1.0,
+            extremes=None if sign is None else _extremes(name, sign * values, span or 1.0, exposure or 1.0),
         )
         for (parameters, values), (_, lost) in zip(
             _cells(variable, done), _cells(_failed(done), done), strict=True
         )
     )
-    about = str(variable.attrs.get("long_name", what.channel))
-    at = ", ".join(what.names.values())
+    about = str(variable.attrs.get("long_name", what.channel if isinstance(what, Kept) else what))
+    at = ", ".join(what.names.values()) if isinstance(what, Kept) else ""
     return Told(
         name=name, unit=str(variable.attrs.get("units", "-")), what=f"{about}{f' ({at})' if at else ''}",
         over_seeds=seeds, exposure=exposure, cells=cells,
@@ -274,11 +276,10 @@ def _finite(values: Array) -> Array:
     return values[np.isfinite(values)]
 
 
-def _extremes(what: Kept, values: Array, span: float, exposure: float) -> SeedExtremes | None:
-    """Of largest values, or of smallest ones with their sign changed; None for too few."""
+def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExtremes | None:
+    """Of largest values; None for too few."""
     if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
         return None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        sign = -1.0 if what.what == "minimum" else 1.0
-        return seed_extremes(sign * values, duration=span, exposure=exposure, name=what.channel)
+        return seed_extremes(values, duration=span, exposure=exposure, name=name)

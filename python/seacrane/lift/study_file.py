@@ -13,7 +13,7 @@ import numpy as np
 from seacrane.accuracy.choice import refuse_what_is_chosen, without_what_is_chosen
 from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.ensembles.growing import growth_of
-from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.kept import Kept, StageTime
 from seacrane.ensembles.latin_hypercube import LatinHypercube
 from seacrane.ensembles.members import MOST_MEMBERS, Members, members_of
 from seacrane.ensembles.study import checked_keep
@@ -41,7 +41,7 @@ class StudyFile:
     Attributes
     ----------
     members : Members
-    keep : mapping of str to Kept
+    keep : mapping of str to Kept or StageTime
     until : mapping of str to float, or None
     exposure : float or None
         Of largest values, s; None: the length of a run.
@@ -50,7 +50,7 @@ class StudyFile:
     """
 
     members: Members
-    keep: Mapping[str, Kept]
+    keep: Mapping[str, Kept | StageTime]
     until: Mapping[str, float] | None
     exposure: float | None
     accuracy: Mapping[str, Any] | None
@@ -105,6 +105,15 @@ class StudyFile:
         tables = {name: data[name] for name in FROM_LIFTS if name in data}
         head = {"format": LIFT.format, "version": data["version"]}
         document = replace(self._document, data={**head, **tables}, told=True)
+        if "run" in tables and lift.stages:
+            self._document.fail(
+                ("run",), "[run] is for lifts without stages, which tell their end; leave it out"
+            )
+        if lift.stages and self.exposure is not None:
+            self._document.fail(
+                ("statistics",),
+                "exposure_s is for runs without stages: extremes are those of one lift; leave it out",
+            )
         own = lift_of(document, self._folder)
         return (
             own.t_end if "run" in tables else lift.t_end,
@@ -153,6 +162,12 @@ class StudyFile:
         if not path.is_file():
             self._document.fail(("lift",), f"lift is {shown(given)}: there is no file {path}")
         return read_document(path), path.parent
+
+
+def _kept(table: Mapping[str, Any]) -> Kept | StageTime:
+    """What a run leaves; ``channel = "stage[lift].end"`` is a time of a stage."""
+    time = StageTime.of_text(table["channel"]) if table.keys() == {"channel"} else None
+    return time or Kept(**table)
 
 
 def _require_tables(document: Document) -> None:
@@ -204,14 +219,14 @@ class _Reader:
         except SceneError as error:
             self.document.fail(("over",), str(error))
 
-    def keep(self) -> dict[str, Kept]:
+    def keep(self) -> dict[str, Kept | StageTime]:
         """What each run leaves, by name."""
         given = self.document.data.get("keep")
         if not isinstance(given, list) or not given:
             self.document.fail(
                 ("keep",), f"keep is {shown(given)}; give [[keep]] for each of what runs leave"
             )
-        found: dict[str, Kept] = {}
+        found: dict[str, Kept | StageTime] = {}
         for place, one in enumerate(given):
             path = ("keep", place)
             table = plain(keywords(KEEP, self.checker.table(path, KEEP, one)))
@@ -219,13 +234,13 @@ class _Reader:
             if name in found:
                 self.document.fail((*path, "name"), f"[[keep]] {place + 1}: name {name!r} is there twice")
             try:
-                found[name] = Kept(**table)
+                found[name] = _kept(table)
                 checked_keep(found)
             except SceneError as error:
                 self.document.fail(path, f"[[keep]] {place + 1}: {error}")
         return found
 
-    def until(self, keep: Mapping[str, Kept], members: Members) -> dict[str, float] | None:
+    def until(self, keep: Mapping[str, Kept | StageTime], members: Members) -> dict[str, float] | None:
         """Half widths by statistic."""
         if "until" not in self.document.data:
             return None

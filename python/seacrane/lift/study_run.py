@@ -9,6 +9,7 @@ from pathlib import Path
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.other_sea import WORDS, require_same_sea
 from seacrane.ensembles.paths import require_paths
+from seacrane.ensembles.stage_values import stage_paths
 from seacrane.ensembles.study import Source
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
@@ -52,18 +53,14 @@ def run_study(
     """
     study, target = StudyFile.load(path), Path(folder)
     lift = study.lift()
-    if lift.stages:
-        raise FileFormatError(
-            f"{Path(path).name}: its lift has stages, and a study runs one run: leave them out"
-        )
     t_end, method, outputs = study.settings(lift)
     source = _source(study, lift)
     text = read_whole(Path(path), LARGEST_FILE, "no study file is")
     _claim(target, text)
     done = ensemble(
-        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy, t_end=t_end,
-        method=method, outputs=outputs, executor=executor, store=target / MEMBERS,
-        progress=progress,
+        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy,
+        stages=lift.stages, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
+        executor=executor, store=target / MEMBERS, progress=progress,
     )  # fmt: skip
     _write(target / FILE, text)
     return done
@@ -74,10 +71,10 @@ def _source(study: StudyFile, lift: Lift) -> Source:
     scene = lift.scene()
     study.require_accuracy(scene)
     tables, axes = lift.tables, study.members.axes
-    keys = keys_in(tables)
+    keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():
         try:
-            require_paths(scene, [name], WORDS, keys)
+            require_paths(scene, [name], WORDS, [*keys, *of_stages])
             for value in (values[0], values[-1]) if name in keys else ():
                 Lift(with_keys(tables, keys, {name: value}))
         except (FileFormatError, SceneError) as error:

@@ -17,6 +17,7 @@ from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import equilibrium, held
 from seacrane.ensembles.other_sea import require_same_sea
+from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.study import Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
@@ -35,6 +36,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.staged_run import simulate_stages
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -46,6 +48,7 @@ PROBES = 2  # seeds of each cell that are compared with the linear model
 DT = 0.5  # s between outputs
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
 FEWEST_PERIODS = 10.0  # that a record holds
+DURATION, START_UP = 1800.0, 300.0  # s
 DELAY = 2.0  # s before a progress bar shows
 LARGEST_TURN = 0.2  # rad, of a body: what the linear model says of more is no state to start from
 
@@ -61,9 +64,10 @@ def allowable_hs(
     domain: Literal["auto", "frequency", "time"] = "auto",
     linear_within: float = LINEAR_WITHIN,
     seeds: Sequence[int] = tuple(range(1, 11)),
-    duration: float = 1800.0,
-    start_up: float = 300.0,
+    duration: float | None = None,
+    start_up: float | None = None,
     time: float = 0.0,
+    stages: Stages = (),
     alpha: AlphaFactor | float = 1.0,
     hours: float = 12.0,
     executor: Executor | None = None,
@@ -97,12 +101,16 @@ def allowable_hs(
         criterion and both probes, at the Hs that it finds, or at the last `hs` if that is lower.
     seeds : sequence of int
         Of runs, at least 3. The first two are the probes.
-    duration, start_up : float
-        Of each run: evaluated, and left out before, s. Runs begin in the linear steady state, where there is
-        a linear model, and at rest elsewhere. Maxima of shorter runs than the exposure time are
-        carried to it by Gumbel's distribution.
+    duration, start_up : float, optional
+        Of each run: evaluated, and left out before, s; default 1800 and 300. Runs begin in the linear steady
+        state, where there is a linear model, and at rest elsewhere. Maxima of shorter runs than the exposure
+        time are carried to it by Gumbel's distribution.
     time : float
         At which the references are held, s.
+    stages : sequence of Stage, or callable
+        The lift is run in these stages from rest, as by `ensemble`, in runs alone: `domain` is "time". A
+        criterion's largest value is that of one lift, or of one of its stages; what it reaches in the same
+        lift in calm water is its value at rest.
     alpha : AlphaFactor
         For the uncertainty of forecasts; default 1. It does not change `allowable_hs`: `forecast_hs` is both
         together.
@@ -126,11 +134,14 @@ def allowable_hs(
     ------
     SceneError
         For values that make no sense, a channel or a sea that the scene does not have, a scene with no rest
-        state, or with domain="frequency" one without a linear model.
+        state, or with domain="frequency" one without a linear model; for what lifts in stages do not take:
+        a duration, an exposure time, "significant", motion=True, domain="frequency".
     KeyboardInterrupt
         On Ctrl-C; runs that came back before are in the store.
     """
-    asked = _Asked.of(criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain)
+    asked = _Asked.of(
+        criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages
+    )
     factor = alpha_of(alpha)
     period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
@@ -140,13 +151,15 @@ def allowable_hs(
     outputs = Outputs(
         dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
     )
-    still = _Still.of(scene, asked.criteria, number_of("time", time), how, outputs)
+    still = _Still.of(scene, asked, number_of("time", time), how, outputs)
     study = _Study(asked=asked, still=still, method=how, outputs=outputs)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
     failures: dict[int, str] = {}
-    if domain != "time":
+    if asked.stages:
+        cells.refuse("a lift in stages")
+    elif domain != "time":
         study.by_frequency(cells, strict=domain == "frequency", progress=progress)
-    if domain == "auto" and cells.has_linear:
+    if domain == "auto" and not asked.stages and cells.has_linear:
         study.test(cells, executor, progress)
     if cells.wanted:
         failures = study.by_time(cells, executor, store, progress)
@@ -165,32 +178,36 @@ class _Asked:
     directions: tuple[float, ...]
     hs: tuple[float, ...]
     seeds: tuple[int, ...]
-    duration: float
+    duration: float | None
     start_up: float
     linear_within: float
+    stages: Stages
 
     @classmethod
     def of(
         cls, criteria: Any, tp: Any, directions: Any, hs: Any, seeds: Any, duration: Any, start_up: Any,
-        linear_within: Any, domain: Any,
+        linear_within: Any, domain: Any, stages: Any,
     ) -> _Asked:  # fmt: skip
         if domain not in ("auto", "frequency", "time"):
             raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
-        begin = not_negative_of("start_up", start_up, "s")
+        in_stages, listed = checked_stages_of("allowable_hs", stages), _criteria(criteria)
+        _require_fit(listed, in_stages, {"duration": duration, "start_up": start_up}, domain)
+        begin = not_negative_of("start_up", _usual(start_up, 0.0 if in_stages else START_UP), "s")
         within = _ascending("direction_deg", directions)
         if within[-1] - within[0] >= 360.0:
             raise SceneError(
                 f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
                 "once"
             )
-        periods, span = _ascending("tp", tp, above_zero=True), positive_of("duration", duration)
-        if span < FEWEST_PERIODS * periods[-1]:
+        periods = _ascending("tp", tp, above_zero=True)
+        span = None if in_stages else positive_of("duration", _usual(duration, DURATION))
+        if span is not None and span < FEWEST_PERIODS * periods[-1]:
             raise SceneError(
                 f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
                 f"{FEWEST_PERIODS * periods[-1]:g} s"
             )
         return cls(
-            criteria=_criteria(criteria),
+            criteria=listed,
             tp=periods,
             directions=within,
             hs=_ascending("hs", hs, above_zero=True),
@@ -198,6 +215,7 @@ class _Asked:
             duration=span,
             start_up=begin,
             linear_within=positive_of("linear_within", linear_within),
+            stages=in_stages,
         )
 
 
@@ -210,9 +228,7 @@ class _Still:
     rest: Array
 
     @classmethod
-    def of(
-        cls, scene: Any, criteria: tuple[Criterion, ...], time: float, method: Method, outputs: Outputs
-    ) -> _Still:
+    def of(cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
         if scene.waves is None:
@@ -222,9 +238,12 @@ class _Still:
             )
         require_same_sea(scene, ("hs", "tp", "direction_deg"))
         state = equilibrium(scene, time=time)
+        if asked.stages:
+            rest = _calm_extremes(scene, state, asked, method, outputs)
+            return cls(scene=scene, state=state, rest=rest)
         calm = held(scene, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
-        rest = np.array([result.curve(one.channel, **one.names)[0] for one in criteria])
+        rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
         return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
 
 
@@ -257,7 +276,7 @@ class _Study:
 
     def test(self, cells: Cells, executor: Executor | None, progress: bool) -> None:
         """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
-        assert cells.linear is not None
+        assert cells.linear is not None and self.asked.duration is not None
         prober = Prober(
             scene=self.still.scene, linear=cells.linear,
             criteria=self.asked.criteria, start=self.still.state.time, duration=self.asked.duration,
@@ -283,10 +302,10 @@ class _Study:
         """Fill the cells that are wanted by runs; why members failed, by number."""
         storms = Storms(
             scene=self.still.scene, begin=self.still.state.time,
-            start=steady_start(self.still.scene, self.still.state),
+            start=self._start(),
             start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
             seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
-            outputs=self.outputs,
+            outputs=self.outputs, stages=self.asked.stages,
         )  # fmt: skip
         places = cells.wanted
         of_cells: list[Cell] = [(self.asked.tp[i], self.asked.directions[j]) for i, j in places]
@@ -294,6 +313,60 @@ class _Study:
         for place, by_time in zip(places, storms.allowable(found, of_cells), strict=True):
             cells.take_time(place, by_time)
         return dict(found.failures)
+
+    def _start(self) -> Start:
+        """Where runs begin: in the linear steady state, and lifts in stages at rest."""
+        still = self.still
+        return still.state if self.asked.stages else steady_start(still.scene, still.state)
+
+
+def _calm_extremes(
+    scene: Scene, state: _core.State, asked: _Asked, method: Method, outputs: Outputs
+) -> Array:
+    """What each criterion reaches in the same lift in calm water."""
+    calm = scene.copy(waves=None)
+    stages = asked.stages(calm) if callable(asked.stages) else asked.stages
+    result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
+    found = []
+    for one in asked.criteria:
+        values = result.curve(one.channel, **one.names)[result.part(stage=one.stage or None)]
+        found.append(values.max() if one.minimum is None else values.min())
+    return np.array(found)
+
+
+def _require_fit(criteria: Sequence[Criterion], stages: Stages, spans: dict[str, Any], domain: Any) -> None:
+    """Raise SceneError for what a lift with or without stages does not take."""
+    of_stages = {one.stage for one in criteria if one.stage}
+    if not stages:
+        if of_stages:
+            raise SceneError(
+                f"criteria: stage {min(of_stages)!r} is asked for, and the lift has none; give stages"
+            )
+        return
+    if not callable(stages):
+        missing = sorted(of_stages - {one.name for one in stages})
+        if missing:
+            known = ", ".join(one.name for one in stages)
+            raise SceneError(f"criteria: there is no stage {missing[0]!r}; the lift has {known}")
+    given = [name for name, value in spans.items() if value is not None]
+    if given:
+        raise SceneError(f"{given[0]}: stages tell how long a lift takes; leave {given[0]} out")
+    if domain == "frequency":
+        raise SceneError("domain is 'frequency': a lift in stages has no linear model; leave domain out")
+    for one in criteria:
+        if one.exposure is not None:
+            raise SceneError(
+                f"criterion {one.name!r}: a lift in stages is its own exposure time; leave it out"
+            )
+        if one.statistic == "significant" or one.motion:
+            what = (
+                "motion=True is a distance from rest" if one.motion else "'significant' is of a long record"
+            )
+            raise SceneError(f"criterion {one.name!r}: {what}, which a lift in stages does not have")
+
+
+def _usual(given: Any, usual: float) -> Any:
+    return usual if given is None else given
 
 
 def _criteria(given: Any) -> tuple[Criterion, ...]:

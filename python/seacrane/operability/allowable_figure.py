@@ -61,7 +61,7 @@ def plot_allowable_hs(table: AllowableHs, *, kind: str = "map", forecast: bool =
 
 def _notes(table: AllowableHs, with_alpha: bool, kind: str) -> list[str]:
     told = table.alpha.told(hours=table.hours)
-    notes = [f"{letter}: {one.told()}" for letter, one in zip(letters(), table.criteria, strict=False)]
+    notes = table.told_criteria()
     if kind == "map":
         notes.append("in a frame: by runs, else by the linear model; >: no criterion is reached")
     return [*notes, told if with_alpha else f"{told}: not in these numbers"]

@@ -68,11 +68,11 @@ class AllowableHs:
         *,
         hs: Sequence[float],
         seeds: Sequence[int],
-        duration: float,
+        duration: float | None,
         linear_within: float,
         failures: Mapping[int, str],
     ) -> AllowableHs:
-        """The table of filled cells."""
+        """The table of filled cells; without a duration it is of lifts in stages."""
         import xarray
 
         names = [one.name for one in cells.criteria]
@@ -119,12 +119,12 @@ class AllowableHs:
             },
             {
                 "scene": scene,
-                "criteria": "; ".join(one.told() for one in cells.criteria),
+                "criteria": "; ".join(one.told(one_lift=duration is None) for one in cells.criteria),
                 "alpha_factor": alpha.told(hours=hours),
                 "operation_hours": hours,
                 "hs_of_runs": list(hs),
                 "seeds": list(seeds),
-                "duration": duration,
+                **({} if duration is None else {"duration": duration}),
                 "linear_within": linear_within,
             },
         )
@@ -173,11 +173,18 @@ class AllowableHs:
     def _title(self) -> str:
         return f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves"
 
+    def told_criteria(self) -> list[str]:
+        """The criteria in words, each after its letter."""
+        one_lift = "duration" not in self.dataset.attrs
+        return [
+            f"{letter}: {one.told(one_lift=one_lift)}"
+            for letter, one in zip(letters(), self.criteria, strict=False)
+        ]
+
     def _words(self) -> list[str]:
         """What the table rests on: criteria, domains, alpha factor."""
-        named = {one.name: letter for one, letter in zip(self.criteria, letters(), strict=False)}
         counts = {name: int((self.dataset["domain"] == name).sum()) for name in MARK}
-        lines = [f"{named[one.name]}: {one.told()}" for one in self.criteria]
+        lines = self.told_criteria()
         lines.append(
             f"f: by the linear model ({counts['frequency']} cells), t: by runs ({counts['time']} cells); "
             ">: reached by no criterion"

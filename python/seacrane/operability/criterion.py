@@ -10,7 +10,7 @@ import numpy as np
 from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of
+from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, text_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.statistics.gaussian import THREE_HOURS
@@ -32,7 +32,7 @@ class Criterion:
     ----------
     channel : str
         As results name it, such as "hook_load", or a selector with names in brackets, as of `Result.select`:
-        "position[payload, z]".
+        "position[payload, z]"; of a lift in stages that of one stage, "hook_load[stage=lift]".
     maximum, minimum : float, optional
         One of both, in the SI unit of the channel (rad for angles).
     names : mapping of str to str
@@ -40,13 +40,15 @@ class Criterion:
     statistic : str
         "mpm" (default), "mean" or "p90" of the largest value in the exposure time, or "significant": the mean
         of the highest third of crests. Of a minimum, the same of the smallest value and of troughs.
-    exposure : float
-        s; default 3 h.
+    exposure : float, optional
+        s; default 3 h. Of a lift in stages it is left out: the largest value is that of one lift.
     motion : bool
         Whether `maximum` bounds the distance from the value at rest, to either side. Default False: the value
         itself.
     name : str
         Default: the channel and the names.
+    stage : str
+        Of a lift in stages: the outputs of this one alone.
 
     Raises
     ------
@@ -59,22 +61,25 @@ class Criterion:
     minimum: float | None = None
     names: Mapping[str, str] = field(default_factory=dict)
     statistic: str = "mpm"
-    exposure: float = THREE_HOURS
+    exposure: float | None = None
     motion: bool = False
     name: str = ""
+    stage: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.names, Mapping):
             raise SceneError(f"criterion: names is {shown(self.names)}; give names by dimension")
         pick = pick_of("criterion", self.channel, self.names)
-        if pick.parts:
-            raise SceneError(
-                f"criterion {pick}: {pick.parts} is not a criterion's; what asks for it says start_up"
-            )
+        if pick.after is not None:
+            raise SceneError(f"criterion {pick}: after is not a criterion's; what asks for it says start_up")
+        if pick.stage is not None and self.stage:
+            raise SceneError(f"criterion {pick}: stage is given twice; leave one out")
         channel = pick.channel
+        object.__setattr__(self, "stage", text_of("criterion: stage", self.stage) or pick.stage or "")
         object.__setattr__(self, "channel", channel)
         object.__setattr__(self, "names", dict(pick.names))
-        usual = " ".join([channel.replace("_", " "), *map(str, self.names.values())])
+        of_stage = [f"in {self.stage}"] if self.stage else []
+        usual = " ".join([channel.replace("_", " "), *map(str, self.names.values()), *of_stage])
         object.__setattr__(self, "name", name_of("criterion", self.name, usual))
         self._require_bound()
         if self.statistic not in STATISTICS:
@@ -82,7 +87,8 @@ class Criterion:
                 f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
                 f"{', '.join(STATISTICS)}"
             )
-        positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
+        if self.exposure is not None:
+            positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
 
     def _require_bound(self) -> None:
         if (self.maximum is None) == (self.minimum is None):
@@ -95,6 +101,11 @@ class Criterion:
             raise SceneError(
                 f"criterion {self.name!r}: motion=True bounds a distance; give a maximum above zero"
             )
+
+    @property
+    def span(self) -> float:
+        """The exposure time, s, of a lift without stages."""
+        return THREE_HOURS if self.exposure is None else self.exposure
 
     @property
     def bound(self) -> float:
@@ -112,14 +123,15 @@ class Criterion:
         """From the value at rest to the bound, in the unit of the channel; negative beyond it."""
         return self.bound if self.motion else self.sides[0] * (self.bound - rest)
 
-    def told(self) -> str:
-        """The criterion in words."""
+    def told(self, *, one_lift: bool = False) -> str:
+        """The criterion in words, over its exposure time or over one lift in stages."""
         what, asked = "value", STATISTICS[self.statistic]
         if self.motion:
             what = "motion to either side"
         if self.minimum is not None:
             asked = asked.replace("maximum", "minimum")
-        over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
+        over = " in one lift" if one_lift else f" in {self.span:g} s"
+        over = "" if self.statistic == "significant" else over
         sign = "<=" if self.minimum is None else ">="
         unit = unit_of(self.channel, self.names.values())
         return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}"

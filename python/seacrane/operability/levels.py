@@ -40,7 +40,7 @@ def gaussian_level(criterion: Criterion, moments: Array) -> float:
     found = gaussian_maximum(
         std=1.0,
         rate=sides * float(np.sqrt(m2 / m0)) / (2.0 * np.pi),
-        exposure=criterion.exposure,
+        exposure=criterion.span,
         bandwidth=max(float(bandwidth) / sides, NARROWEST),
     )
     return float(getattr(found, criterion.statistic).value)
@@ -57,16 +57,19 @@ class RecordNumbers:
         Names along its dimensions.
     after : float
         s: earlier outputs are left out.
+    stage : str
+        Of a lift in stages: the outputs of this one alone.
     """
 
     channel: str
     names: Mapping[str, str] = field(default_factory=dict)
     after: float = 0.0
+    stage: str = ""
 
     def __call__(self, result: Result) -> Array:
         """The numbers of a result."""
         values = result.curve(self.channel, **self.names)
-        return record_numbers(values[result.time >= self.after])
+        return record_numbers(values[result.part(after=self.after, stage=self.stage or None)])
 
 
 def record_numbers(values: Array) -> Array:
@@ -108,7 +111,7 @@ def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
     return np.asarray(np.max(sides, axis=0))
 
 
-def seeds_level(criterion: Criterion, values: Array, duration: float) -> Estimate:
+def seeds_level(criterion: Criterion, values: Array, duration: float | None) -> Estimate:
     """The criterion's statistic of several seeds, from the value at rest, with its 95 % interval.
 
     Parameters
@@ -116,8 +119,8 @@ def seeds_level(criterion: Criterion, values: Array, duration: float) -> Estimat
     criterion : Criterion
     values : ndarray, shape (n,)
         `reached` of each, NaN where a seed failed.
-    duration : float
-        Of each record, s.
+    duration : float or None
+        Of each record, s; None: each is one lift, and so is what is asked for.
 
     Returns
     -------
@@ -133,7 +136,8 @@ def seeds_level(criterion: Criterion, values: Array, duration: float) -> Estimat
         return Estimate(value=float(good[0]), low=float(good[0]), high=float(good[0]))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the interval is part of the answer
-        found = seed_extremes(good, duration=duration, exposure=criterion.exposure)
+        spans = (1.0, 1.0) if duration is None else (duration, criterion.span)
+        found = seed_extremes(good, duration=spans[0], exposure=spans[1])
     estimate: Any = getattr(found.gumbel, criterion.statistic)
     return Estimate(value=estimate.value, low=estimate.low, high=estimate.high)
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.stage_values import Stages
 from seacrane.ensembles.study import Start
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import RecordNumbers, reached, seeds_level
@@ -51,8 +52,10 @@ class Storms:
         Time of the state at rest, s.
     start : State or SteadyStart
         Where runs begin.
-    start_up, duration : float
-        Left out, and evaluated, s.
+    start_up : float
+        Left out, s.
+    duration : float or None
+        Evaluated, s; None of lifts in stages, each of which is one.
     hs : tuple of float
         m, ascending.
     seeds : tuple of int
@@ -61,19 +64,22 @@ class Storms:
         Value of each at rest.
     method, outputs
         Of the runs.
+    stages
+        Of lifts in stages, as of `ensemble`.
     """
 
     scene: Scene
     begin: float
     start: Start
     start_up: float
-    duration: float
+    duration: float | None
     hs: tuple[float, ...]
     seeds: tuple[int, ...]
     criteria: tuple[Criterion, ...]
     rest: Array
     method: Method
     outputs: Outputs
+    stages: Stages = ()
 
     def run(
         self,
@@ -92,11 +98,14 @@ class Storms:
         ]
         after = self.begin + self.start_up
         keep = {
-            f"criterion_{i}": RecordNumbers(channel=one.channel, names=one.names, after=after)
+            f"criterion_{i}": RecordNumbers(
+                channel=one.channel, names=one.names, after=after, stage=one.stage
+            )
             for i, one in enumerate(self.criteria)
         }
         return ensemble(
-            self.scene, over=over, keep=keep, t_end=after + self.duration, method=self.method,
+            self.scene, over=over, keep=keep, stages=self.stages,
+            t_end=None if self.duration is None else after + self.duration, method=self.method,
             outputs=self.outputs, start=self.start, executor=executor,
             store=store, progress=progress,
         )  # fmt: skip
