@@ -22,9 +22,9 @@ from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, members_of
+from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
 from seacrane.ensembles.other_sea import WORDS
-from seacrane.ensembles.stage_values import Stages, checked_stages_of
+from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
@@ -32,7 +32,7 @@ from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.ensembles.variables import NOT_RUN, RESERVED
 from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.run.lanes import lanes_of
@@ -40,6 +40,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
+from seacrane.statistics.distribution import Distribution, distribution
 
 if TYPE_CHECKING:
     import pandas
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
 USUAL_END = 100.0  # s
 MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
+POOLED = ("seed", START_TIME)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -88,6 +90,49 @@ class Ensemble:
     def to_dataframe(self) -> pandas.DataFrame:
         """What was kept as columns of a table, over the parameters; of kept curves over their axes too."""
         return self.dataset.drop_vars(("failure", "validity", "kept_apart"), errors="ignore").to_dataframe()
+
+    def distribution(self, name: str, **at: Value) -> Distribution:
+        """How what was kept is distributed over the seeds and, of lifts in stages, their start times.
+
+        Parameters
+        ----------
+        name : str
+            What was kept, one number of each member.
+        **at
+            The value of each other parameter, such as ``hs=1.5``, where there are others.
+
+        Returns
+        -------
+        Distribution
+            With intervals by resampling seeds: what begins at several times in one sea is dependent.
+
+        Raises
+        ------
+        SceneError
+            For something else than one number by seed and start time.
+
+        Warns
+        -----
+        FewSeedsWarning
+        """
+        if name not in self.dataset:
+            raise SceneError(
+                f"distribution: nothing is kept as {name!r}; kept are {', '.join(map(str, self.dataset))}"
+            )
+        table = self.dataset[name]
+        for dim, value in at.items():
+            if dim not in table.dims or value not in table[dim]:
+                raise SceneError(
+                    f"distribution: {dim}={shown(value)} is not in it; it is over {dict(table.sizes)}"
+                )
+            table = table.sel({dim: value})
+        table = table.squeeze([dim for dim in table.dims if dim not in POOLED and table.sizes[dim] == 1])
+        others = [str(dim) for dim in table.dims if dim not in POOLED]
+        if others or "seed" not in table.dims:
+            missing = f"say which, as in {others[0]}=..." if others else "give several seeds in over"
+            raise SceneError(f"distribution: {name!r} is over {', '.join(map(str, table.dims))}; {missing}")
+        rows = table.transpose("seed", ...).to_numpy().reshape(table.sizes["seed"], -1)
+        return distribution(rows, name=name, unit=str(table.attrs.get("units", "")))
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Ensemble:
@@ -149,6 +194,8 @@ def ensemble(
         "stages.lift.commands.hoist.rate" or, of a `Move`, "stages.lift.commands.slew.to". What is kept may
         be of one stage, "hook_load[stage=lift].max", and its time, "stage[lift].end" ("start", "duration").
         A member whose stage is not over in its maximum duration fails, by its name. Stages have no lanes.
+        In a grid, "start_time" (s) is when the lift begins: the scene waits until then in the same sea, in
+        one run that is carried from each start to the next, and a member begins in its state there.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     start : State or callable, optional
@@ -217,15 +264,17 @@ def ensemble(
     if executor is not None and not isinstance(executor, Executor):
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
-    wanted, members, in_stages = checked_keep(keep), members_of(over), checked_stages_of("ensemble", stages)
+    wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
+    starts, members = _start_times(over, in_stages)
     if in_stages and accuracy is not None:
         raise SceneError("ensemble: accuracy is for runs without stages; give rtol")
     targets = () if until is None else targets_of(until, wanted)
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        t_end=_end(t_end, in_stages),
+        t_end=math.inf if starts else _end(t_end, in_stages),
         stages=in_stages,
+        start_times=starts,
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
@@ -237,7 +286,7 @@ def ensemble(
             what.require_times(study.t_end, recorded.dt_out)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
-    size = _pack_size(pack, len(members), study.lanes)
+    size = _pack_size(pack, len(members), study.lanes, together=len(starts))
     raises = on_error == "raise"
     probes = {}
     if accuracy is not None:
@@ -281,6 +330,26 @@ def _require_free_names(members: Members, keep: Keep) -> None:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
+def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
+    """Times at which lifts begin, s, ascending, and the members, those of one sea next to each other.
+
+    Raises
+    ------
+    SceneError
+        As `members_of`, for times in a list or design, negative ones, and those of a lift without stages.
+    """
+    if START_TIME not in (over if isinstance(over, Mapping) else members_of(over).axes):
+        return (), members_of(over)
+    if not isinstance(over, Mapping):
+        raise SceneError(f"over: {START_TIME} is of grids; give a mapping of names to values")
+    if not stages:
+        raise SceneError(f"over: {START_TIME} is of lifts in stages; give stages, or start")
+    ordered = {name: values for name, values in over.items() if name != START_TIME}
+    members = members_of(ordered | {START_TIME: over[START_TIME]})
+    times = [not_negative_of(f"over: {START_TIME}", one, "s") for one in members.axes[START_TIME]]
+    return tuple(sorted(times)), members
+
+
 def _end(t_end: float | None, stages: Stages) -> float:
     """Until when the members run, s; in stages as long as these take at most, where that is known."""
     if not stages:
@@ -304,7 +373,10 @@ def _lanes(lanes: int | None, pack: int | None, members: Members, *, in_stages: 
     return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
 
 
-def _pack_size(pack: int | None, count: int, lanes: int) -> int:
+def _pack_size(pack: int | None, count: int, lanes: int, together: int) -> int:
+    """`together` is how many members share what is done before the first of them."""
+    if pack is None and together:
+        return min(LARGEST_PACK, together)
     if pack is None:
         return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
     if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:

@@ -9,16 +9,19 @@ from functools import cached_property, lru_cache, partial
 from threading import Lock
 from typing import Any, TypeVar
 
+from seacrane import _core
 from seacrane.description.given import given_vessels
+from seacrane.ensembles.carried import Carried, stepped
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study, Values
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
-from seacrane.run.advance import ended
 from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
+from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
@@ -28,6 +31,7 @@ TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
 MOST_HELD = 32  # scenes that differ in more than their sea
+MOST_CARRIED = 32  # runs that wait for a lift
 
 
 class Job:
@@ -79,7 +83,7 @@ class Job:
             if failed:
                 runs = self._begun(members)
                 note_apart([run for run in runs if isinstance(run, Run)], failed)
-        runs = [run if isinstance(run, str) else _tried(partial(_stepped, run)) for run in runs]
+        runs = [run if isinstance(run, str) else _tried(partial(stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
     def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
@@ -109,22 +113,6 @@ class Job:
         return Outcome(index=index, kept=self.study.kept_of(result), **told)
 
 
-def _stepped(run: Run | StagedRun) -> Run | StagedRun:
-    """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
-    if isinstance(run, StagedRun):
-        while run.advance():
-            pass
-        if run.interrupted:
-            raise KeyboardInterrupt
-        return run
-    with Interrupts() as interrupts:
-        run = ended(run, (), interrupts)
-    interrupts.take()  # pressed as the run ended: the members after it are not to be run
-    if run.interrupted:
-        raise KeyboardInterrupt
-    return run
-
-
 def _tried(work: Callable[[], Some]) -> Some | str:
     """What it returns, or in words why it failed."""
     try:
@@ -149,6 +137,7 @@ class Prepared:
     def __init__(self, study: Study) -> None:
         self._study = study
         self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
+        self._carried: OrderedDict[str, Carried] = OrderedDict()
         self._lock = Lock()
 
     def run(self, values: Values) -> Run | StagedRun:
@@ -168,10 +157,25 @@ class Prepared:
     def _in_stages(self, values: Values) -> StagedRun:
         study = self._study
         scene = study.scene(values)
-        return StagedRun(
-            scene, study.stages_of(scene, values), start=study.start_of(scene), method=study.method,
-            outputs=study.outputs,
-        )  # fmt: skip
+        stages = study.stages_of(scene, values)
+        start = study.start_of(scene)
+        if START_TIME in values:
+            start = self._carrier(scene, stages, start, values).at(float(values[START_TIME]))
+        return StagedRun(scene, stages, start=start, method=study.method, outputs=study.outputs)
+
+    def _carrier(
+        self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values
+    ) -> Carried:
+        """What carries the scene of these values from start to start."""
+        study = self._study
+        key = repr([(name, value) for name, value in values.items() if name != START_TIME])
+        with self._lock:
+            if key not in self._carried:
+                self._carried[key] = Carried(
+                    scene, stages, start=start, times=study.start_times, method=study.method,
+                    outputs=study.outputs,
+                )  # fmt: skip
+            return _kept_of_late(self._carried, key, MOST_CARRIED)
 
     def _begun(self, scene: Scene) -> Run:
         study = self._study
@@ -184,7 +188,12 @@ class Prepared:
         with self._lock:
             if key not in self._held:
                 self._held[key] = self._begun(self._study.scene(others))
-            self._held.move_to_end(key)
-            if len(self._held) > MOST_HELD:
-                self._held.popitem(last=False)
-            return self._held[key]
+            return _kept_of_late(self._held, key, MOST_HELD)
+
+
+def _kept_of_late(held: OrderedDict[Any, Some], key: Any, most: int) -> Some:
+    """What is held under a key, which is the last one to be dropped where there are more than so many."""
+    held.move_to_end(key)
+    if len(held) > most:
+        held.popitem(last=False)
+    return held[key]

@@ -15,6 +15,7 @@ from seacrane.scene.scene import Scene
 
 Stages = Sequence[Stage] | Callable[[Scene], Sequence[Stage]]
 FIRST = "stages."
+START_TIME = "start_time"  # when a lift in stages begins, s
 TIMES = ("duration", "maximum_duration")
 MOVED = ("to", "by", "over")  # of a `Move`
 Place = tuple[str, ...]  # of a value in a stage
@@ -31,14 +32,16 @@ def checked_stages_of(what: str, stages: Any) -> Stages:
 
 def scene_values(values: Mapping[str, Any]) -> dict[str, Any]:
     """The values that are not of stages."""
-    return {name: value for name, value in values.items() if not name.startswith(FIRST)}
+    return {
+        name: value for name, value in values.items() if name != START_TIME and not name.startswith(FIRST)
+    }
 
 
 def stage_paths(stages: Stages) -> list[str]:
     """Of every number of the stages; of stages that a function tells none is known before it is called."""
     if callable(stages):
-        return []
-    return [path for stage in stages for path, _ in _places(stage)]
+        return [START_TIME]
+    return [START_TIME] * bool(stages) + [path for stage in stages for path, _ in _places(stage)]
 
 
 def with_stage_values(stages: Sequence[Stage], values: Mapping[str, Any]) -> list[Stage]:

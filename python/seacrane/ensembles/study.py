@@ -48,6 +48,8 @@ class Study:
         Runs that are stepped side by side, by the number of the member; 1: none.
     stages : sequence of Stage, or callable
         Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
+    start_times : tuple of float
+        At which lifts in stages begin, where that varies, s, ascending.
     """
 
     source: Source
@@ -58,6 +60,7 @@ class Study:
     start: Start = None
     lanes: int = 1
     stages: Stages = ()
+    start_times: tuple[float, ...] = ()
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""

@@ -14,11 +14,13 @@ class Interrupts:
     """Holds Ctrl-C back within the block until `take` is called.
 
     What is pressed after the last `take`, such as Ctrl-C twice in a row, asks for nothing more: the run
-    has stopped, and its outputs are on their way to the caller.
+    has stopped, and its outputs are on their way to the caller. A block within another one takes what is
+    pressed in it at once.
     """
 
     def __init__(self) -> None:
-        self._before: Callable[[int, FrameType | None], Any] | None = None
+        self._before: Callable[[int, FrameType | None], Any] | None = None  # what Ctrl-C stands for
+        self._outer: Callable[[int, FrameType | None], Any] | None = None
         self._pressed: list[tuple[int, FrameType | None]] = []
         self._at_once = False
 
@@ -26,15 +28,17 @@ class Interrupts:
         if threading.current_thread() is threading.main_thread():
             before = signal.getsignal(signal.SIGINT)
             if callable(before):
-                self._before = before
+                around = getattr(before, "__self__", None)
+                self._outer = before
+                self._before = around._before if isinstance(around, Interrupts) else before
                 signal.signal(signal.SIGINT, self._handle)
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._before is not None:
-            signal.signal(signal.SIGINT, self._before)
+        if self._outer is not None:
+            signal.signal(signal.SIGINT, self._outer)
 
     def take(self) -> None:
         """Do what Ctrl-C stands for, if it was pressed: as a rule, raise KeyboardInterrupt."""

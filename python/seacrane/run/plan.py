@@ -7,6 +7,7 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.edit import replace_element
+from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
@@ -75,6 +76,12 @@ def waiting(stages: Sequence[Stage]) -> set[str]:
         released |= set(stage.release)
         out |= set(stage.connect) - released
     return out
+
+
+def first_scene(scene: Scene, stages: Sequence[Stage]) -> Scene:
+    """The scene before the first stage, without what stages connect."""
+    out = decided(scene)
+    return without(out, waiting(checked_stages(out, stages)))
 
 
 def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:

@@ -7,6 +7,8 @@ from seacrane.statistics.seeds import SeedExtremes as SeedExtremes
 from seacrane.statistics.seeds import seed_extremes as seed_extremes
 from seacrane.statistics.record_extremes import RecordExtremes as RecordExtremes
 from seacrane.statistics.record_extremes import record_extremes as record_extremes
+from seacrane.statistics.distribution import Distribution as Distribution
+from seacrane.statistics.distribution import distribution as distribution
 from seacrane.statistics.tail import Tail as Tail
 from seacrane.statistics.gaussian import gaussian_maximum as gaussian_maximum
 from seacrane.statistics.control_variate import controlled_mean as controlled_mean

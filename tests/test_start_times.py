@@ -1,0 +1,126 @@
+"""Lifts that begin at several times in one long sea, and distributions of what depends on one another."""
+
+from __future__ import annotations
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import matplotlib.figure
+import numpy as np
+import pytest
+from test_staged_ensembles import HOW, KEEP, STAGES, feeder
+
+from seacrane import SceneError, ensemble, simulate, simulate_stages
+from seacrane.ensembles import Ensemble
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.statistics import distribution
+from seacrane.warnings import FewSeedsWarning
+
+OVER: dict[str, Any] = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
+
+
+@pytest.fixture(scope="module")
+def lifts() -> Ensemble:
+    return ensemble(feeder(), stages=STAGES, over=OVER, keep=KEEP, **HOW)
+
+
+def test_each_begins_in_the_state_of_its_sea_to_the_bit(lifts: Ensemble) -> None:
+    for seed in OVER["seed"]:
+        scene = with_sea(feeder(), {"seed": seed})
+        state = None
+        for begin in sorted(OVER["start_time"]):
+            state = simulate(scene, begin, start=state, **HOW).state if begin else state
+            run = simulate_stages(scene, STAGES, start=state, **HOW)
+            member = lifts.dataset.sel(seed=seed, start_time=begin)
+            assert float(member.peak.squeeze()) == run.curve("hook_load[hoist]")[run.stage("up")].max()
+            assert float(member.lifted) == run.stages[1].end
+            assert run.stages[0].start == begin
+    assert len(np.unique(lifts.dataset.peak)) == 6
+
+
+@pytest.mark.parametrize("pack", [1, 4])
+def test_packs_threads_processes_and_a_resumed_store_give_the_same(
+    pack: int, lifts: Ensemble, tmp_path: Path
+) -> None:
+    same: dict[str, Any] = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
+    with ThreadPoolExecutor(2) as threads:
+        assert ensemble(feeder(), executor=threads, **same).dataset.identical(lifts.dataset)
+    with ProcessPoolExecutor(2) as processes:
+        done = ensemble(feeder(), executor=processes, store=tmp_path / "s", **same)
+    assert done.dataset.identical(lifts.dataset)
+    for gone in sorted((tmp_path / "s").glob("pack_*.nc"))[::2]:
+        gone.unlink()
+    assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(lifts.dataset)
+
+
+def test_what_waits_is_told_where_it_fails() -> None:
+    scene = feeder()
+    state = simulate(scene, 5.0).state
+    told = ensemble(scene, stages=STAGES, over={"start_time": [1.0, 6.0]}, keep=KEEP, start=state, **HOW)
+    assert "start_time is 1 s, and the run that waits for it begins at 5 s" in told.failures[0]
+
+
+@pytest.mark.parametrize(
+    ("over", "given", "message"),
+    [
+        ([{"start_time": 1.0}], {}, "start_time is of grids"),
+        ({"start_time": [1.0]}, {"stages": ()}, "start_time is of lifts in stages"),
+        ({"start_time": [-1.0]}, {}, "start_time is -1"),
+        ({"start_time": ["noon"]}, {}, "start_time"),
+        ({"start_tme": [1.0]}, {}, "nearest: 'start_time'"),
+    ],
+)
+def test_bad_start_times_are_named(over: Any, given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        ensemble(feeder(), over=over, keep=KEEP, **{"stages": STAGES, **given})
+
+
+def test_a_distribution_of_an_ensemble(lifts: Ensemble) -> None:
+    with pytest.warns(FewSeedsWarning, match="2 seeds"):
+        found = lifts.distribution("lifted")
+    every = lifts.dataset.lifted.to_numpy().ravel()
+    assert found.count == 6 and found.failed == 0
+    assert found.mean.value == pytest.approx(every.mean())
+    assert found.quantile(0.5).value == np.sort(every)[2]
+    assert found.exceedance(np.sort(every)[2]).value == 0.5
+    assert isinstance(found.plot(), matplotlib.figure.Figure)
+    assert "2 seeds with 3 values each" in str(found)
+    with pytest.raises(SceneError, match="nothing is kept as 'peek'"):
+        lifts.distribution("peek")
+    with pytest.raises(SceneError, match="start_time=7"):
+        lifts.distribution("lifted", start_time=7)
+
+
+def test_intervals_hold_for_values_that_depend_on_their_seed() -> None:
+    """Of 400 draws of 20 seeds with 10 values each, 95 % intervals hold the truth as often as they say."""
+    from scipy.stats import norm
+
+    random = np.random.default_rng(1)
+    size, inside = 400, np.zeros(3)
+    spread = np.sqrt(1.0 + 0.5**2)
+    naive = 0
+    for _ in range(size):
+        values = random.normal(size=(20, 1)) + 0.5 * random.normal(size=(20, 10))
+        found = distribution(values)
+        truths = (0.0, spread * norm.ppf(0.9), norm.sf(1.0 / spread))
+        for place, (one, truth) in enumerate(
+            zip((found.mean, found.quantile(0.9), found.exceedance(1.0)), truths, strict=True)
+        ):
+            inside[place] += one.low <= truth <= one.high
+        naive += abs(values.mean()) < 1.96 * values.std() / np.sqrt(values.size)
+    assert np.all(inside / size > 0.90) and inside[0] / size < 0.985
+    assert naive / size < 0.7  # what independent values would give
+
+
+def test_what_is_no_table_of_seeds_is_refused() -> None:
+    for bad, message in (([1.0, 2.0], "shape"), ([[np.inf]], "infinite"), ([[np.nan]], "not one is finite")):
+        with pytest.raises(SceneError, match=message):
+            distribution(bad)
+    with pytest.warns(FewSeedsWarning, match="no interval"):
+        assert np.isnan(distribution([[1.0, 2.0]]).mean.low)
+    with pytest.warns(FewSeedsWarning):
+        found = distribution([[1.0, np.nan], [2.0, 3.0]])
+    assert (found.count, found.failed) == (3, 1) and "1 values failed" in str(found)
+    with pytest.raises(SceneError, match="between 0 and 1"):
+        found.quantile(1.0)
