@@ -184,7 +184,7 @@ def test_a_killed_study_keeps_its_members(tmp_path: Path, monkeypatch: pytest.Mo
     from seacrane.ensembles import job
 
     with monkeypatch.context() as patched:
-        patched.setattr(job, "_stepped", stopping)
+        patched.setattr(job, "stepped", stopping)
         with pytest.raises(KeyboardInterrupt):
             ensemble(feeder(), stages=STAGES, **asked, **HOW)
     kept = Ensemble.load(tmp_path / "s")

@@ -91,14 +91,14 @@ class Ensemble:
         """What was kept as columns of a table, over the parameters; of kept curves over their axes too."""
         return self.dataset.drop_vars(("failure", "validity", "kept_apart"), errors="ignore").to_dataframe()
 
-    def distribution(self, name: str, **at: Value) -> Distribution:
+    def distribution(self, name: str, **chosen: Value) -> Distribution:
         """How what was kept is distributed over the seeds and, of lifts in stages, their start times.
 
         Parameters
         ----------
         name : str
             What was kept, one number of each member.
-        **at
+        **chosen
             The value of each other parameter, such as ``hs=1.5``, where there are others.
 
         Returns
@@ -120,7 +120,7 @@ class Ensemble:
                 f"distribution: nothing is kept as {name!r}; kept are {', '.join(map(str, self.dataset))}"
             )
         table = self.dataset[name]
-        for dim, value in at.items():
+        for dim, value in chosen.items():
             if dim not in table.dims or value not in table[dim]:
                 raise SceneError(
                     f"distribution: {dim}={shown(value)} is not in it; it is over {dict(table.sizes)}"
