@@ -115,6 +115,21 @@ def test_an_existing_body_stays_and_a_ship_with_a_heading_turns_the_load() -> No
     assert 2.0 * np.degrees(np.arctan2(z, w)) == pytest.approx(90.0)
 
 
+@pytest.mark.parametrize("falls", [1, 4])
+def test_slack_is_what_the_winch_takes_in_before_the_line_pulls(falls: int) -> None:
+    """By hand: slack and stretch of all falls at a rate that takes a ramp of 1 s to be reached."""
+    scene = Scene()
+    scene.add_crane(base="ground", s1=1.5, s2=1.0, held=True)
+    roles = scene.add_hoist(**BOX, EA=3e8, falls=falls, on="ground", slack=0.2, winch={"lag": 0.0})
+    path = scene.place_of(body=roles.tip[0], point=roles.tip[1])[2] - BOX["size"][2]
+    assert scene.loads["hoist"].length.evaluate([0.0])[0, 0] == pytest.approx(falls * (path + 0.2), rel=1e-9)
+    lift = Stage(name="lift", until=Until.release("load on ground"), maximum_duration=30.0,
+                 commands={"hoist.rate": -0.4})  # fmt: skip
+    (span,) = simulate_stages(scene, [lift]).stages
+    stretch = 20e3 * G * path / (falls * 3e8)
+    assert span.end == pytest.approx(0.5 + (0.2 + stretch) * falls / 0.4, rel=0.01)
+
+
 def test_a_lift_file_has_it(tmp_path: Any) -> None:
     (tmp_path / "lift.toml").write_text(
         """format = "seacrane lift"
@@ -158,6 +173,10 @@ winch = { lag_s = 0.1, maximum_rate = 0.5 }
         ({"EA": 3e7, "crane": "aft "}, "prefixes of the scene's cranes are ''"),
         ({"EA": 3e7, "rung": "rigid?"}, "rung is 'rigid\\?'"),
         ({"EA": 3e7, "on": "barge"}, "barge"),
+        ({"EA": 3e7, "slack": 0.2}, "its load stands on a deck"),
+        ({"EA": 3e7, "on": "ground", "slack": 0.2, "block_mass": 1e3}, "has no block"),
+        ({"EA": 3e7, "on": "ground", "slack": -0.2}, "slack is -0.2"),
+        ({"on": "ground", "slack": 0.2, "rung": "rigid"}, "rung 'elastic'"),
     ],
 )
 def test_what_does_not_fit_is_named_and_leaves_the_scene_as_it_was(given: dict[str, Any], words: str) -> None:

@@ -135,7 +135,7 @@ MISTAKES = {
         "maximum_N = 19.6",
         "maximum_N: channel 'line_unstretched_length' is in m; give maximum_m",
     ),
-    "an end of the run": ("[outputs]", "[run]\nt_end_s = 9\n\n[outputs]", "[run] stands beside [[stage]]"),
+    "an end of the run": ("[outputs]", "[run]\nt_end_s = 9\n\n[outputs]", "t_end_s stands beside [[stage]]"),
 }
 REFUSED = {
     "an unknown line": (

@@ -346,7 +346,7 @@ def test_a_study_file_of_a_lift_in_stages(tmp_path: Path, capsys: pytest.Capture
     ("old", "new", "message"),
     [
         ("lift off.commands.hoist.rate", "lift of.commands.hoist.rate", "nearest: 'stages.lift off.comm"),
-        ("[over]", "[run]\nt_end_s = 3\n\n[over]", r"line 5: \[run\] is for lifts without stages"),
+        ("[over]", "[run]\nt_end_s = 3\n\n[over]", r"line 6: t_end_s is for lifts without stages"),
         ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s is for runs without stages"),
     ],
 )

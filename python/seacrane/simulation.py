@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from seacrane import _core
 from seacrane.accuracy.choice import run_to_accuracy
 from seacrane.result.result import Result
 from seacrane.run.advance import finished
@@ -14,6 +13,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand
+from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def simulate(
     *,
     method: Method | None = None,
     outputs: Outputs | None = None,
-    start: _core.State | None = None,
+    start: Start = None,
     controllers: Sequence[SampledController] = (),
     accuracy: Mapping[str, float] | None = None,
     progress: bool = False,
@@ -43,8 +43,9 @@ def simulate(
         How it is stepped: integrator, tolerance or step, formulation, guards.
     outputs : Outputs, optional
         What is recorded, and how often.
-    start : State, optional
-        Where to continue from; default: the assembled start of the scene.
+    start : State or "rest", optional
+        Where to continue from, or the word for the state at rest, see `equilibrium`; default: the assembled
+        start of the scene.
     controllers : sequence of SampledController
         Called at their periods from the start on.
     accuracy : mapping of str to float, optional

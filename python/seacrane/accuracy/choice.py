@@ -33,6 +33,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import settled
+from seacrane.run.start import Start, start_state
 from seacrane.validity.after_run import Finding, require_finite, tried
 from seacrane.validity.left_range import warn_of
 
@@ -103,7 +104,7 @@ def run_to_accuracy(
     method: Method | None,
     outputs: Outputs | None,
     shorthand: Mapping[str, Any],
-    start: _core.State | None,
+    start: Start,
     controllers: Sequence[SampledController],
     progress: bool,
 ) -> Result:
@@ -133,7 +134,9 @@ def run_to_accuracy(
     """
     refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)
-    case = _case_of(scene, t_end, accuracy, outputs=outputs, start=start, progress=progress)
+    case = _case_of(
+        scene, t_end, accuracy, outputs=outputs, start=start_state(scene, start), progress=progress
+    )
     result = _converged(case, kept)
     asked = outputs.channels
     if asked is None:

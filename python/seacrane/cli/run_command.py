@@ -49,7 +49,7 @@ def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[C
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
     span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
     done = simulate_to_file(
-        source.scene, path, **span, method=method, outputs=outputs,
+        source.scene, path, **span, start=source.start, method=method, outputs=outputs,
         checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
         progress=arguments.progress,
     )  # fmt: skip
@@ -66,8 +66,9 @@ def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[
 
     method, outputs = _settings(arguments, source)
     result = simulate_stages_to_file(
-        source.scene, source.stages, path, method=method, outputs=outputs, overwrite=arguments.overwrite
-    )
+        source.scene, source.stages, path, start=source.start, method=method, outputs=outputs,
+        overwrite=arguments.overwrite,
+    )  # fmt: skip
     return lambda: result, path
 
 

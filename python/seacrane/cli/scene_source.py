@@ -10,7 +10,7 @@ import traceback
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane.errors import SceneError
 
@@ -36,6 +36,7 @@ class Source:
     method: Method | None = None
     outputs: Outputs | None = None
     stages: Sequence[Stage] = ()
+    start: Literal["rest"] | None = None
 
 
 def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
@@ -86,7 +87,7 @@ def _lift(path: Path) -> Source:
     lift = Lift.load(path)
     return Source(
         name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
-        outputs=lift.outputs, stages=lift.stages,
+        outputs=lift.outputs, stages=lift.stages, start=lift.start,
     )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
+from seacrane.analysis.rest_state import equilibrium
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
 from seacrane.ensembles.dataset import table_of
@@ -39,6 +40,7 @@ from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.start import REST
 from seacrane.scene.scene import Scene
 from seacrane.statistics.distribution import Distribution, distribution
 
@@ -158,7 +160,7 @@ def ensemble(
     stages: Stages = (),
     method: Method | None = None,
     outputs: Outputs | None = None,
-    start: Start = None,
+    start: Start | Literal["rest"] = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     until: Mapping[str, float] | None = None,
@@ -198,8 +200,8 @@ def ensemble(
         one run that is carried from each start to the next, and a member begins in its state there.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
-    start : State or callable, optional
-        Where every member begins, such as ``equilibrium(scene)``, or a function of its scene that tells it;
+    start : State, "rest" or callable, optional
+        Where every member begins, the word for its state at rest, or a function of its scene that tells it;
         default: the assembled start of its scene.
     executor : concurrent.futures.Executor, optional
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
@@ -313,8 +315,12 @@ def ensemble(
 
 
 def _checked_start(start: Any) -> Start:
+    if isinstance(start, str) and start == REST:
+        return equilibrium
     if start is not None and not isinstance(start, _core.State) and not callable(start):
-        raise SceneError(f"start is {shown(start)}; give a seacrane.State, or a function that returns one")
+        raise SceneError(
+            f"start is {shown(start)}; give a seacrane.State, {REST!r}, or a function that returns a State"
+        )
     return start  # type: ignore[no-any-return]
 
 

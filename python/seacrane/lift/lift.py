@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
@@ -49,6 +49,8 @@ class Lift:
     outputs : Outputs
     t_end : float
         End time, s; without stages.
+    start : "rest" or None
+        Where the run or the first stage begins; None: as the scene is described.
     stages : tuple of Stage
         In their order; none where one run is the whole lift.
 
@@ -61,6 +63,7 @@ class Lift:
     method: Method
     outputs: Outputs
     t_end: float
+    start: Literal["rest"] | None
     stages: tuple[Stage, ...]
     _document: Document
     _folder: Path
@@ -75,11 +78,12 @@ class Lift:
         checked: dict[str, Any] = {"_document": document, "_folder": folder, "_entries": entries}
         checked["method"] = made(document, entries, "method", Method)
         checked["outputs"] = made(document, entries, "outputs", Outputs)
-        checked["t_end"] = made(document, entries, "run", lambda t_end=T_END: t_end)
+        checked["t_end"], checked["start"] = made(document, entries, "run", _span)
         checked["stages"] = stages_of(document, entries)
-        if checked["stages"] and "run" in document.data:
+        if checked["stages"] and "t_end_s" in document.data.get("run", {}):
             document.fail(
-                ("run",), "[run] stands beside [[stage]]: a lift ends with its last stage; leave it out"
+                ("run", "t_end_s"),
+                "t_end_s stands beside [[stage]]: a lift ends with its last stage; leave it out",
             )
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -128,8 +132,13 @@ class Lift:
         A lift with stages is carried out stage by stage, without a progress bar; see `simulate_stages`.
         """
         if self.stages:
-            return simulate_stages(self.scene(), self.stages, method=self.method, outputs=self.outputs)
-        return simulate(self.scene(), self.t_end, method=self.method, outputs=self.outputs, progress=progress)
+            return simulate_stages(
+                self.scene(), self.stages, start=self.start, method=self.method, outputs=self.outputs
+            )
+        return simulate(
+            self.scene(), self.t_end, start=self.start, method=self.method, outputs=self.outputs,
+            progress=progress,
+        )  # fmt: skip
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write it as TOML, complete or not at all; paths of files from the folder of the file.
@@ -163,6 +172,10 @@ class Lift:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return lift_of, (replace(self._document, told=True), self._folder)
+
+
+def _span(t_end: float = T_END, start: Literal["rest"] | None = None) -> tuple[float, Literal["rest"] | None]:
+    return t_end, start
 
 
 def lift_of(document: Document, folder: Path) -> Lift:

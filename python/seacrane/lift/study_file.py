@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 
@@ -99,15 +99,15 @@ class StudyFile:
         """
         return lift_of(*self._lift_document())
 
-    def settings(self, lift: Lift) -> tuple[float, Method, Outputs]:
-        """End time (s), method and outputs: those of the study where it has its own, else the lift's."""
+    def settings(self, lift: Lift) -> tuple[float, Literal["rest"] | None, Method, Outputs]:
+        """End time (s), start, method, outputs: those of the study where it has its own, else the lift's."""
         data = self._document.data
         tables = {name: data[name] for name in FROM_LIFTS if name in data}
         head = {"format": LIFT.format, "version": data["version"]}
         document = replace(self._document, data={**head, **tables}, told=True)
-        if "run" in tables and lift.stages:
+        if "t_end_s" in tables.get("run", {}) and lift.stages:
             self._document.fail(
-                ("run",), "[run] is for lifts without stages, which tell their end; leave it out"
+                ("run", "t_end_s"), "t_end_s is for lifts without stages, which tell their end; leave it out"
             )
         if lift.stages and self.exposure is not None:
             self._document.fail(
@@ -116,7 +116,8 @@ class StudyFile:
             )
         own = lift_of(document, self._folder)
         return (
-            own.t_end if "run" in tables else lift.t_end,
+            own.t_end if "t_end_s" in tables.get("run", {}) else lift.t_end,
+            own.start or lift.start,
             self._method(own if "method" in tables else lift, own),
             own.outputs if "outputs" in tables else lift.outputs,
         )

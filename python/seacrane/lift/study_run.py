@@ -53,13 +53,13 @@ def run_study(
     """
     study, target = StudyFile.load(path), Path(folder)
     lift = study.lift()
-    t_end, method, outputs = study.settings(lift)
+    t_end, start, method, outputs = study.settings(lift)
     source = _source(study, lift)
     text = read_whole(Path(path), LARGEST_FILE, "no study file is")
     _claim(target, text)
     done = ensemble(
         source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy,
-        stages=lift.stages, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
+        stages=lift.stages, start=start, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
         executor=executor, store=target / MEMBERS, progress=progress,
     )  # fmt: skip
     _write(target / FILE, text)

@@ -73,6 +73,11 @@ DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
 ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
 TIME: dict[str, Any] = {"unit": "s"}
+START: dict[str, Any] = {
+    "type": "text",
+    "choices": ("rest",),
+    "text": '"rest" finds the state at rest; default: as described.',
+}
 NUMBER = {"type": "number"}
 LIMITED = {"unit": CHANNEL_UNITS}
 
@@ -413,7 +418,7 @@ _ALL = (
     ),
     _call(
         "hoist", hoist.add_hoist,
-        mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, EA={"unit": "N"},
+        mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, slack=LENGTH, EA={"unit": "N"},
         crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
         block_mass={"unit": "kg"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
@@ -489,8 +494,8 @@ _ALL = (
     ),
     Table(name="stage", text=_summary(Stage), keys=STAGE),
     Table(
-        name="run", several=False, text="How long a run takes.",
-        keys=keys_of(simulate, more={"t_end": TIME}, only=("t_end",)),
+        name="run", several=False, text="How long a run takes, and where it begins.",
+        keys=keys_of(simulate, more={"t_end": TIME, "start": START}, only=("t_end", "start")),
     ),
     Table(
         name="method", several=False, text=_summary(Method),

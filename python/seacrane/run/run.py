@@ -54,6 +54,7 @@ from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.own import own_values, with_sources
 from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.start import Start, start_state
 from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
@@ -81,8 +82,9 @@ class Run:
         How it is stepped.
     outputs : Outputs, optional
         What is recorded, and how often.
-    start : State, optional
-        Where to begin; default: the assembled start of the scene.
+    start : State or "rest", optional
+        Where to begin, or the word for the state at rest, see `equilibrium`; default: the assembled start of
+        the scene.
     outputs_from : float, optional
         Time from which output times are counted, s, not after the start; default: the start. A run that goes
         on from a `start` so records at the times at which the run before it would have.
@@ -120,7 +122,7 @@ class Run:
         *,
         method: Method | None = None,
         outputs: Outputs | None = None,
-        start: _core.State | None = None,
+        start: Start = None,
         outputs_from: float | None = None,
         capacity: int | None = None,
         model: _core.Model | None = None,
@@ -131,7 +133,7 @@ class Run:
         self.t_end = number_of("t_end", t_end)
         scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene
-        self._given_start, self._capacity, self._controlled = _checked_state(start), capacity, controlled
+        self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled
         self.rungs = self._chosen_rungs(model)
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
@@ -418,12 +420,6 @@ class Run:
             self.about.to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
-
-
-def _checked_state(given: Any) -> _core.State | None:
-    if given is not None and not isinstance(given, _core.State):
-        raise SceneError(f"start is {given!r}; give a seacrane.State")
-    return given
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
-from seacrane.analysis.rest_state import equilibrium
 from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
@@ -33,6 +32,7 @@ from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stage import Stage
+from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
@@ -89,7 +89,7 @@ class StagedRun:
         scene: Scene,
         stages: Sequence[Stage],
         *,
-        start: _core.State | None = None,
+        start: Start = None,
         first: str | None = None,
         outputs_from: float | None = None,
         method: Method | None = None,
@@ -104,14 +104,14 @@ class StagedRun:
         self._given, self._absent = scene, waiting(self.stages)
         self._scene = without(self._whole, self._absent)
         self._model = self._scene.compile()
-        if start is None:
-            start = _core.initial_state(self._model) if first is None else equilibrium(self._scene, time=time)
-        if not isinstance(start, _core.State):
-            raise SceneError(f"start is {start!r}; give a seacrane.State")
-        self._state = start
+        from_rest = start is None and first is not None
+        begin = start_state(self._scene, REST if from_rest else start, time=time)
+        self._state = _core.initial_state(self._model) if begin is None else begin
         self._reached = self._counted()
-        self._first = start.time if outputs_from is None else number_of("outputs_from", outputs_from)
-        self._calls = Calls(checked_controllers(controllers), self._first, start=start.time, kept=self._kept)
+        self._first = self._state.time if outputs_from is None else number_of("outputs_from", outputs_from)
+        self._calls = Calls(
+            checked_controllers(controllers), self._first, start=self._state.time, kept=self._kept
+        )
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None
@@ -325,7 +325,7 @@ def simulate_stages(
     scene: Scene,
     stages: Sequence[Stage],
     *,
-    start: _core.State | None = None,
+    start: Start = None,
     first: str | None = None,
     method: Method | None = None,
     outputs: Outputs | None = None,
@@ -343,8 +343,9 @@ def simulate_stages(
         With everything that is ever connected.
     stages : sequence of Stage
         In their order.
-    start : State, optional
-        Where the first of them begins; default: the assembled start of the scene.
+    start : State or "rest", optional
+        Where the first of them begins, or the word for the state at rest; default: the assembled start of the
+        scene.
     first : str, optional
         Name of a stage to begin with. Those before it count as carried out: what they connect and release,
         where their moves and lengths end. It then starts from its static state, unless `start` is given.

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seacrane import _core
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -16,6 +15,7 @@ from seacrane.run.sampled_controller import SampledController
 from seacrane.run.shorthand import Shorthand
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
+from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def simulate_stages_to_file(
     stages: Sequence[Stage],
     path: str | os.PathLike[str],
     *,
-    start: _core.State | None = None,
+    start: Start = None,
     first: str | None = None,
     method: Method | None = None,
     outputs: Outputs | None = None,

@@ -8,13 +8,14 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.result.about import About
 from seacrane.result.checked_parts import checked_stats
@@ -29,6 +30,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.start import REST
 from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.version import __version__
 
@@ -75,6 +77,7 @@ def simulate_to_file(
     path: str | os.PathLike[str],
     t_end: float = 100.0,
     *,
+    start: Literal["rest"] | None = None,
     method: Method | None = None,
     outputs: Outputs | None = None,
     checkpoint_every: float | None = None,
@@ -100,6 +103,8 @@ def simulate_to_file(
         method and outputs and does not end later.
     t_end : float
         End time, s.
+    start : "rest", optional
+        Begin at rest; default: the assembled start of the scene.
     method, outputs
         As `simulate`.
     checkpoint_every : float, optional
@@ -131,9 +136,12 @@ def simulate_to_file(
     OSError
         If the disk is full, or the folder is missing; the message says where the outputs until then are.
     """
-    for name in ("start", "accuracy"):
-        if name in shorthand:
-            raise SceneError(f"{name} cannot be given to a run that is written to a file; leave it out")
+    if "accuracy" in shorthand:
+        raise SceneError("accuracy cannot be given to a run that is written to a file; leave it out")
+    if start not in (None, REST):
+        raise SceneError(
+            f"start is {shown(start)}; a run that is written to a file begins as its scene, or at {REST!r}"
+        )
     every = math.inf if checkpoint_every is None else number_of("checkpoint_every", checkpoint_every)
     if not every > 0.0:
         raise SceneError(f"checkpoint_every is {every} s; make it positive")
@@ -147,7 +155,7 @@ def simulate_to_file(
             if left is None and not overwrite:
                 file.require_no_partial()
             digest = scene_digest(scene)
-            run = _begun(scene, t_end, method, outputs, digest, left)
+            run = _begun(scene, t_end, method, outputs, digest, left, start)
             writer = _Writer(run, digest, file, every)
             writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, given))
             try:
@@ -175,11 +183,12 @@ def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
 
 
 def _begun(
-    scene: Scene, t_end: float, method: Method, outputs: Outputs, digest: str, left: Left | None
-) -> Run:
+    scene: Scene, t_end: float, method: Method, outputs: Outputs, digest: str, left: Left | None,
+    start: Literal["rest"] | None,
+) -> Run:  # fmt: skip
     """The run, from its start or from where one that was stopped left it."""
     if left is None:
-        return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY)
+        return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=start)
     old = Told(stats=left.piece.stats, about=left.piece.about)
     if old.stats.get(DIGEST) != digest:
         own = {DIGEST: digest, "seacrane_version": __version__}

@@ -18,7 +18,7 @@ from seacrane.description.joints import add_joint
 from seacrane.description.places import place_of
 from seacrane.description.recorded import add_point
 from seacrane.description.roles import CraneRoles
-from seacrane.description.rungs import RIGID, WITH_MASS, Rung
+from seacrane.description.rungs import ELASTIC, RIGID, WITH_MASS, Rung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import (
     flag_of,
@@ -103,6 +103,7 @@ def add_hoist(
     length: float | None = None,
     height: float | None = None,
     on: str | None = None,
+    slack: float = 0.0,
     falls: int = 1,
     EA: float | None = None,
     stiffness: float | None = None,
@@ -138,6 +139,8 @@ def add_hoist(
         that body, m.
     on : str, optional
         Body on whose deck the load stands, below the tip; "ground" is one too.
+    slack : float
+        Of the line to a load on a deck, m of each fall: for an elastic line without a block.
     falls : int
         Between tip and block; the line runs over them without friction.
     EA : float
@@ -169,7 +172,8 @@ def add_hoist(
     ------
     SceneError
         For no crane, one without a tip or with a load; fewer than one fall; slings that are too short; a
-        place above the tip; and what `add_line`, `add_winch` and `add_bridle` refuse.
+        place above the tip; slack of a line that a weight keeps taut; and what `add_line`, `add_winch` and
+        `add_bridle` refuse.
 
     Warns
     -----
@@ -182,6 +186,11 @@ def add_hoist(
         raise SceneError(f"{what}: falls is {shown(falls)}; give a whole number from 1 on")
     if falls > 1 and rung in (RIGID, WITH_MASS):
         raise SceneError(f"{what}: rung {rung!r} has one fall, and falls is {falls}; choose rung 'elastic'")
+    if not_negative_of(f"{what}: slack", slack) and (on is None or block_mass > 0.0 or rung != ELASTIC):
+        raise SceneError(
+            f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
+            "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
+        )
     rig = Slings(**slings) if isinstance(slings, Mapping) else slings
     not_negative_of(f"{what}: block_mass", block_mass)
     if rig is not None and block_mass == 0.0:
@@ -202,7 +211,7 @@ def add_hoist(
             hook = (_add_block(scene, what, name, load, block_mass, rig), (0.0, 0.0, 0.0))
         weight = scene.gravity * (block_mass + (0.0 if on else scene.bodies[load].mass))
         _tie(scene, what, name, roles.tip, hook, falls, weight,
-             {"EA": EA, "stiffness": stiffness}, rung, mass_per_length)  # fmt: skip
+             {"EA": EA, "stiffness": stiffness}, rung, mass_per_length, slack)  # fmt: skip
         if winch is not False:
             add_winch(scene, name, **({} if winch is True else winch))
         if rig is not None:
@@ -364,8 +373,9 @@ def _tie(
     given: Mapping[str, float | None],
     rung: Rung,
     mass_per_length: float,
+    slack: float,
 ) -> None:
-    """The line over its falls, which carries a weight (N) from the start."""
+    """The line over its falls, which carries a weight (N) from the start, or is slack."""
     ends = [tip, hook]
     path = [ends[i % 2] for i in range(falls + 1)]
     bodies, points = [body for body, _ in path], [point for _, point in path]
@@ -393,7 +403,10 @@ def _tie(
         raise SceneError(
             f"{what}: rung {rung!r} has no mass; leave mass_per_length out, or choose 'with mass'"
         )
-    add_line(scene, name, bodies=bodies, points=points, rung=rung, EA=axial, tension_at_start=pull)
+    add_line(
+        scene, name, bodies=bodies, points=points, rung=rung, EA=axial,
+        length=falls * (drop + slack) if slack else None, tension_at_start=None if slack else pull,
+    )  # fmt: skip
 
 
 def _sling(scene: Description, name: str, block: str, load: str, rig: Slings, *, standing: bool) -> None:
