@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,16 @@ def test_what_waits_is_told_where_it_fails() -> None:
     state = simulate(scene, 5.0).state
     told = ensemble(scene, stages=STAGES, over={"start_time": [1.0, 6.0]}, keep=KEEP, start=state, **HOW)
     assert "start_time is 1 s, and the run that waits for it begins at 5 s" in told.failures[0]
+
+
+def test_a_load_that_goes_through_its_deck_while_it_waits_is_told_by_later_lifts() -> None:
+    """Its line is too short for the sea: barge and load part before the lift begins."""
+    scene = feeder(hs=3.0)
+    scene.replace("hoist", length=27.02)
+    told = ensemble(scene, stages=STAGES, over={"start_time": [0.0, 40.0]}, keep=KEEP, **HOW)
+    early, late = told.dataset.validity.transpose("start_time", ...).to_numpy().ravel()
+    assert "goes below its plane" not in early
+    assert 0.0 < float(re.findall(r"goes below its plane at t = ([\d.]+) s", late)[0]) < 40.0
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,7 @@ from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
+from seacrane.validity.left_range import Finding
 
 
 def stepped(run: Run | StagedRun) -> Run | StagedRun:
@@ -75,6 +76,8 @@ class Carried:
             )
         self._method, self._outputs = method, replace(outputs, channels=())
         self._states: dict[float, _core.State] = {}
+        self._found: list[Finding] = []
+        self._found_by: dict[float, tuple[Finding, ...]] = {}
         self._lock = Lock()
 
     def at(self, time: float) -> _core.State:
@@ -83,7 +86,12 @@ class Carried:
             while time not in self._states:
                 self._states[self._left[0]] = self._next(self._left[0])
                 self._state = self._states[self._left.pop(0)]
+                self._found_by[self._state.time] = tuple(self._found)
             return self._states[time]
+
+    def found(self, time: float) -> tuple[Finding, ...]:
+        """What was out of range until one of the times that were asked for, such as a load through a deck."""
+        return self._found_by[time]
 
     def _next(self, time: float) -> _core.State:
         if time == self._state.time:
@@ -92,4 +100,8 @@ class Carried:
             self._scene, time, start=self._state, method=self._method, outputs=self._outputs,
             model=self._model,
         )  # fmt: skip
-        return stepped(run).state
+        ended_run = stepped(run)
+        assert isinstance(ended_run, Run)
+        known = {kind for kind, _ in self._found}
+        self._found += [one for one in ended_run.judged_result()[1] if one[0] not in known]
+        return ended_run.state

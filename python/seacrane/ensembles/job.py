@@ -25,6 +25,7 @@ from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
+from seacrane.validity.left_range import Finding
 from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
@@ -159,9 +160,13 @@ class Prepared:
         scene = study.scene(values)
         stages = study.stages_of(scene, values)
         start = study.start_of(scene)
+        before: Sequence[Finding] = ()
         if START_TIME in values:
-            start = self._carrier(scene, stages, start, values).at(float(values[START_TIME]))
-        return StagedRun(scene, stages, start=start, method=study.method, outputs=study.outputs)
+            carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
+            start, before = carrier.at(time), carrier.found(time)
+        return StagedRun(
+            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs
+        )
 
     def _carrier(
         self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values

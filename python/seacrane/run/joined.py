@@ -91,8 +91,11 @@ def joined(
     spans: Sequence[StageSpan],
     interrupted: bool,
     after: Sequence[Event],
+    before: str = "",
 ) -> Result:
     """One result of all pieces: of two outputs at one time the earlier stays.
+
+    `before` is what was out of range before the first of them, one message a line.
 
     What an element does where it is not there is nothing for forces and powers, and not a number else.
     """
@@ -110,7 +113,7 @@ def joined(
     events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
     return Result.from_arrays(
         time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
-        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces),
+        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, before),
         about=_about(pieces, spans), interrupted=interrupted, state=pieces[-1].counting_on(),
         scene=scene.copy(notes={}),
     )  # fmt: skip
@@ -197,7 +200,7 @@ def _about(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> About:
     )
 
 
-def _stats(pieces: Sequence[Piece]) -> dict[str, Any]:
+def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
     out: dict[str, Any] = dict(every[-1])
     out |= {
@@ -206,8 +209,9 @@ def _stats(pieces: Sequence[Piece]) -> dict[str, Any]:
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
-    for key in ("described", "validity"):
-        told = dict.fromkeys(line for one in every for line in str(one.get(key, "")).splitlines())
+    for key, first in (("described", ""), ("validity", before)):
+        texts = [first, *(str(one.get(key, "")) for one in every)]
+        told = dict.fromkeys(line for text in texts for line in text.splitlines())
         if told:
             out[key] = "\n".join(told)
     return out

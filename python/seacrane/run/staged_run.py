@@ -36,7 +36,7 @@ from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
-from seacrane.validity.left_range import Finding, warn_of
+from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.validity.line_checks import warn_of_connected
 
 if TYPE_CHECKING:
@@ -73,6 +73,8 @@ class StagedRun:
         As `simulate_stages`.
     outputs_from : float, optional
         As of `Run`: time from which output times are counted, s; default: the start.
+    before : sequence of (warning, str)
+        What was out of range before the start; it is told with what is in the stages.
 
     Attributes
     ----------
@@ -92,6 +94,7 @@ class StagedRun:
         start: Start = None,
         first: str | None = None,
         outputs_from: float | None = None,
+        before: Sequence[Finding] = (),
         method: Method | None = None,
         outputs: Outputs | None = None,
         controllers: Sequence[SampledController] = (),
@@ -115,7 +118,7 @@ class StagedRun:
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None
-        self._found: list[Finding] = []
+        self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
@@ -178,6 +181,7 @@ class StagedRun:
         return joined(
             self._pieces, scene=self._given, spans=self._spans,
             interrupted=self.interrupted or len(self._spans) < len(self.stages), after=self._changes,
+            before=as_text(self._before),
         )  # fmt: skip
 
     def warn(self) -> None:
