@@ -37,7 +37,7 @@ ROWS = answers()
 
 
 def lift(*, mass: float = 20e3, slew: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
-    """The lift of docs/getting-started.md, its drives without gains."""
+    """A lift on the shipped hull, its drives without gains."""
     database = shipped_database()
     scene = Scene(name="lift")
     scene.add_vessel(database)
