@@ -11,17 +11,12 @@ raos = MotionRaos(omega=OMEGA, heading=[np.pi], values=np.outer(HEAVE, [0, 0, 1,
 
 scene = Scene(name="feeder lift")
 crane = scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
-x, y, tip = scene.place_of(body=crane.tip[0], point=crane.tip[1])
+x, y, _ = scene.place_of(body=crane.tip[0], point=crane.tip[1])
 scene.add_given_vessel(raos, name="barge", position=(x, y, 0.0))
 scene.add_sea(vessel="barge", hs=1.5, tp=8.0, direction_deg=180.0, seed=2)
-scene.add_body(name="load", mass=MASS, inertia=(2e5, 2e5, 2e5), position=(x, y, DECK))
-scene.add_joint(kind="weld", name="grillage", first="barge", second="load")
-scene.add_seat(joint="grillage")
-path = {"bodies": [crane.tip[0], "load"], "points": [crane.tip[1], (0.0, 0.0, 0.0)]}
-scene.add_line(name="hoist", **path, EA=EA, length=tip - DECK + SLACK)
-scene.add_winch(line="hoist", lag=0.2)
+scene.add_hoist(mass=MASS, size=(6, 4, 4), on="barge", height=DECK, EA=EA, slack=SLACK, winch={"lag": 0.2})
 lift = Stage(
-    name="lift", until=Until.release("grillage"), maximum_duration=60.0, commands={"hoist.rate": -RATE}
+    name="lift", until=Until.release("load on barge"), maximum_duration=60.0, commands={"hoist.rate": -RATE}
 )
 stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]
 result = simulate_stages(scene, stages, dt_out=0.02)

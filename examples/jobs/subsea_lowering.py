@@ -10,13 +10,10 @@ scene = Scene(name="subsea lowering")
 scene.add_given_vessel(shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
 jib, head = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0).tip
-x, y, tip = scene.place_of(body=jib, point=head)
-scene.add_body(name="load", mass=MASS, inertia=(4e4, 4e4, 4e4), position=(x, y, START))
+tip = scene.place_of(body=jib, point=head)[2]
 strain = MASS * scene.gravity / EA
 first, deep = (tip - START) / (1.0 + strain), (tip + DEPTH) / (1.0 + strain)
-path = {"bodies": [jib, "load"], "points": [head, (0.0, 0.0, 0.0)]}
-scene.add_line(name="wire", **path, EA=EA, length=first)
-scene.add_winch(line="wire", lag=0.2)
+scene.add_hoist("wire", mass=MASS, size=(3, 3, 2), length=tip - START, EA=EA, winch={"lag": 0.2})
 lower = Stage(
     name="lower", until=Until.length("wire", minimum=deep), maximum_duration=300, commands={"wire.rate": RATE}
 )
@@ -27,7 +24,7 @@ hold, late = result.stage("hold"), 0.5 + 0.2  # s: half of the second that a rat
 rise = result.select("tip_velocity", axis="z")[hold]
 acceleration = np.gradient(rise, result.time[hold])
 softness = (acceleration.std() / rise.std()) ** 2 * deep * MASS / EA  # of the wire: frequencies squared
-height = result.select("position", body="load", axis="z")[hold]
+height = result.place_of("load", (0.0, 0.0, 1.0))[hold, 2]  # of the hook
 hook, stretch = result["line_tension"][hold], result["line_stretch"][hold]
 for name, run, by_hand in (
     ("time to lower, s", result.stages[0].end, (deep - first) / RATE + late),
