@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 from seacrane import (
     Lift,
@@ -14,6 +15,7 @@ from seacrane import (
     Stage,
     Until,
     equilibrium,
+    natural_modes,
     shipped_database,
     simulate,
     simulate_stages,
@@ -76,6 +78,24 @@ def test_falls_and_slings_are_as_stiff_as_by_hand() -> None:
     sling = 4 * 3e7 / (reach / np.cos(angle)) * np.sin(angle) ** 2
     hand = 2e3 * G * (8.0 / (falls * EA) + 1.0 / sling)
     assert heights[0] - heights[1] == pytest.approx(hand, rel=0.01)
+
+
+def test_block_and_load_swing_as_a_double_pendulum() -> None:
+    """10 t on 15 m of wire, 80 t on slings of 6 m below it: 9.63, 1.88 s about x and 9.73, 2.59 s about y."""
+    m1, m2, l1, drop, size = 10e3, 80e3, 15.0, 6.0 + 2.5, np.array([12.0, 4.0, 5.0])
+    scene = Scene()
+    scene.add_crane(base="ground", s1=3.5, s2=2.0, held=True)
+    points = [(x, y, 2.5) for x in (5.0, -5.0) for y in (2.0, -2.0)]
+    scene.add_hoist(
+        mass=m2, size=size, length=l1, stiffness=4e9, block_mass=m1, damping=False,
+        slings={"length": np.sqrt(65.0), "EA": 1e10, "points": points},
+    )  # fmt: skip
+    found = natural_modes(scene, state=equilibrium(scene)).natural_period
+    for inertia in m2 / 12 * (size @ size - size**2)[:2]:
+        stiffness = G * np.diag([(m1 + m2) * l1, m2 * drop])
+        mass = np.array([[(m1 + m2) * l1**2, m2 * l1 * drop], [m2 * l1 * drop, m2 * drop**2 + inertia]])
+        for omega2 in scipy.linalg.eigh(stiffness, mass)[0]:
+            assert np.abs(found * np.sqrt(omega2) / (2.0 * np.pi) - 1.0).min() < 1e-4
 
 
 def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
