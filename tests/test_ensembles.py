@@ -411,5 +411,5 @@ def test_members_begin_where_they_are_told(tmp_path: Path) -> None:
     assert float(by_scene.dataset.lowest[0]) == float(later.dataset.lowest[0])
     with pytest.raises(SceneError, match="start"):
         ensemble(pendulum, **asked, store=tmp_path / "later")
-    with pytest.raises(SceneError, match=r"start is 1\.0; give a seacrane\.State, or a function"):
+    with pytest.raises(SceneError, match=r"start is 1\.0; give a seacrane\.State, 'rest', or a function"):
         ensemble(pendulum, **asked, start=1.0)  # type: ignore[arg-type]

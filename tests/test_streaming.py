@@ -439,7 +439,7 @@ REFUSED: dict[str, tuple[dict[str, Any], type[Exception], str]] = {
     "other outputs": ({"dt_out": 0.2}, FileFormatError, "has dt_out 0.1, this run 0.2"),
     "other integrator": ({"integrator": "rk4"}, FileFormatError, "has integrator 'dopri5', this run 'rk4'"),
     "other channels": ({"channels": ["velocity"]}, FileFormatError, "has channels"),
-    "start": ({"start": None}, SceneError, "start cannot be given"),
+    "start": ({"start": "calm"}, SceneError, "start is 'calm'"),
     "checkpoints": ({"checkpoint_every": -1.0}, SceneError, "make it positive"),
     "end": ({"t_end": 1.0}, SceneError, "before the start"),
 }
