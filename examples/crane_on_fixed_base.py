@@ -19,7 +19,6 @@ scene = Scene(name="crane on a fixed base")
 scene.add_crane(base="ground", payload=Payload(mass=10e3))
 for name, joint in JOINTS.items():
     scene.add_actuator(name=name, joint=joint)
-    scene.record_coordinate(joint=joint)
 held, inertia = balance(scene), reflected_inertia(scene)
 for name, joint in JOINTS.items():  # the same actuators, now with gains and references
     del scene.actuators[name]

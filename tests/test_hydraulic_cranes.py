@@ -30,6 +30,23 @@ def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:
     return scene
 
 
+def test_a_stroke_has_one_name_whatever_drives_it() -> None:
+    """Held, led by a driver, pushed by an actuator or by oil: from the described pose, in the oil's own measure."""
+    oil = simulate(crane(), 1.0, dt_out=0.5)
+    moved = oil["hydraulic_stroke"] - oil["hydraulic_stroke"][0]
+    assert oil["stroke"] == pytest.approx(moved, abs=1e-9)
+    for drive in ("held", "driver", "actuator"):
+        scene = Scene(name=drive)
+        scene.add_crane(base="ground", payload_mass=10e3, damping=False, **POSE)
+        if drive == "driver":
+            scene.add_driver("main", curve=Curve.table([0.0, 1.0], [0.0, 0.1], between="linear"))
+        if drive == "actuator":
+            scene.add_actuator(name="main", joint="main_cylinder", stiffness=1e9, damping=1e8)
+        result = simulate(scene, 1.0, dt_out=0.5)
+        assert result["stroke"].shape == (3, 2) and result["slew_angle"].shape == (3,)
+        assert result.select("stroke[main]")[-1] == pytest.approx(0.1 if drive == "driver" else 0.0, abs=0.02)
+
+
 def test_a_crane_starts_at_rest_on_its_oil() -> None:
     scene = crane()
     expected = KnuckleBoomCrane.load().static_cylinder_forces(

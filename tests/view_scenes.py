@@ -53,7 +53,6 @@ def pair() -> Result:
     scene.add_crane(base="vessel", payload=Payload(mass=20e3))
     scene.provenance.pop(HTML_NAME)
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
-        scene.record_coordinate(joint=joint)
         scene.add_driver(name=joint, joint=joint, curve=Curve.constant(value=0.0))
     return _quietly(scene, 20.0, BallastWarning)
 

@@ -116,7 +116,6 @@ def _crane_afloat(
     scene = _afloat(name, sea=sea, **fixed)
     scene.add_crane(base="vessel", foot=foot, payload=payload, damping=False)
     for actuator, joint in ACTUATORS.items():
-        scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)
     return scene, balance_by_force(scene)
 

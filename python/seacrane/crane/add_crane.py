@@ -24,7 +24,7 @@ from seacrane.description.drives import add_driver
 from seacrane.description.joints import add_joint
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.meshes import add_mesh
-from seacrane.description.recorded import add_range
+from seacrane.description.recorded import add_range, record_coordinate
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, text_of
@@ -58,7 +58,7 @@ def add_crane(
     design_factor: float = 1.0,
     prefix: str = "",
 ) -> CraneRoles:
-    """Add a crane, and a payload hanging at rest; its coordinates keep the data file's ranges.
+    """Add a crane, and a payload hanging at rest; its coordinates are recorded, and keep the data file's ranges.
 
     Parameters
     ----------
@@ -147,6 +147,8 @@ def add_crane(
     led = [joint for joint in parts.drives if joint not in {parts.cylinders[label] for label in oil}]
     for joint in led if is_held else ():
         add_driver(scene, joint=prefix + joint, curve=0.0)
+    for joint in parts.drives:
+        record_coordinate(scene, prefix + joint)
     return add_roles(
         scene,
         prefix=prefix,
