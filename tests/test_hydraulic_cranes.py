@@ -31,7 +31,7 @@ def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:
 
 
 def test_a_stroke_has_one_name_whatever_drives_it() -> None:
-    """Held, led by a driver, pushed by an actuator or by oil: from the described pose, in the oil's own measure."""
+    """Held, led by a driver, pushed by an actuator or by oil: counted from the described pose."""
     oil = simulate(crane(), 1.0, dt_out=0.5)
     moved = oil["hydraulic_stroke"] - oil["hydraulic_stroke"][0]
     assert oil["stroke"] == pytest.approx(moved, abs=1e-9)

@@ -58,7 +58,7 @@ def add_crane(
     design_factor: float = 1.0,
     prefix: str = "",
 ) -> CraneRoles:
-    """Add a crane, and a payload hanging at rest; its coordinates are recorded, and keep the data file's ranges.
+    """Add a crane, and a payload at rest; its coordinates are recorded and keep the data file's ranges.
 
     Parameters
     ----------
