@@ -23,11 +23,12 @@ struct ActuatorDescription {
       "rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).";
   static constexpr auto fields() {
     using D = ActuatorDescription;
-    return std::tuple_cat(on_coordinate<D>(),
-                          std::tuple(optional("stiffness", &D::stiffness, "N/m or N m/rad", ""),
-                                     optional("damping", &D::damping, "N s/m or N m s/rad", ""),
-                                     optional("feed_forward", &D::feed_forward, "N or N m", ""),
-                                     optional("reference", &D::reference, "m or rad", "")));
+    return std::tuple_cat(
+        on_coordinate<D>(),
+        std::tuple(optional("stiffness", &D::stiffness, "N/m or N m/rad", "").not_negative(),
+                   optional("damping", &D::damping, "N s/m or N m s/rad", "").not_negative(),
+                   optional("feed_forward", &D::feed_forward, "N or N m", ""),
+                   optional("reference", &D::reference, "m or rad", "")));
   }
 };
 
@@ -49,8 +50,6 @@ struct Actuator {
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
     names.input(c, kind, d.name);
-    c.not_negative("stiffness", d.stiffness);
-    c.not_negative("damping", d.damping);
   }
 
   static Description example() {

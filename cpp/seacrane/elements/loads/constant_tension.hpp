@@ -18,9 +18,10 @@ struct ConstantTensionDescription {
     using D = ConstantTensionDescription;
     return std::tuple(
         optional("tension", &D::tension, "N", "that the winch holds: it renders above, recovers below"),
-        optional("tension_gain", &D::tension_gain, "m/s/N",
-                 "rate over tension beyond the band; 0: none held"),
-        optional("dead_band", &D::dead_band, "N", "on both sides of the tension, in which it stands still"));
+        optional("tension_gain", &D::tension_gain, "m/s/N", "rate over tension beyond the band; 0: none held")
+            .not_negative(),
+        optional("dead_band", &D::dead_band, "N", "on both sides of the tension, in which it stands still")
+            .not_negative());
   }
 };
 
@@ -31,8 +32,6 @@ struct ConstantTension {
   double gain = 0.0, dead_band = 0.0;
 
   static void check(const ConstantTensionDescription& d, const Check& c) {
-    c.not_negative("tension_gain", d.tension_gain);
-    c.not_negative("dead_band", d.dead_band);
     const bool given = d.tension.pieces().size() > 1 || d.tension.at(0.0).value != 0.0;
     if (d.tension_gain == 0.0 && (given || d.dead_band > 0.0)) {
       c.fail(

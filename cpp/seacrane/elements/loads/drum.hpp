@@ -24,14 +24,21 @@ struct DrumDescription {
   static constexpr auto fields() {
     using D = DrumDescription;
     return std::tuple(
-        optional("drum_inertia", &D::drum_inertia, "kg m2", "of drum, gear and motor at the drum; 0: none"),
-        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs").usually(0.01, 10.0),
-        optional("maximum_tension", &D::maximum_tension, "N", "of the motor, at the rope; 0: no motor"),
-        optional("maximum_power", &D::maximum_power, "W", "that the motor gives"),
+        optional("drum_inertia", &D::drum_inertia, "kg m2", "of drum, gear and motor at the drum; 0: none")
+            .not_negative(),
+        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs")
+            .not_negative()
+            .usually(0.01, 10.0),
+        optional("maximum_tension", &D::maximum_tension, "N", "of the motor, at the rope; 0: no motor")
+            .not_negative(),
+        optional("maximum_power", &D::maximum_power, "W", "that the motor gives").positive(),
         optional("brake", &D::brake, "", "share of its capacity that is applied, 0 (open) to 1")
+            .within(0.0, 1.0)
             .usually(0.0, 1.0),
-        optional("brake_capacity", &D::brake_capacity, "N", "of the brake, at the rope; 0: no brake"),
+        optional("brake_capacity", &D::brake_capacity, "N", "of the brake, at the rope; 0: no brake")
+            .not_negative(),
         optional("brake_give", &D::brake_give, "m", "of rope, before the brake bears its capacity")
+            .positive()
             .usually(1e-5, 0.5));
   }
 };
@@ -65,19 +72,13 @@ struct Drum {
       "maximum_tension", "maximum_tension", "maximum_power", nullptr, nullptr, "brake_capacity"};
 
   static void check(const DrumDescription& d, double lag, const Check& c) {
-    c.not_negative("drum_inertia", d.drum_inertia);
     if (d.drum_inertia == 0.0) return check_absent(d, c);
-    for (const auto& [what, value] :
-         {std::pair{"drum_radius", d.drum_radius}, std::pair{"maximum_power", d.maximum_power},
-          std::pair{"brake_give", d.brake_give}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.not_negative("maximum_tension", d.maximum_tension);
-    c.not_negative("brake_capacity", d.brake_capacity);
+    if (d.drum_radius == 0.0) c.fail("has a drum_inertia and no drum_radius; give it, m");
     if (!(lag > 0.0))
       c.fail("a drum with inertia needs a lag, of its motor's speed; give one, such as 0.1 s");
-    check_brake(d, c);
+    if (d.brake_capacity == 0.0 && is_given(d.brake)) {
+      c.fail("has a brake without a capacity; give brake_capacity, N at the rope");
+    }
   }
 
   template <class Context>
@@ -170,17 +171,6 @@ struct Drum {
     needs_drum(is_given(d.brake), "brake");
   }
 
-  static void check_brake(const DrumDescription& d, const Check& c) {
-    if (d.brake_capacity == 0.0 && is_given(d.brake)) {
-      c.fail("has a brake without a capacity; give brake_capacity, N at the rope");
-    }
-    for (const Curve::Piece& piece : d.brake.pieces()) {
-      const double share = d.brake.at(piece.start).value;
-      if (share >= 0.0 && share <= 1.0) continue;
-      c.fail("brake is " + to_text(share) + " at t = " + to_text(piece.start) +
-             " s; give the share of its capacity, 0 (open) to 1 (closed)");
-    }
-  }
   static bool is_given(const Curve& curve) { return curve.pieces().size() > 1 || curve.at(0.0).value != 0.0; }
 
   /// b.

@@ -34,12 +34,12 @@ struct FlowForceDescription {
     using D = FlowForceDescription;
     return std::tuple(
         on_body("body", &D::body), optional("point", &D::point, "m", "where the load acts, body coordinates"),
-        required("density", &D::density, "kg/m3", "").usually(0.5, 1500.0),
+        required("density", &D::density, "kg/m3", "").not_negative().usually(0.5, 1500.0),
         required("speed", &D::speed, "m/s", "").usually(0.0, 100.0),
         required("direction", &D::direction, "rad", "where the flow goes, from +x towards +y"),
-        required("frontal_area", &D::frontal_area, "m2", "").usually(0.0, 1e5),
-        required("lateral_area", &D::lateral_area, "m2", "").usually(0.0, 1e5),
-        required("length", &D::length, "m", "").usually(0.2, 600.0),
+        required("frontal_area", &D::frontal_area, "m2", "").not_negative().usually(0.0, 1e5),
+        required("lateral_area", &D::lateral_area, "m2", "").not_negative().usually(0.0, 1e5),
+        required("length", &D::length, "m", "").not_negative().usually(0.2, 600.0),
         required("angles", &D::angles, "rad", ""),
         required("coefficients", &D::coefficients, "", "C_x, C_y, C_n at the angles").usually(0.0, 20.0));
   }
@@ -63,19 +63,11 @@ struct FlowForce {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
-    c.near("point", d.point);
-    c.not_negative("density", d.density);
-    c.finite("direction", d.direction);
-    c.not_negative("frontal_area", d.frontal_area);
-    c.not_negative("lateral_area", d.lateral_area);
-    c.not_negative("length", d.length);
     if (d.angles.size() < 4 || d.angles.size() != d.coefficients.size()) {
       c.fail("has " + std::to_string(d.angles.size()) + " angles and " +
              std::to_string(d.coefficients.size()) + " coefficients; give as many of both, at least four");
     }
     for (std::size_t i = 0; i < d.angles.size(); ++i) {
-      c.finite("angles", d.angles[i]);
-      c.finite("coefficients", d.coefficients[i]);
       const double next = i + 1 < d.angles.size() ? d.angles[i + 1] : d.angles.front() + PeriodicKnots::turn;
       if (!(next > d.angles[i] && next - d.angles[i] <= largest_gap)) {
         c.fail("angle " + to_text(d.angles[i]) + " rad is followed by " + to_text(next) +

@@ -49,16 +49,11 @@ struct ForceTable {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
-    c.near("point", d.point);
     if (d.times.empty() || d.times.size() != d.wrenches.size()) {
       c.fail("has " + std::to_string(d.times.size()) + " times and " + std::to_string(d.wrenches.size()) +
              " wrenches; give as many of both");
     }
-    for (std::size_t i = 0; i < d.times.size(); ++i) {
-      c.finite("times", d.times[i]);
-      c.finite("wrenches", d.wrenches[i]);
-      if (i > 0 && !(d.times[i] > d.times[i - 1])) c.fail("times must increase");
-    }
+    c.increases("times", d.times);
   }
 
   static Description example() {

@@ -30,9 +30,10 @@ struct FrictionDescription {
       "Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction.";
   static constexpr auto fields() {
     using D = FrictionDescription;
-    return std::tuple_cat(on_coordinate<D>(),
-                          std::tuple(required("load", &D::load, "N or N m", ""),
-                                     required("speed", &D::speed, "m/s or rad/s", "").usually(1e-6, 1.0)));
+    return std::tuple_cat(
+        on_coordinate<D>(),
+        std::tuple(required("load", &D::load, "N or N m", "").not_negative(),
+                   required("speed", &D::speed, "m/s or rad/s", "").positive().usually(1e-6, 1.0)));
   }
 };
 
@@ -47,12 +48,6 @@ struct Friction {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
-    c.not_negative("load", d.load);
-    c.finite("speed", d.speed);
-    if (!(d.speed > 0.0)) {
-      c.fail("speed is " + to_text(d.speed) +
-             " m/s or rad/s; give a positive one, where friction has 76 % of its load");
-    }
   }
 
   static Description example() { return {"load", {"joint", "angle"}, 4.0, 0.7}; }

@@ -31,23 +31,31 @@ struct HeaveCompensatorDescription {
         optional("direction", &D::direction, "", "along which it is measured, inertial axes"),
         optional("winch", &D::winch, "", "line whose winch follows"),
         optional("actuator", &D::actuator, "", "actuator that follows, in place of a winch"),
-        optional("ratio", &D::ratio, "", "of what follows to the stroke: m/m, or rad/m"),
+        optional("ratio", &D::ratio, "", "of what follows to the stroke: m/m, or rad/m")
+            .must_be({.not_zero = true}),
         optional("gain", &D::gain, "", "of the stroke to the motion").usually(0.01, 10.0),
-        optional("high_pass", &D::high_pass, "Hz", "corner of the filter; 0: none").usually(1e-4, 2.0),
-        optional("lag", &D::lag, "s", "of the measured motion").usually(1e-3, 20.0),
+        optional("high_pass", &D::high_pass, "Hz", "corner of the filter; 0: none")
+            .not_negative()
+            .usually(1e-4, 2.0),
+        optional("lag", &D::lag, "s", "of the measured motion").not_negative().usually(1e-3, 20.0),
         optional("lag_order", &D::lag_order, "", "1, or 2: nearer to a pure delay"),
         optional("actuator_frequency", &D::actuator_frequency, "Hz",
                  "natural frequency of the drive, second order; 0: none")
+            .not_negative()
             .usually(0.02, 200.0),
         optional("actuator_damping", &D::actuator_damping, "", "of critical damping of the drive")
+            .not_negative()
             .usually(0.03, 10.0),
         optional("maximum_rate", &D::maximum_rate, "m/s", "of the stroke; at 1e7 there is none")
+            .positive()
             .usually(0.01, 50.0),
         optional("maximum_stroke", &D::maximum_stroke, "m",
                  "of the stroke in both directions; at 1e7 there is none")
+            .positive()
             .usually(0.01, 100.0),
         optional("settling", &D::settling, "s",
                  "in which the stroke returns to the motion after a bound, and brakes before its own")
+            .positive()
             .usually(2e-3, 20.0));
   }
 };
@@ -63,25 +71,9 @@ struct HeaveCompensator {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body, true);
-    c.near("point", d.point);
-    c.finite("direction", d.direction);
     if (!(d.direction.norm() > 0.0)) c.fail("direction is zero; give one, such as (0, 0, 1) for up");
     if (!d.winch.empty() && !d.actuator.empty()) {
       c.fail("moves winch '" + d.winch + "' and actuator '" + d.actuator + "'; give each its own");
-    }
-    c.finite("ratio", d.ratio);
-    if (d.ratio == 0.0) c.fail("ratio is 0, which moves nothing; give that of what follows to the stroke");
-    c.finite("gain", d.gain);
-    for (const auto& [what, value] : {std::pair{"high_pass", d.high_pass}, std::pair{"lag", d.lag},
-                                      std::pair{"actuator_frequency", d.actuator_frequency},
-                                      std::pair{"actuator_damping", d.actuator_damping}}) {
-      c.not_negative(what, value);
-    }
-    for (const auto& [what, value] :
-         {std::pair{"maximum_rate", d.maximum_rate}, std::pair{"maximum_stroke", d.maximum_stroke},
-          std::pair{"settling", d.settling}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
     }
     if (d.lag_order != 1.0 && d.lag_order != 2.0) {
       c.fail("lag_order is " + to_text(d.lag_order) + "; choose 1 or 2");

@@ -22,8 +22,10 @@ struct HydraulicControlDescription {
         optional("command", &D::command, "", "of the spool, -1 (retracts) to 1 (extends)").usually(0.0, 1.0),
         optional("reference", &D::reference, "m", "stroke that the spool is to follow"),
         optional("gain", &D::gain, "1/m", "spool over the stroke that is missing; 0: open loop")
+            .not_negative()
             .usually(0.05, 1e3),
         optional("rate_gain", &D::rate_gain, "s/m", "spool over the rate of the reference")
+            .not_negative()
             .usually(0.02, 1e3));
   }
 };
@@ -37,8 +39,6 @@ struct HydraulicControl {
   Followed follows;
 
   static void check(const HydraulicControlDescription& d, double rated_flow, const Check& c) {
-    c.not_negative("gain", d.gain);
-    c.not_negative("rate_gain", d.rate_gain);
     if (rated_flow > 0.0) return;
     if (d.gain > 0.0 || d.rate_gain > 0.0 || d.command.pieces().size() > 1 ||
         d.command.at(0.0).value != 0.0) {

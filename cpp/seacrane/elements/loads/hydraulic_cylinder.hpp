@@ -45,48 +45,64 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
   static constexpr auto fields() {
     using D = HydraulicCylinderDescription;
     return std::tuple_cat(
-        std::tuple(
-            on_body("first", &D::first), on_body("second", &D::second),
-            optional("first_point", &D::first_point, "m", "coordinates of the first body"),
-            optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-            required("full_area", &D::full_area, "m2", "of the piston, full side").usually(1e-4, 3.0),
-            required("rod_side_area", &D::rod_side_area, "m2", "of the piston less the rod")
-                .usually(1e-4, 3.0),
-            required("retracted_length", &D::retracted_length, "m", "between the points at stroke 0")
-                .usually(0.02, 100.0),
-            required("stroke", &D::stroke, "m", "largest").usually(0.01, 100.0),
-            required("pressure", &D::pressure, "Pa", "of the full side at the start, absolute")
-                .usually(0.0, 2e8),
-            required("pressure_rod", &D::pressure_rod, "Pa", "of the rod side, likewise").usually(0.0, 2e8),
-            required("hose_volume", &D::hose_volume, "m3",
-                     "of the full side: hose and what the stroke leaves"),
-            required("hose_volume_rod", &D::hose_volume_rod, "m3", "of the rod side, likewise")),
+        std::tuple(on_body("first", &D::first), on_body("second", &D::second),
+                   optional("first_point", &D::first_point, "m", "coordinates of the first body"),
+                   optional("second_point", &D::second_point, "m", "coordinates of the second body"),
+                   required("full_area", &D::full_area, "m2", "of the piston, full side")
+                       .positive()
+                       .usually(1e-4, 3.0),
+                   required("rod_side_area", &D::rod_side_area, "m2", "of the piston less the rod")
+                       .positive()
+                       .usually(1e-4, 3.0),
+                   required("retracted_length", &D::retracted_length, "m", "between the points at stroke 0")
+                       .positive()
+                       .usually(0.02, 100.0),
+                   required("stroke", &D::stroke, "m", "largest").positive().usually(0.01, 100.0),
+                   required("pressure", &D::pressure, "Pa", "of the full side at the start, absolute")
+                       .positive()
+                       .usually(0.0, 2e8),
+                   required("pressure_rod", &D::pressure_rod, "Pa", "of the rod side, likewise")
+                       .positive()
+                       .usually(0.0, 2e8),
+                   required("hose_volume", &D::hose_volume, "m3",
+                            "of the full side: hose and what the stroke leaves")
+                       .not_negative(),
+                   required("hose_volume_rod", &D::hose_volume_rod, "m3", "of the rod side, likewise")
+                       .not_negative()),
         HydraulicOilDescription::fields(), HydraulicValveDescription::fields(),
         HydraulicControlDescription::fields(),
         std::tuple(
             optional("internal_leakage", &D::internal_leakage, "m3/s/Pa", "past the piston")
+                .not_negative()
                 .usually(0.0, 1e-9),
             optional("external_leakage", &D::external_leakage, "m3/s/Pa", "from each side to the tank")
+                .not_negative()
                 .usually(0.0, 1e-9),
-            optional("viscous_friction", &D::viscous_friction, "N s/m", "of the seals"),
-            optional("friction", &D::friction, "N", "of the seals, dry"),
+            optional("viscous_friction", &D::viscous_friction, "N s/m", "of the seals").not_negative(),
+            optional("friction", &D::friction, "N", "of the seals, dry").not_negative(),
             optional("friction_speed", &D::friction_speed, "m/s", "about which dry friction changes its sign")
+                .positive()
                 .usually(1e-4, 1.0),
-            optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the ends of the stroke"),
+            optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the ends of the stroke").positive(),
             optional("accumulator_volume", &D::accumulator_volume, "m3",
-                     "of gas, without oil, in an accumulator on the full side; 0: none"),
+                     "of gas, without oil, in an accumulator on the full side; 0: none")
+                .not_negative(),
             optional("accumulator_pressure", &D::accumulator_pressure, "Pa", "of its gas without oil")
+                .not_negative()
                 .usually(9e4, 2e8),
-            optional("accumulator_flow", &D::accumulator_flow, "m3/s",
-                     "through its throttle at `rated_drop`"),
+            optional("accumulator_flow", &D::accumulator_flow, "m3/s", "through its throttle at `rated_drop`")
+                .not_negative(),
             optional("accumulator_exponent", &D::accumulator_exponent, "", "of its gas: p V^exponent stays")
+                .positive()
                 .usually(0.9, 3.0),
             optional("rupture_time", &D::rupture_time, "s", "at which a hose bursts; at 1e7 none does"),
-            optional("rupture_area", &D::rupture_area, "m2", "of the hole"),
+            optional("rupture_area", &D::rupture_area, "m2", "of the hole").not_negative(),
             optional("rod_side_ruptures", &D::rod_side_ruptures, "", "in place of the full side"),
             optional("discharge_coefficient", &D::discharge_coefficient, "", "of the hole")
+                .positive()
                 .usually(0.05, 1.5),
             optional("oil_density", &D::oil_density, "kg/m3", "that leaves through the hole")
+                .positive()
                 .usually(300.0, 3000.0),
             optional("refuse_void", &D::refuse_void, "", "whether a run ends where oil boils")));
   }
@@ -139,26 +155,7 @@ struct HydraulicCylinder {
     names.body(c, d.first, true);
     names.body(c, d.second, true);
     if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
-    c.near("first_point", d.first_point);
-    c.near("second_point", d.second_point);
     names.input(c, kind, d.name);
-    positive(c, {{"full_area", d.full_area},
-                 {"rod_side_area", d.rod_side_area},
-                 {"retracted_length", d.retracted_length},
-                 {"stroke", d.stroke},
-                 {"pressure", d.pressure},
-                 {"pressure_rod", d.pressure_rod},
-                 {"friction_speed", d.friction_speed},
-                 {"stop_stiffness", d.stop_stiffness},
-                 {"accumulator_exponent", d.accumulator_exponent},
-                 {"discharge_coefficient", d.discharge_coefficient},
-                 {"oil_density", d.oil_density}});
-    for (const auto& [what, value] :
-         {std::pair{"internal_leakage", d.internal_leakage},
-          std::pair{"external_leakage", d.external_leakage},
-          std::pair{"viscous_friction", d.viscous_friction}, std::pair{"friction", d.friction}}) {
-      c.not_negative(what, value);
-    }
     HydraulicOil::check(d, c);
     for (const auto& [what, value] :
          {std::pair{"pressure", d.pressure}, std::pair{"pressure_rod", d.pressure_rod}}) {
@@ -420,14 +417,6 @@ struct HydraulicCylinder {
   static constexpr double kPressureScale = 10.0;
   static constexpr double kLeastResolved = 1e3;  // Pa: of a lower pressure errors count over this one
 
-  using Values = std::initializer_list<std::pair<const char*, double>>;
-  static void positive(const Check& c, Values values) {
-    for (const auto& [what, value] : values) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-  }
-
   static void check_volumes(const Description& d, const Check& c) {
     const double bore = std::sqrt(4.0 * d.full_area / std::numbers::pi);
     if (bore > d.retracted_length) {
@@ -441,7 +430,6 @@ struct HydraulicCylinder {
     for (const auto& [what, volume, swept] :
          {std::tuple{"hose_volume", d.hose_volume, d.full_area * d.stroke},
           std::tuple{"hose_volume_rod", d.hose_volume_rod, d.rod_side_area * d.stroke}}) {
-      c.finite(what, volume);
       if (volume >= kLeastVolume * swept) continue;
       c.fail(std::string(what) + " is " + to_text(volume) +
              " m3, and at an end of the stroke no oil is left: "
@@ -462,7 +450,6 @@ struct HydraulicCylinder {
     for (const auto& [what, value] : {std::pair{"accumulator_volume", d.accumulator_volume},
                                       std::pair{"accumulator_pressure", d.accumulator_pressure},
                                       std::pair{"accumulator_flow", d.accumulator_flow}}) {
-      c.not_negative(what, value);
       if ((value > 0.0) == (d.accumulator_volume > 0.0)) continue;
       c.fail(std::string(what) + " is " + to_text(value) + " and accumulator_volume is " +
              to_text(d.accumulator_volume) +
@@ -481,8 +468,6 @@ struct HydraulicCylinder {
            " of its volume; give more, in Pa: 1 bar is 1e5");
   }
   static void check_rupture(const Description& d, const Check& c) {
-    c.finite("rupture_time", d.rupture_time);
-    c.not_negative("rupture_area", d.rupture_area);
     if ((d.rupture_time < kFarthest) == (d.rupture_area > 0.0)) return;
     c.fail("rupture_time is " + to_text(d.rupture_time) + " s and rupture_area " + to_text(d.rupture_area) +
            " m2; give both, or neither");

@@ -42,13 +42,16 @@ struct LineDescription : WinchDescription {
     const auto own = std::tuple(
         on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
         required("points", &D::points, "m", "coordinates of these bodies"),
-        required("EA", &D::EA, "N", "axial stiffness: tension over strain").usually(0.0, 2e10),
-        required("length", &D::length, "m", "unstretched; with a winch, at the start"),
+        required("EA", &D::EA, "N", "axial stiffness: tension over strain").positive().usually(0.0, 2e10),
+        required("length", &D::length, "m", "unstretched; with a winch, at the start").positive(),
         optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line")
+            .not_negative()
             .usually(1e-4, 1.0),
-        optional("mass", &D::mass, "kg", "that bounces on the line; 0: what its start tells, see LineBounce"),
+        optional("mass", &D::mass, "kg", "that bounces on the line; 0: what its start tells, see LineBounce")
+            .not_negative(),
         optional("rung", &D::rung, "", "'elastic', or 'quasi-static': its stretch follows the tension"),
         optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")
+            .positive()
             .usually(1e-3, 10.0));
     const auto table = std::tuple(
         optional("strains", &D::strains, "", "from 0, of a table in place of EA").usually(0.0, 3.0),
@@ -123,19 +126,6 @@ struct Line {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     check_path(d, c, names);
-    c.finite("EA", d.EA);
-    if (!(d.EA > 0.0)) {
-      c.fail("EA is " + to_text(d.EA) + " N; give the tension over the strain, positive");
-    }
-    for (const Curve::Piece& piece : d.length.pieces()) {
-      const double start = d.length.at(piece.start).value;
-      if (!(start > 0.0)) {
-        c.fail("length is " + to_text(start) + " m at t = " + to_text(piece.start) +
-               " s; an unstretched length must be positive");
-      }
-    }
-    c.not_negative("damping_ratio", d.damping_ratio);
-    c.not_negative("mass", d.mass);
     d.sheaves.check(d.points.size(), kSides - first_held(d.winch) + 2, c);
     d.sheaves.check_neighbours(d.bodies, d.points, c);
     LineElasticity::check(d.strains, d.tensions, c);
@@ -428,7 +418,6 @@ struct Line {
     }
     for (std::size_t i = 0; i < d.points.size(); ++i) {
       names.body(c, d.bodies[i], true);
-      c.near("points", d.points[i]);
       if (i > 0 && d.bodies[i] == d.bodies[i - 1] && d.points[i] == d.points[i - 1]) {
         c.fail("visits point " + std::to_string(i) + " twice in a row; leave one of them out");
       }
@@ -443,8 +432,6 @@ struct Line {
     if (d.rung != kQuasiStatic && d.rung != "elastic") {
       c.fail("rung '" + d.rung + "' is unknown; choose 'elastic' or 'quasi-static'");
     }
-    c.finite("settling", d.settling);
-    if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
     if (d.rung != kQuasiStatic) return;
     if (!d.strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose rung 'elastic'");
     if (d.winch && d.lag == 0.0) {

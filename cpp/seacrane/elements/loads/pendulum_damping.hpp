@@ -26,8 +26,10 @@ struct PendulumDampingDescription {
         on_body("first", &D::first), on_body("second", &D::second),
         optional("first_point", &D::first_point, "m", "on the first body: where the wire hangs"),
         optional("second_point", &D::second_point, "m", "on the second body: what swings"),
-        required("ratio", &D::ratio, "", "of critical damping of the swing").usually(5e-5, 2.0),
-        optional("mass", &D::mass, "kg", "that swings; 0: that of the second body"));
+        required("ratio", &D::ratio, "", "of critical damping of the swing")
+            .within(0.0, 10.0)
+            .usually(5e-5, 2.0),
+        optional("mass", &D::mass, "kg", "that swings; 0: that of the second body").not_negative());
   }
 };
 
@@ -52,13 +54,6 @@ struct PendulumDamping {
     names.body(c, d.first, true);
     names.body(c, d.second);
     if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
-    c.near("first_point", d.first_point);
-    c.near("second_point", d.second_point);
-    c.not_negative("ratio", d.ratio);
-    if (!(d.ratio <= kLargestRatio)) {
-      c.fail("ratio is " + to_text(d.ratio) + "; give the share of critical damping, such as 0.005");
-    }
-    c.not_negative("mass", d.mass);
   }
 
   static Description example() {
@@ -103,9 +98,6 @@ struct PendulumDamping {
     out.wrench[first].add(back, from_a);
     out.add_power(drag.dot(across));
   }
-
- private:
-  static constexpr double kLargestRatio = 10.0;
 };
 
 }  // namespace seacrane

@@ -39,8 +39,6 @@ struct PointForce {
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
     names.input(c, kind, d.name);
-    c.near("point", d.point);
-    c.finite("force", d.force);
   }
 
   static Description example() {

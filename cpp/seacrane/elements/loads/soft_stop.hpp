@@ -24,8 +24,8 @@ struct SoftStopDescription {
         on_coordinate<D>(),
         std::tuple(optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
                    optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
-                   required("stiffness", &D::stiffness, "N/m or N m/rad", ""),
-                   optional("damping", &D::damping, "s/m or s/rad", "").usually(0.0, 100.0)));
+                   required("stiffness", &D::stiffness, "N/m or N m/rad", "").positive(),
+                   optional("damping", &D::damping, "s/m or s/rad", "").not_negative().usually(0.0, 100.0)));
   }
 };
 
@@ -53,9 +53,6 @@ struct SoftStop {
       c.fail("bounds of an angle are " + to_text(d.minimum) + " and " + to_text(d.maximum) +
              " rad; give both, between -pi and pi: the other way round would reach them too");
     }
-    c.finite("stiffness", d.stiffness);
-    if (!(d.stiffness > 0.0)) c.fail("stiffness is " + to_text(d.stiffness) + "; make it positive");
-    c.not_negative("damping", d.damping);
   }
 
   static Description example() { return {"load", {"joint", "angle"}, -3.0, -2.9, 7.0, 0.2}; }

@@ -23,15 +23,16 @@ struct SpringDescription {
       "plus damping times the rate of length.";
   static constexpr auto fields() {
     using D = SpringDescription;
-    return std::tuple(on_body("first", &D::first), on_body("second", &D::second),
-                      optional("first_point", &D::first_point, "m", "coordinates of the first body"),
-                      optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-                      optional("stiffness", &D::stiffness, "N/m", ""),
-                      optional("damping", &D::damping, "N s/m", ""),
-                      optional("natural_length", &D::natural_length, "m", "").usually(0.0, 5000.0),
-                      optional("lengths", &D::lengths, "m", "of a table of tension, in place of stiffness")
-                          .usually(0.0, 5000.0),
-                      optional("forces", &D::forces, "N", "tension at the lengths"));
+    return std::tuple(
+        on_body("first", &D::first), on_body("second", &D::second),
+        optional("first_point", &D::first_point, "m", "coordinates of the first body"),
+        optional("second_point", &D::second_point, "m", "coordinates of the second body"),
+        optional("stiffness", &D::stiffness, "N/m", "").not_negative(),
+        optional("damping", &D::damping, "N s/m", "").not_negative(),
+        optional("natural_length", &D::natural_length, "m", "").not_negative().usually(0.0, 5000.0),
+        optional("lengths", &D::lengths, "m", "of a table of tension, in place of stiffness")
+            .usually(0.0, 5000.0),
+        optional("forces", &D::forces, "N", "tension at the lengths"));
   }
 };
 
@@ -51,20 +52,11 @@ struct SpringDamper {
     names.body(c, d.first, true);
     names.body(c, d.second, true);
     if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
-    c.near("first_point", d.first_point);
-    c.near("second_point", d.second_point);
-    c.not_negative("stiffness", d.stiffness);
-    c.not_negative("damping", d.damping);
-    c.not_negative("natural_length", d.natural_length);
     if (d.lengths.size() != d.forces.size() || d.lengths.size() == 1) {
       c.fail("the table has " + std::to_string(d.lengths.size()) + " lengths and " +
              std::to_string(d.forces.size()) + " forces; give at least two of each");
     }
-    for (std::size_t i = 0; i < d.lengths.size(); ++i) {
-      c.finite("lengths", d.lengths[i]);
-      c.finite("forces", d.forces[i]);
-      if (i > 0 && !(d.lengths[i] > d.lengths[i - 1])) c.fail("lengths must increase");
-    }
+    c.increases("lengths", d.lengths);
   }
 
   static Description example() {

@@ -27,16 +27,20 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
   static constexpr auto fields() {
     using D = WinchDescription;
     return std::tuple_cat(
-        std::tuple(
-            optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
-            optional("rate", &D::rate, "m/s", "commanded, positive: pays out").usually(0.0, 20.0),
-            optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none")
-                .usually(1e-3, 50.0),
-            optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag")
-                .usually(1e-4, 50.0),
-            optional("lag", &D::lag, "s", "of the winch's rate behind the command").usually(1e-3, 30.0),
-            optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
-                .usually(0.0, 50.0)),
+        std::tuple(optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
+                   optional("rate", &D::rate, "m/s", "commanded, positive: pays out").usually(0.0, 20.0),
+                   optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none")
+                       .positive()
+                       .usually(1e-3, 50.0),
+                   optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag")
+                       .positive()
+                       .usually(1e-4, 50.0),
+                   optional("lag", &D::lag, "s", "of the winch's rate behind the command")
+                       .not_negative()
+                       .usually(1e-3, 30.0),
+                   optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
+                       .positive()
+                       .usually(0.0, 50.0)),
         ConstantTensionDescription::fields(), DrumDescription::fields());
   }
 };
@@ -63,13 +67,6 @@ struct Winch {
     if (length.pieces().size() > 1 || length.at(0.0).value != length.at(1.0).value) {
       c.fail("length changes over time, and the winch does that; give the length at the start");
     }
-    for (const auto& [what, value] : {std::pair{"maximum_rate", d.maximum_rate},
-                                      std::pair{"maximum_acceleration", d.maximum_acceleration},
-                                      std::pair{"minimum_length", d.minimum_length}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.not_negative("lag", d.lag);
     if (d.maximum_acceleration < kFarthest && d.lag == 0.0) {
       c.fail(
           "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
