@@ -41,9 +41,8 @@ struct Actuator {
   static constexpr bool packs = true;
   using Description = ActuatorDescription;
 
+  Description d;
   CoordinateData coordinate;
-  double stiffness = 0.0, damping = 0.0;
-  Curve feed_forward, reference;
   int slot = 0;  // inputs: [force added, reference added, its rate]
   Followed follows;
 
@@ -61,12 +60,11 @@ struct Actuator {
     const int force = context.input(d.name + ".force");
     context.input(d.name + ".reference");
     context.input(d.name + ".reference_rate");
-    return {context.coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, force,
-            context.followed(kind, d.name)};
+    return {d, context.coordinate(d.coordinate), force, context.followed(kind, d.name)};
   }
 
   std::vector<LoadKinks> kinks() const {
-    return {kinks_of(reference, stiffness, damping), kinks_of(feed_forward, 1.0)};
+    return {kinks_of(d.reference, d.stiffness, d.damping), kinks_of(d.feed_forward, 1.0)};
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
@@ -79,11 +77,11 @@ struct Actuator {
   /// Along the coordinate, at its value and rate.
   template <class T>
   T force(const LoadInput<T>& in, const T& value, const T& rate) const {
-    const CurveValue ref = reference.at(in.time, in.curve_limit);
+    const CurveValue ref = d.reference.at(in.time, in.curve_limit);
     const T error = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - value;
     const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
-    return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
-           T(damping) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - rate);
+    return T(d.feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(d.stiffness) * wrapped +
+           T(d.damping) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - rate);
   }
 
   template <class T>

@@ -5,6 +5,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -28,8 +29,7 @@ struct ConstantTensionDescription {
 /// A tension that a winch holds: a rate is added to its command, gain times what EA e is beyond the set
 /// tension and the dead band. Above it pays out, below it hauls in, a slack line too.
 struct ConstantTension {
-  Curve tension;
-  double gain = 0.0, dead_band = 0.0;
+  ConstantTensionDescription d;
 
   static void check(const ConstantTensionDescription& d, const Check& c) {
     const bool given = d.tension.pieces().size() > 1 || d.tension.at(0.0).value != 0.0;
@@ -51,18 +51,18 @@ struct ConstantTension {
   template <class T>
   T rate(const LoadInput<T>& in, const T& pull) const {
     const T beyond = excess(in, pull);
-    return T(gain) * (beyond - clamped(beyond, T(-dead_band), T(dead_band)));
+    return T(d.tension_gain) * (beyond - clamped(beyond, T(-d.dead_band), T(d.dead_band)));
   }
-  /// Change their signs at the ends of the dead band.
-  std::array<double, 2> margins(const LoadInput<double>& in, double pull) const {
+  /// At the ends of the dead band.
+  std::array<Margin, 2> margins(const LoadInput<double>& in, double pull) const {
     const double beyond = excess(in, pull);
-    return {dead_band - beyond, dead_band + beyond};
+    return {{{nullptr, d.dead_band - beyond}, {nullptr, d.dead_band + beyond}}};
   }
 
  private:
   template <class T>
   T excess(const LoadInput<T>& in, const T& pull) const {
-    return pull - T(tension.at(in.time, in.curve_limit).value);
+    return pull - T(d.tension.at(in.time, in.curve_limit).value);
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -61,15 +62,12 @@ struct Drum {
     double motor, brake, rate, brake_power;
   };
 
-  double radius = 0.0, mass = 0.0, maximum_tension = 0.0, maximum_power = 0.0;
-  Curve brake;
-  double capacity = 0.0, stiffness = 0.0, damping = 1.0;
+  DrumDescription d;
+  double mass = 0.0, stiffness = 0.0, damping = 1.0;
   int wound = -1;  // z among the states; none: no brake
 
-  /// Kinks, each where its number changes its sign, and the bound that is met where it turns negative, or
-  /// null.
-  static constexpr std::array<const char*, 6> kBounds = {
-      "maximum_tension", "maximum_tension", "maximum_power", nullptr, nullptr, "brake_capacity"};
+  static constexpr std::array<Margin, 6> kMargins = {
+      {{"maximum_tension"}, {"maximum_tension"}, {"maximum_power"}, {}, {}, {"brake_capacity"}}};
 
   static void check(const DrumDescription& d, double lag, const Check& c) {
     if (d.drum_inertia == 0.0) return check_absent(d, c);
@@ -83,14 +81,8 @@ struct Drum {
 
   template <class Context>
   static Drum compile(const DrumDescription& d, const std::string& line, Context& context) {
-    Drum out;
-    out.radius = d.drum_radius;
-    out.mass = d.drum_inertia / (d.drum_radius * d.drum_radius);
-    out.maximum_tension = d.maximum_tension;
-    out.maximum_power = d.maximum_power;
+    Drum out{d, d.drum_inertia / (d.drum_radius * d.drum_radius)};
     if (d.brake_capacity == 0.0) return out;
-    out.brake = d.brake;
-    out.capacity = d.brake_capacity;
     out.stiffness = d.brake_capacity / d.brake_give;
     out.damping = 2.0 * std::sqrt(out.stiffness * out.mass);
     out.wound = context.state({line + ".brake", "m", 0.0, d.brake_give});
@@ -102,9 +94,9 @@ struct Drum {
   /// F, for the acceleration a that is asked for.
   template <class T>
   T motor(const LoadInput<T>& in, const T& asked, const T& tension, const T& rate) const {
-    const T force = clamped(wanted(asked, tension), T(-maximum_tension), T(maximum_tension));
+    const T force = clamped(wanted(asked, tension), T(-d.maximum_tension), T(d.maximum_tension));
     const T speed = select(rate < T(0), T(-rate), rate);
-    const T strongest = T(maximum_power) / select(speed > T(kSlowest), speed, T(kSlowest));
+    const T strongest = T(d.maximum_power) / select(speed > T(kSlowest), speed, T(kSlowest));
     const T given = select(force * rate > T(0), clamped(force, T(-strongest), strongest), force);
     return T(1.0 - applied(in)) * given;
   }
@@ -112,7 +104,7 @@ struct Drum {
   template <class T>
   T braking(const LoadInput<T>& in, const T& rate) const {
     if (!has_brake()) return T(0);
-    const T most(capacity * applied(in));
+    const T most(d.brake_capacity * applied(in));
     return clamped(grip(in, rate), T(-most), most);
   }
   /// r'.
@@ -136,22 +128,21 @@ struct Drum {
     return spring + 0.5 * mass * rate * rate;
   }
 
-  /// See kBounds. A motor that has let go, and a brake that is not closed, meet no bound.
-  std::array<double, 6> margins(const LoadInput<double>& in, double asked, double tension,
+  /// A motor that has let go, and a brake that is not closed, meet no bound.
+  std::array<Margin, 6> margins(const LoadInput<double>& in, double asked, double tension,
                                 double rate) const {
-    std::array<double, 6> out;
-    out.fill(1.0);
-    if (applied(in) < 1.0 && maximum_tension > 0.0) {
+    auto out = kMargins;
+    if (applied(in) < 1.0 && d.maximum_tension > 0.0) {
       const double force = wanted(asked, tension);
-      out[0] = maximum_tension - force;
-      out[1] = maximum_tension + force;
-      out[2] = maximum_power - clamped(force, -maximum_tension, maximum_tension) * rate;
+      out[0].value = d.maximum_tension - force;
+      out[1].value = d.maximum_tension + force;
+      out[2].value = d.maximum_power - clamped(force, -d.maximum_tension, d.maximum_tension) * rate;
     }
     if (has_brake()) {
-      const double held = grip(in, rate), most = capacity * applied(in);
-      out[3] = most - held;
-      out[4] = most + held;
-      if (applied(in) >= 1.0) out[5] = most - std::abs(held);
+      const double held = grip(in, rate), most = d.brake_capacity * applied(in);
+      out[3].value = most - held;
+      out[4].value = most + held;
+      if (applied(in) >= 1.0) out[5].value = most - std::abs(held);
     }
     return out;
   }
@@ -176,7 +167,7 @@ struct Drum {
   /// b.
   template <class T>
   double applied(const LoadInput<T>& in) const {
-    return clamped(brake.at(in.time, in.curve_limit).value, 0.0, 1.0);
+    return clamped(d.brake.at(in.time, in.curve_limit).value, 0.0, 1.0);
   }
   template <class T>
   T wanted(const T& asked, const T& tension) const {

@@ -53,10 +53,10 @@ struct FlowForce {
   static constexpr const char* kind = "flow force";
   using Description = FlowForceDescription;
 
+  Description d;
   int body = 0;
-  Vec3d point;  // from the state point, body axes
-  Vec3d bow;    // x axis of the described body
-  Curve speed;
+  Vec3d point;                      // from the state point, body axes
+  Vec3d bow;                        // x axis of the described body
   double cosine = 1.0, sine = 0.0;  // of the flow's direction
   PeriodicKnots knots;
   std::vector<Vec3d> load, curvature;  // over V^2, at the knots: N s2/m2, N s2/m2, N m s2/m2
@@ -93,11 +93,11 @@ struct FlowForce {
   template <class Context>
   static FlowForce compile(const Description& d, Context& context) {
     FlowForce f;
+    f.d = d;
     const Attachment on = context.attach(d.body, d.point);
     f.body = on.body;
     f.point = on.point;
     f.bow = on.axes.col(0);
-    f.speed = d.speed;
     f.cosine = std::cos(d.direction);
     f.sine = std::sin(d.direction);
     f.knots = PeriodicKnots(d.angles);
@@ -118,7 +118,7 @@ struct FlowForce {
     Vec3d largest = Vec3d::Zero();
     for (const Vec3d& at : load) largest = largest.cwiseMax(at.cwiseAbs());
     LoadKinks out;
-    for (const CurveKink& kink : speed.kinks()) {
+    for (const CurveKink& kink : d.speed.kinks()) {
       const std::array<double, 3> jump = {square(kink.after, 0) - square(kink.before, 0),
                                           square(kink.after, 1) - square(kink.before, 1),
                                           square(kink.after, 2) - square(kink.before, 2)};
@@ -149,7 +149,7 @@ struct FlowForce {
     const auto& k = in.bodies[body];
     const Vec3<T> lever = k.rotation * point.cast<T>();
     const Vec3<T> velocity = k.velocity + cross<T>(k.angular_velocity, lever);
-    const T u = T(speed.at(in.time, in.curve_limit).value);
+    const T u = T(d.speed.at(in.time, in.curve_limit).value);
     const T along = T(cosine) * u - velocity.x(), across = T(sine) * u - velocity.y();
     const T square = along * along + across * across;
     if (!(square > T(0))) return;  // no direction, and no load

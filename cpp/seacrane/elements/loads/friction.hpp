@@ -43,8 +43,8 @@ struct Friction {
   static constexpr const char* kind = "friction";
   using Description = FrictionDescription;
 
+  Description d;
   CoordinateData coordinate;
-  double load = 0.0, speed = 1.0;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
@@ -54,7 +54,7 @@ struct Friction {
 
   template <class Context>
   static Friction compile(const Description& d, Context& context) {
-    return {context.coordinate(d.coordinate), d.load, d.speed};
+    return {d, context.coordinate(d.coordinate)};
   }
 
   static std::vector<LoadKinks> kinks() { return {}; }
@@ -67,8 +67,8 @@ struct Friction {
     const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
     const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, ka, kb);
     const T rate = coordinate_rate<T>(row, ka, kb);
-    const T ratio = rate / T(speed);
-    const T drag = T(-load) * tanh(ratio);
+    const T ratio = rate / T(d.speed);
+    const T drag = T(-d.load) * tanh(ratio);
     out.add_power(apply_along<T>(coordinate, row, drag, rate, out));
   }
 };

@@ -33,8 +33,7 @@ struct HydraulicControlDescription {
 /// What asks for a spool position: command + gain (reference - stroke) + rate_gain reference rate, within -1
 /// and 1. The stroke of a heave compensator adds to the reference.
 struct HydraulicControl {
-  Curve command, reference;
-  double gain = 0.0, rate_gain = 0.0;
+  HydraulicControlDescription d;
   int slot = 0;  // inputs: [command added, reference added, its rate]
   Followed follows;
 
@@ -47,23 +46,22 @@ struct HydraulicControl {
   }
 
   template <class Context>
-  void take(const HydraulicControlDescription& d, const std::string& name, Context& context) {
-    command = d.command;
-    reference = d.reference;
-    gain = d.gain;
-    rate_gain = d.rate_gain;
-    slot = context.input(name + ".command");
+  static HydraulicControl compile(const HydraulicControlDescription& d, const char* kind,
+                                  const std::string& name, Context& context) {
+    const int slot = context.input(name + ".command");
     context.input(name + ".reference");
     context.input(name + ".reference_rate");
+    return {d, slot, context.followed(kind, name)};
   }
 
   /// Spool that is asked for, without bounds.
   template <class T>
   T asked(const LoadInput<T>& in, const T& stroke) const {
-    const CurveValue ref = reference.at(in.time, in.curve_limit);
-    const T open(command.at(in.time, in.curve_limit).value + in.slots[slot]);
+    const CurveValue ref = d.reference.at(in.time, in.curve_limit);
+    const T open(d.command.at(in.time, in.curve_limit).value + in.slots[slot]);
     const T missing = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - stroke;
-    return open + T(gain) * missing + T(rate_gain) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in));
+    return open + T(d.gain) * missing +
+           T(d.rate_gain) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in));
   }
 
   /// Jumps of a force whose derivative of an order, 1 or 2, is `share` times what is asked for.
@@ -79,8 +77,8 @@ struct HydraulicControl {
         }
       }
     };
-    add(command, 1.0, 0.0);
-    add(reference, gain, rate_gain);
+    add(d.command, 1.0, 0.0);
+    add(d.reference, d.gain, d.rate_gain);
     return all;
   }
 };

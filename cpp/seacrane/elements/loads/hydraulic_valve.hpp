@@ -92,11 +92,10 @@ struct HydraulicValveDescription {
 ///
 /// in series with the edge: 1 / C^2 = 1 / C_edge^2 + 1 / C_valve^2, no volume between.
 struct HydraulicValve {
-  double pump = 0.0, tank = 0.0, laminar = 1.0, overlap = 0.0;
+  HydraulicValveDescription d;
   std::array<double, 2> edge{}, relief_pressure{}, holding_pressure{};  // m3/s/sqrt(Pa), Pa; 0: none
   double relief_slope = 0.0;                                            // m3/s/Pa
-  double holding = 0.0, range = 1.0, pilot = 0.0, makeup = 0.0;
-  bool pump_check = false;
+  double holding = 0.0, makeup = 0.0;                                   // m3/s/sqrt(Pa)
 
   static void check(const HydraulicValveDescription& d, const Check& c) {
     if (d.rated_flow == 0.0 && d.rated_flow_rod > 0.0) {
@@ -115,29 +114,21 @@ struct HydraulicValve {
   }
 
   static HydraulicValve compile(const HydraulicValveDescription& d) {
-    HydraulicValve out;
     const double root = std::sqrt(d.rated_drop);
-    out.pump = d.pump_pressure;
-    out.tank = d.tank_pressure;
-    out.laminar = d.laminar_drop;
-    out.overlap = d.overlap;
-    out.edge = {d.rated_flow / root, (d.rated_flow_rod > 0.0 ? d.rated_flow_rod : d.rated_flow) / root};
-    out.relief_pressure = {d.relief_pressure, d.relief_pressure_rod};
-    out.relief_slope = d.relief_flow / d.relief_override;
-    out.holding_pressure = {d.counterbalance_pressure, d.counterbalance_pressure_rod};
-    out.holding = d.counterbalance_flow / root;
-    out.range = d.counterbalance_range;
-    out.pilot = d.pilot_ratio;
-    out.makeup = d.makeup_flow / root;
-    out.pump_check = d.pump_check;
-    return out;
+    return {d,
+            {d.rated_flow / root, (d.rated_flow_rod > 0.0 ? d.rated_flow_rod : d.rated_flow) / root},
+            {d.relief_pressure, d.relief_pressure_rod},
+            {d.counterbalance_pressure, d.counterbalance_pressure_rod},
+            d.relief_flow / d.relief_override,
+            d.counterbalance_flow / root,
+            d.makeup_flow / root};
   }
 
   /// Through an orifice of conductance 1.
   template <class T>
   T through(const T& drop) const {
     using std::sqrt;
-    return drop / sqrt(T(sqrt(T(drop * drop + T(laminar * laminar)))));
+    return drop / sqrt(T(sqrt(T(drop * drop + T(d.laminar_drop * d.laminar_drop)))));
   }
   template <class T>
   static T in_series(const T& first, const T& second) {
@@ -156,15 +147,16 @@ struct HydraulicValve {
   Port<T> port(std::size_t side, const T& spool) const {
     const T in = side == 0 ? spool : T(-spool), out = -in;
     const bool to_pump = in > T(0);
-    const T travel = select(to_pump, in, out) - T(overlap);
-    const T open = select(travel > T(0), T(travel / T(1.0 - overlap)), T(0));
-    return {T(edge[side]) * open, select(to_pump, T(pump), T(tank)), to_pump};
+    const T travel = select(to_pump, in, out) - T(d.overlap);
+    const T open = select(travel > T(0), T(travel / T(1.0 - d.overlap)), T(0));
+    return {T(edge[side]) * open, select(to_pump, T(d.pump_pressure), T(d.tank_pressure)), to_pump};
   }
   bool holds(std::size_t side) const { return holding_pressure[side] > 0.0; }
   /// x times the conductance of the load-holding valve.
   template <class T>
   T held(std::size_t side, const T& pressure, const T& other) const {
-    const T raw = (pressure + T(pilot) * other - T(holding_pressure[side])) / T(range);
+    const T raw =
+        (pressure + T(d.pilot_ratio) * other - T(holding_pressure[side])) / T(d.counterbalance_range);
     const T y = clamped(raw, T(0), T(1));
     return T(holding) * y * y * (T(3) - T(2) * y);
   }
@@ -173,7 +165,7 @@ struct HydraulicValve {
   T inflow(std::size_t side, const Port<T>& at, const T& pressure, const T& other) const {
     const T drop = at.source - pressure;
     const T back = holds(side) ? in_series(at.conductance, held(side, pressure, other)) : at.conductance;
-    const T out = select(pump_check && at.to_pump, T(0), back);
+    const T out = select(d.pump_check && at.to_pump, T(0), back);
     return select(drop > T(0), at.conductance, out) * through(drop);
   }
   /// Out of the side through its relief valve.
@@ -187,7 +179,7 @@ struct HydraulicValve {
   template <class T>
   T made_up(const T& pressure) const {
     if (makeup == 0.0) return T(0);
-    const T drop = T(tank) - pressure;
+    const T drop = T(d.tank_pressure) - pressure;
     return select(drop > T(0), T(T(makeup) * through(drop)), T(0));
   }
 

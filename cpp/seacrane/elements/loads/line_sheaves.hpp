@@ -23,7 +23,7 @@ struct SheaveDescriptions {
     return std::any_of(radii.begin(), radii.end(), [](double r) { return r > 0.0; });
   }
 
-  void check(std::size_t points, int most, const Check& c) const {
+  void check(std::size_t points, std::size_t most, const Check& c) const {
     check_count("radii", radii.size(), points, c);
     check_count("axes", axes.size(), points, c);
     check_count("turns", turns.size(), points, c);
@@ -31,7 +31,7 @@ struct SheaveDescriptions {
     check_count("frictions", frictions.size(), points, c);
     if (any() && axes.empty()) c.fail("has sheaves and no axes; give the axis of each, (0, 0, 0) at points");
     for (std::size_t i = 0; i < points; ++i) check_point(i, i == 0 || i + 1 == points, c);
-    if (any() && points > static_cast<std::size_t>(most)) {
+    if (any() && points > most) {
       c.fail("has sheaves and " + std::to_string(points) + " points; give at most " + std::to_string(most));
     }
   }
