@@ -38,7 +38,7 @@ struct Bound {
            !(not_zero && v == 0.0);
   }
   /// What to give instead.
-  std::string fix() const;
+  std::string fix(const std::string& meaning) const;
 };
 
 /// Checks of one named element; every failure reads "<kind> '<name>': <what>".
@@ -50,9 +50,9 @@ class Check {
 
   [[noreturn]] void fail(const std::string& what) const { throw SceneError(prefix_ + what); }
 
-  /// `when` follows the number in the message.
+  /// In the message `when` follows the number, and `meaning` a range.
   void number(const std::string& what, double v, const std::string& unit, const Bound& bound,
-              const std::string& when = "") const;
+              const std::string& when = "", const std::string& meaning = "") const;
   void finite(const char* what, double v) const { number(what, v, "", {}); }
   template <class Derived>
   void finite(const char* what, const Eigen::MatrixBase<Derived>& m) const {

@@ -44,6 +44,7 @@ struct Field {
   }
   constexpr Field positive() const { return must_be({.minimum = 0.0, .above = true}); }
   constexpr Field not_negative() const { return must_be({.minimum = 0.0}); }
+  constexpr Field not_zero() const { return must_be({.not_zero = true}); }
   constexpr Field within(double minimum, double maximum) const {
     return must_be({.minimum = minimum, .maximum = maximum});
   }
@@ -94,11 +95,11 @@ void check_value(const Field<Get>& field, const std::string& what, const V& valu
     }
   };
   if constexpr (std::is_same_v<V, double>) {
-    c.number(what, value, field.unit, field.bound);
+    c.number(what, value, field.unit, field.bound, "", field.text);
   } else if constexpr (std::is_same_v<V, Curve>) {
     for (const Curve::Piece& piece : value.pieces()) {
       c.number(what, value.at(piece.start).value, field.unit, field.bound,
-               " at t = " + to_text(piece.start) + " s");
+               " at t = " + to_text(piece.start) + " s", field.text);
     }
   } else if constexpr (std::is_same_v<V, std::vector<double>> || std::is_same_v<V, std::vector<Vec3d>> ||
                        std::is_same_v<V, std::vector<Vec6d>>) {

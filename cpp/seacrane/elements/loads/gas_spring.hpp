@@ -32,7 +32,7 @@ struct GasSpringDescription : SpanDescription {
             required("length", &D::length, "m", "at which pressure and volume are given")
                 .positive()
                 .usually(0.01, 500.0),
-            optional("exponent", &D::exponent, "", "of the gas: p V^exponent stays")
+            optional("exponent", &D::exponent, "", "of the gas, p V^exponent stays: 1 slow, 1.4 nitrogen")
                 .within(1.0, 2.0)
                 .usually(0.9, 3.0),
             optional("pushes", &D::pushes, "", "shortening compresses the gas, in place of lengthening"),

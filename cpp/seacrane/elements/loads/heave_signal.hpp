@@ -30,8 +30,7 @@ struct HeaveCompensatorDescription {
         optional("direction", &D::direction, "", "along which it is measured, inertial axes"),
         optional("winch", &D::winch, "", "line whose winch follows"),
         optional("actuator", &D::actuator, "", "actuator that follows, in place of a winch"),
-        optional("ratio", &D::ratio, "", "of what follows to the stroke: m/m, or rad/m")
-            .must_be({.not_zero = true}),
+        optional("ratio", &D::ratio, "", "of what follows to the stroke: m/m, or rad/m").not_zero(),
         optional("gain", &D::gain, "", "of the stroke to the motion").usually(0.01, 10.0),
         optional("high_pass", &D::high_pass, "Hz", "corner of the filter; 0: none")
             .not_negative()
