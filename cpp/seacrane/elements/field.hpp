@@ -108,11 +108,8 @@ void check_value(const Field<Get>& field, const std::string& what, const V& valu
     if constexpr (std::is_same_v<V, Vec3d>) {
       if (field.unit == std::string_view("m")) return c.near(what.c_str(), value);
     }
-    if constexpr (V::ColsAtCompileTime == 1) {
-      each(value.size());
-    } else {
-      c.finite(what.c_str(), value);
-    }
+    c.finite(what.c_str(), value);
+    if constexpr (V::ColsAtCompileTime == 1) each(value.size());
   }
 }
 
