@@ -159,7 +159,7 @@ def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000; it must be positive"),
+        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000 Pa; it must be positive"),
         ({"pump_pressure": 0.0}, "has a spool and no pump; give pump_pressure"),
         ({"rod_side_area": 2 * FULL}, "rod_side_area is .* more than the full side's"),
         (
@@ -176,7 +176,7 @@ def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
             {"accumulator_volume": 1e-3, "accumulator_pressure": 15.0, "accumulator_flow": 1e-4},
             "accumulator_pressure is 15 Pa: the holding pressure of .* squeeze its gas to .* 1 bar is 1e5",
         ),
-        ({"air": 0.5}, "air is 0.5; give a share of the volume"),
+        ({"air": 0.5}, "air is 0.5; give 0 to 0.1 .share of the volume"),
         ({"spool_lag": -0.1}, "spool_lag is -0.1"),
         ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),
         ({"rated_flow": 24.0}, r"rated_flow is 24 m3/s, which moves the piston by .* 24 l/min are 0.0004"),

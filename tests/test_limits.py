@@ -41,12 +41,12 @@ from seacrane.cli.run_command import costs
         (lambda s: s.add_seat(joint="air"), "a seat takes a weld joint"),
         (
             lambda s: s.add_friction(joint="air", coordinate="x", load=-1.0, speed=1.0),
-            "must not be negative",
+            "load is -1 N or N m; it must not be negative",
         ),
-        (lambda s: s.add_friction(joint="air", coordinate="x", load=1.0, speed=0.0), "give a positive one"),
+        (lambda s: s.add_friction(joint="air", coordinate="x", load=1.0, speed=0.0), "speed is 0 m/s or rad/s; it must be positive"),
         (
             lambda s: s.add_soft_stop(joint="air", coordinate="x", maximum=1.0, stiffness=0.0),
-            "make it positive",
+            "stiffness is 0 N/m or N m/rad; it must be positive",
         ),
     ],
 )

@@ -370,8 +370,8 @@ def bad(**change: Any) -> Scene:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"EA": 0.0}, "EA is 0 N; give the tension over the strain, positive"),
-        ({"length": 0.0}, "length is 0 m at t = 0 s; an unstretched length must be positive"),
+        ({"EA": 0.0}, "EA is 0 N; it must be positive"),
+        ({"length": 0.0}, "length is 0 m at t = 0 s; it must be positive"),
         ({"length": -1.0}, "length is -1 m"),
         ({"damping_ratio": -0.1}, "damping_ratio is -0.1; it must not be negative"),
         ({"bodies": ["ground"]}, "has 1 bodies and 2 points; give as many of both, at least two"),
@@ -392,9 +392,9 @@ def test_lines_that_cannot_be_are_told(change: dict[str, Any], message: str) -> 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"maximum_rate": 0.0}, "maximum_rate is 0; it must be positive"),
+        ({"maximum_rate": 0.0}, "maximum_rate is 0 m/s; it must be positive"),
         ({"maximum_acceleration": 0.5}, "maximum_acceleration needs a lag"),
-        ({"lag": -1.0}, "lag is -1; it must not be negative"),
+        ({"lag": -1.0}, "lag is -1 s; it must not be negative"),
         ({"minimum_length": 11.0}, "starts with a length of 10 m and a minimum_length of 11 m"),
     ],
 )

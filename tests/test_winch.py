@@ -403,10 +403,10 @@ def test_a_scene_file_holds_the_winch_and_an_older_one_its_digest(tmp_path: Path
     ("given", "message"),
     [
         ({"tension": 1e4}, "holds a tension without a tension_gain; give the m/s"),
-        ({"tension": 1e4, "tension_gain": -1.0}, "tension_gain is -1; it must not be negative"),
+        ({"tension": 1e4, "tension_gain": -1.0}, "tension_gain is -1 m/s/N; it must not be negative"),
         (
             {"tension": 1e4, "tension_gain": 1e-5, "dead_band": -1.0},
-            "dead_band is -1; it must not be negative",
+            "dead_band is -1 N; it must not be negative",
         ),
         (
             {"tension_gain": 1e-5},
@@ -414,8 +414,8 @@ def test_a_scene_file_holds_the_winch_and_an_older_one_its_digest(tmp_path: Path
         ),
         ({"maximum_tension": 1e5}, "maximum_tension needs a drum: give drum_inertia and drum_radius"),
         ({"brake": 1.0}, "brake needs a drum"),
-        ({"drum_inertia": 1e3, "lag": 0.1}, "drum_radius is 0; it must be positive"),
-        ({"drum_inertia": -1.0}, "drum_inertia is -1; it must not be negative"),
+        ({"drum_inertia": 1e3, "lag": 0.1}, "has a drum_inertia and no drum_radius; give it"),
+        ({"drum_inertia": -1.0}, "drum_inertia is -1 kg m2; it must not be negative"),
         ({"drum_inertia": 1e3, "drum_radius": 0.5}, "a drum with inertia needs a lag"),
         (
             {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "brake": 1.0},
@@ -423,15 +423,15 @@ def test_a_scene_file_holds_the_winch_and_an_older_one_its_digest(tmp_path: Path
         ),
         (
             {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "brake": 2.0, "brake_capacity": 1e5},
-            "brake is 2 at t = 0 s; give the share of its capacity, 0 .open. to 1 .closed.",
+            "brake is 2 at t = 0 s; give 0 to 1 .share of its capacity",
         ),
         (
             {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "maximum_power": 0.0},
-            "maximum_power is 0; it must be positive",
+            "maximum_power is 0 W; it must be positive",
         ),
         (
             {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "maximum_tension": np.nan},
-            "maximum_tension is nan; give a finite number",
+            "maximum_tension is nan N; give a finite number",
         ),
     ],
 )

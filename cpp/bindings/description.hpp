@@ -161,9 +161,7 @@ template <class D, class F>
 using ValueOf = std::remove_cvref_t<decltype(std::declval<F>().of(std::declval<D&>()))>;
 
 template <class D>
-inline constexpr bool has_name = requires(D d) {
-  d.name;
-};
+inline constexpr bool has_name = requires(D d) { d.name; };
 
 inline const char* text_of(Role role) {
   switch (role) {
@@ -180,12 +178,21 @@ inline const char* text_of(Role role) {
   }
 }
 
+/// In the words of JSON Schema.
+inline py::dict in_words(const Bound& bound) {
+  py::dict out;
+  if (std::isfinite(bound.minimum)) out[bound.above ? "exclusiveMinimum" : "minimum"] = bound.minimum;
+  if (std::isfinite(bound.maximum)) out[bound.below ? "exclusiveMaximum" : "maximum"] = bound.maximum;
+  return out;
+}
+
 /// One entry of FIELDS.
 struct FieldRow {
   std::string name, type, role, unit, text;
   py::tuple shape;
   bool required;
   py::object usual;
+  py::dict bounds;
   double least = 0.0, most = 0.0;
 };
 
@@ -194,13 +201,14 @@ py::tuple field_rows() {
   py::list out;
   const D usual;
   if constexpr (has_name<D>) {
-    out.append(FieldRow{"name", "text", "name", "", "", py::tuple(), true, py::none()});
+    out.append(FieldRow{"name", "text", "name", "", "", py::tuple(), true, py::none(), py::dict()});
   }
   for_each_field<D>([&](const auto& f) {
     using V = ValueOf<D, decltype(f)>;
     out.append(FieldRow{f.name, TypeOf<V>::name, text_of(f.role), f.unit, f.text,
                         py::tuple(py::cast(TypeOf<V>::shape())), f.required,
-                        f.required ? py::object(py::none()) : py::cast(seen(f.of(usual))), f.least, f.most});
+                        f.required ? py::object(py::none()) : py::cast(seen(f.of(usual))), in_words(f.bound),
+                        f.least, f.most});
   });
   return py::tuple(out);
 }

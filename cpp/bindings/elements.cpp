@@ -22,6 +22,8 @@ void bind_fields(py::module_& m) {
       .def_readonly("shape", &FieldRow::shape, "of an array; -1: any length")
       .def_readonly("required", &FieldRow::required)
       .def_readonly("default", &FieldRow::usual, "where it is not required")
+      .def_readonly("bounds", &FieldRow::bounds,
+                    "what its numbers must be, in the words of JSON Schema: minimum, exclusiveMinimum, ...")
       .def_readonly("least", &FieldRow::least, "usual magnitude of what is not zero; 0: no bound")
       .def_readonly("most", &FieldRow::most, "likewise");
 }
@@ -47,7 +49,8 @@ void bind_joint_kinds(py::module_& m) {
             for (const JointKind::Parameter& p : k.parameters) {
               out.append(FieldRow{p.name, "number", description::text_of(p.role), p.unit, p.text, py::tuple(),
                                   p.required,
-                                  p.required ? py::object(py::none()) : py::object(py::float_(p.usual))});
+                                  p.required ? py::object(py::none()) : py::object(py::float_(p.usual)),
+                                  description::in_words(p.bound)});
             }
             return py::tuple(out);
           },

@@ -517,6 +517,11 @@ class Field:
     def __repr__(self) -> str:
         ...
     @property
+    def bounds(self) -> dict:
+        """
+        what its numbers must be, in the words of JSON Schema: minimum, exclusiveMinimum, ...
+        """
+    @property
     def default(self) -> typing.Any:
         """
         where it is not required

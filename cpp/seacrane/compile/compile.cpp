@@ -288,7 +288,7 @@ class Compiler {
   void check_quasi_static() const {
     for (const Line& line : std::get<std::vector<Line>>(*model_.loads)) {
       if (!line.quasi_static()) continue;
-      const std::string what = "line '" + line.name + "': its stretch is quasi-static, and ";
+      const std::string what = "line '" + line.d.name + "': its stretch is quasi-static, and ";
       if (!model_.limits.empty()) {
         throw SceneError(what + "limit '" + model_.limits.front().name +
                          "' makes impacts, which shake the line; choose rung 'elastic'");

@@ -39,7 +39,7 @@ class BounceFinder {
     if (lines_.empty() || model_.paper_kinematics) return {};
     factor();
     for (const Line& line : lines_) {
-      add([&](Vec6d* w) { line.add_path(input(), w); }, line.EA / line.length.at(0.0).value, &line);
+      add([&](Vec6d* w) { line.add_path(input(), w); }, line.d.EA / line.d.length.at(0.0).value, &line);
     }
     if (lines_.size() > kMostCoupled) return one_by_one();
     add_others();
@@ -78,7 +78,7 @@ class BounceFinder {
   /// Actuators and cylinders hold what the lines hang on.
   void add_others() {
     for (const Actuator& one : std::get<std::vector<Actuator>>(*model_.loads)) {
-      add([&](Vec6d* w) { one.add_unit(0, input(), w); }, one.stiffness, nullptr);
+      add([&](Vec6d* w) { one.add_unit(0, input(), w); }, one.d.stiffness, nullptr);
     }
     for (const HydraulicCylinder& one : std::get<std::vector<HydraulicCylinder>>(*model_.loads)) {
       add([&](Vec6d* w) { one.add_unit(0, input(), w); }, stiffness_of(one.stiff_slopes(input())), nullptr);
@@ -95,7 +95,7 @@ class BounceFinder {
     std::vector<LineBounce> out;
     for (const Pull& one : springs_) {
       const double mass = 1.0 / yields(one, one);
-      out.push_back({one.line->name, mass, std::sqrt(one.stiffness / mass), one.line->damping_ratio});
+      out.push_back({one.line->d.name, mass, std::sqrt(one.stiffness / mass), one.line->d.damping_ratio});
     }
     return out;
   }
@@ -130,11 +130,11 @@ class BounceFinder {
       for (Eigen::Index j = 0; j < n; ++j) {
         const Pull& other = springs_[idx(j)];
         if (other.line == nullptr) continue;
-        const double moved = other.line->given_mass ? other.line->hung : mass[j];
-        ratio +=
-            shares(j, mode[idx(i)]) * other.line->damping_ratio * omega * std::sqrt(moved / other.stiffness);
+        const double moved = other.line->given_mass() ? other.line->hung : mass[j];
+        ratio += shares(j, mode[idx(i)]) * other.line->d.damping_ratio * omega *
+                 std::sqrt(moved / other.stiffness);
       }
-      out.push_back({springs_[idx(i)].line->name, mass[i], omega, ratio});
+      out.push_back({springs_[idx(i)].line->d.name, mass[i], omega, ratio});
     }
     return out;
   }
@@ -171,8 +171,8 @@ void hang_on_lines(Model& model, const std::vector<LineBounce>& bounces) {
   model.line_bounces = bounces;
   for (Line& line : std::get<std::vector<Line>>(*model.loads)) {
     const auto found = std::find_if(bounces.begin(), bounces.end(),
-                                    [&](const LineBounce& one) { return one.line == line.name; });
-    if (found != bounces.end() && !line.given_mass) line.hang(found->mass);
+                                    [&](const LineBounce& one) { return one.line == line.d.name; });
+    if (found != bounces.end() && !line.given_mass()) line.hang(found->mass);
   }
 }
 

@@ -26,7 +26,7 @@ struct BodyDescription {
   static constexpr auto fields() {
     using D = BodyDescription;
     return std::tuple(
-        required("mass", &D::mass, "kg", ""),
+        required("mass", &D::mass, "kg", "").positive(),
         required("inertia", &D::inertia, "kg m2", "about the centre of mass, body axes"),
         optional("center_of_mass", &D::center_of_mass, "m", "body axes").usually(0.0, 500.0),
         optional("position", &D::position, "m", "of the body origin, inertial frame").usually(0.0, 2e4),

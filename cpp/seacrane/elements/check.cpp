@@ -12,6 +12,21 @@ std::string to_text(double value) {
   return out.str();
 }
 
+std::string Bound::fix(const std::string& meaning) const {
+  if (not_zero) return "it must not be zero";
+  if (!std::isfinite(maximum)) return above ? "it must be positive" : "it must not be negative";
+  return std::string("give ") + (above ? "more than " : "") + to_text(minimum) + " to " +
+         (below ? "below " : "") + to_text(maximum) + (meaning.empty() ? "" : " (" + meaning + ")");
+}
+
+void Check::number(const std::string& what, double v, const std::string& unit, const Bound& bound,
+                   const std::string& when, const std::string& meaning) const {
+  if (std::isfinite(v) && bound.holds(v)) return;
+  const bool one = !unit.empty() && unit.find(',') == std::string::npos;  // else that of several entries
+  fail(what + " is " + to_text(v) + (one ? " " + unit : "") + when + "; " +
+       (std::isfinite(v) ? bound.fix(meaning) : "give a finite number"));
+}
+
 void Check::positive_definite(const char* what, const MatXd& m, bool semi) const {
   finite(what, m);
   const double size = m.cwiseAbs().maxCoeff();

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "seacrane/math/types.hpp"
 
@@ -22,6 +26,21 @@ std::string to_text(double value);
 
 inline constexpr double kFarthest = 1e7;  // m
 
+/// What a number must be besides finite.
+struct Bound {
+  double minimum = -std::numeric_limits<double>::infinity(),
+         maximum = std::numeric_limits<double>::infinity();
+  bool above = false, below = false;  // the minimum, or the maximum, is refused itself
+  bool not_zero = false;
+
+  bool holds(double v) const {
+    return (above ? v > minimum : v >= minimum) && (below ? v < maximum : v <= maximum) &&
+           !(not_zero && v == 0.0);
+  }
+  /// What to give instead.
+  std::string fix(const std::string& meaning) const;
+};
+
 /// Checks of one named element; every failure reads "<kind> '<name>': <what>".
 class Check {
  public:
@@ -31,9 +50,10 @@ class Check {
 
   [[noreturn]] void fail(const std::string& what) const { throw SceneError(prefix_ + what); }
 
-  void finite(const char* what, double v) const {
-    if (!std::isfinite(v)) fail(std::string(what) + " is " + to_text(v) + "; give a finite number");
-  }
+  /// In the message `when` follows the number, and `meaning` a range.
+  void number(const std::string& what, double v, const std::string& unit, const Bound& bound,
+              const std::string& when = "", const std::string& meaning = "") const;
+  void finite(const char* what, double v) const { number(what, v, "", {}); }
   template <class Derived>
   void finite(const char* what, const Eigen::MatrixBase<Derived>& m) const {
     for (Eigen::Index i = 0; i < m.rows(); ++i) {
@@ -53,9 +73,9 @@ class Check {
            " m; give metres, at most " + to_text(kFarthest));
     }
   }
-  void not_negative(const char* what, double v) const {
-    finite(what, v);
-    if (v < 0.0) fail(std::string(what) + " is " + to_text(v) + "; it must not be negative");
+  void increases(const char* what, const std::vector<double>& values) const {
+    if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end()) return;
+    fail(std::string(what) + " must increase");
   }
   void positive_definite(const char* what, const MatXd& m, bool semi) const;
 

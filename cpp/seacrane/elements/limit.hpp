@@ -29,8 +29,9 @@ struct LimitDescription {
         std::tuple(
             optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
             optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
-            optional("restitution", &D::restitution, "", "0 to 1"),
+            optional("restitution", &D::restitution, "", "0 to 1").within(0.0, 1.0),
             optional("sticking_speed", &D::sticking_speed, "m/s or rad/s", "slower impacts do not rebound")
+                .not_negative()
                 .usually(1e-6, 0.5)));
   }
 };

@@ -75,12 +75,14 @@ void update_below(const double* p, int height, const std::size_t* scatter, doubl
 }  // namespace
 
 BlockSchur::BlockSchur(const std::vector<GraphNode>& nodes, int body_count) {
-  order(nodes, joint_adjacency(nodes, body_count));
+  lay_out(nodes, order(nodes, joint_adjacency(nodes, body_count)));
   collect_terms(nodes, body_count);
   value_count_ += idx(rows_);  // room for the diagonal of S before factorisation
 }
 
-void BlockSchur::order(const std::vector<GraphNode>& nodes, const std::vector<std::vector<int>>& adjacency) {
+/// Panels in the order of elimination, by least degree; returns the elements below each.
+std::vector<std::vector<int>> BlockSchur::order(const std::vector<GraphNode>& nodes,
+                                                const std::vector<std::vector<int>>& adjacency) {
   const std::size_t n = nodes.size();
   std::vector<std::set<int>> graph(n);
   for (std::size_t e = 0; e < n; ++e) graph[e].insert(adjacency[e].begin(), adjacency[e].end());
@@ -101,27 +103,30 @@ void BlockSchur::order(const std::vector<GraphNode>& nodes, const std::vector<st
   while (!queue.empty()) {
     const int e = queue.begin()->second;
     queue.erase(queue.begin());
-    const std::vector<int> neighbours(graph[idx(e)].begin(), graph[idx(e)].end());
+    std::vector<int>& neighbours = below[panels_.size()];
+    neighbours.assign(graph[idx(e)].begin(), graph[idx(e)].end());
     row_of_[idx(e)] = rows_;
     panel_of_element_[idx(e)] = static_cast<int>(panels_.size());
     Panel panel;
     panel.width = nodes[idx(e)].rows;
     panel.first_row = rows_;
     rows_ += panel.width;
-    below[panels_.size()] = neighbours;
     panels_.push_back(panel);
     for (int a : neighbours) {
       graph[idx(a)].erase(e);
       for (int b : neighbours) {
         if (a != b) graph[idx(a)].insert(b);
       }
-    }
-    for (int a : neighbours) {
       queue.erase({current[idx(a)], a});
       current[idx(a)] = degree(a);
       queue.insert({current[idx(a)], a});
     }
   }
+  return below;
+}
+
+/// The rows, values and updates of each panel.
+void BlockSchur::lay_out(const std::vector<GraphNode>& nodes, std::vector<std::vector<int>> below) {
   panel_of_row_.assign(idx(rows_), 0);
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];

@@ -46,7 +46,9 @@ class BlockSchur {
     std::size_t target;
   };
 
-  void order(const std::vector<GraphNode>& nodes, const std::vector<std::vector<int>>& adjacency);
+  std::vector<std::vector<int>> order(const std::vector<GraphNode>& nodes,
+                                      const std::vector<std::vector<int>>& adjacency);
+  void lay_out(const std::vector<GraphNode>& nodes, std::vector<std::vector<int>> below);
   void collect_terms(const std::vector<GraphNode>& nodes, int body_count);
   std::size_t entry(int row, int column) const;
   void eliminate(const double* p, const Panel& panel, double* x) const;

@@ -50,10 +50,12 @@ struct VesselDescription {
     return std::tuple(
         on_body("body", &D::body), optional("added_mass", &D::added_mass, "kg, kg m, kg m2", ""),
         optional("linear_damping", &D::linear_damping, "N s/m, N s, N m s", ""),
-        optional("quadratic_damping", &D::quadratic_damping, "N s2/m2, N m s2", ""),
+        optional("quadratic_damping", &D::quadratic_damping, "N s2/m2, N m s2", "").not_negative(),
         optional("restoring", &D::restoring, "N/m, N, N m", "of heave, roll and pitch alone"),
-        optional("mooring_stiffness", &D::mooring_stiffness, "N/m, N m/rad", "of surge, sway, yaw"),
-        optional("mooring_damping", &D::mooring_damping, "N s/m, N m s/rad", "of surge, sway, yaw"),
+        optional("mooring_stiffness", &D::mooring_stiffness, "N/m, N m/rad", "of surge, sway, yaw")
+            .not_negative(),
+        optional("mooring_damping", &D::mooring_damping, "N s/m, N m s/rad", "of surge, sway, yaw")
+            .not_negative(),
         optional("memory", &D::memory, "", "blocks of states, or retardation functions"),
         optional("kinematics", &D::kinematics, "", "yaw_following, or paper: eqs (17)-(31)"),
         optional("floats", &D::floats, "", "whether `restoring` holds weight and buoyancy; else it weighs"));

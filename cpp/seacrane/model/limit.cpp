@@ -29,8 +29,6 @@ bool turns(const std::string& coordinate) {
 }
 
 void check_stop(const Check& c, const SceneDescription& scene, const LimitDescription& d) {
-  c.finite("minimum", d.minimum);
-  c.finite("maximum", d.maximum);
   const bool low = d.minimum > -kNoStop, high = d.maximum < kNoStop;
   if (!low && !high) c.fail("has neither minimum nor maximum; give at least one");
   if (!(d.minimum < d.maximum)) {
@@ -141,6 +139,7 @@ void check_limits(const SceneDescription& scene, const SceneNames& names) {
   int count = 0;
   for (const LimitDescription& d : scene.limits) {
     const Check c("limit", d.name);
+    check_fields(d, c);
     if (d.kind == "stop") {
       names.coordinate(c, d.coordinate);
       check_stop(c, scene, d);
@@ -151,9 +150,6 @@ void check_limits(const SceneDescription& scene, const SceneNames& names) {
     } else {
       c.fail("kind '" + d.kind + "' is unknown; choose wire, stop or seat");
     }
-    c.not_negative("restitution", d.restitution);
-    if (d.restitution > 1.0) c.fail("restitution is " + to_text(d.restitution) + "; give 0 to 1");
-    c.not_negative("sticking_speed", d.sticking_speed);
     const std::string what = d.coordinate.joint + "." + (d.kind == "stop" ? d.coordinate.coordinate : "");
     const auto [other, fresh] = held.insert({what, d.name});
     if (!fresh) c.fail("limits what limit '" + other->second + "' limits already; remove one of them");

@@ -18,8 +18,7 @@ namespace {
 void check_body(const BodyDescription& b) {
   const Check c("body", b.name);
   if (b.name == kGround) c.fail("'ground' is the inertial frame; choose another name");
-  c.finite("mass", b.mass);
-  if (!(b.mass > 0.0)) c.fail("mass is " + to_text(b.mass) + " kg; it must be positive");
+  check_fields(b, c);
   c.positive_definite("inertia", b.inertia, false);
   const Vec3d moments = Eigen::SelfAdjointEigenSolver<Mat3d>(b.inertia).eigenvalues();
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-6)) {
@@ -32,15 +31,9 @@ void check_body(const BodyDescription& b) {
     c.fail("mass " + to_text(b.mass) + " kg or smallest principal moment " + to_text(moments[0]) +
            " kg m2 is beyond what numbers resolve; correct its units");
   }
-  c.near("center_of_mass", b.center_of_mass);
-  c.near("position", b.position);
-  c.finite("quaternion", b.quaternion);
   if (std::abs(b.quaternion.norm() - 1.0) > 1e-6) {
     c.fail("quaternion has length " + to_text(b.quaternion.norm()) + "; normalise it");
   }
-  c.finite("velocity", b.velocity);
-  c.finite("angular_velocity", b.angular_velocity);
-  c.finite("size", b.size);
   if (!b.size.isZero(0.0) && !(b.size.minCoeff() > 0.0)) {
     c.fail("size is (" + to_text(b.size[0]) + ", " + to_text(b.size[1]) + ", " + to_text(b.size[2]) +
            ") m; give three edges above zero, or none");
@@ -58,14 +51,10 @@ void check_frame(const Check& c, const char* what, const Frame& f) {
 void check_parameters(const Check& c, const JointDescription& j, const JointKind& kind) {
   const std::string needs = "; a " + kind.name + " joint needs ";
   for (const JointKind::Parameter& p : kind.parameters) {
-    const std::string name = p.name, unit = p.unit;
+    const std::string name = p.name;
     const auto given = j.parameters.find(name);
-    if (given == j.parameters.end() && p.required) c.fail("has no " + name + needs + "one, in " + unit);
-    const double value = given == j.parameters.end() ? p.usual : given->second;
-    c.finite(p.name, value);
-    const std::string is = name + " is " + to_text(value) + (unit.empty() ? "" : " ") + unit + needs;
-    if (p.bound == Bound::positive && !(value > 0.0)) c.fail(is + "a positive " + name);
-    if (p.bound == Bound::not_zero && value == 0.0) c.fail(is + "a " + name + " other than zero");
+    if (given == j.parameters.end() && p.required) c.fail("has no " + name + needs + "one, in " + p.unit);
+    c.number(name, given == j.parameters.end() ? p.usual : given->second, p.unit, p.bound);
   }
   for (const auto& [name, value] : j.parameters) {
     const bool known = std::any_of(kind.parameters.begin(), kind.parameters.end(),
@@ -94,10 +83,8 @@ const JointKind& check_joint(const JointDescription& j, const SceneNames& names)
 void check_vessel(const VesselDescription& v, const SceneNames& names) {
   const Check c("vessel", v.name);
   names.body(c, v.body);
+  check_fields(v, c);
   c.positive_definite("added_mass", v.added_mass, true);
-  c.finite("linear_damping", v.linear_damping);
-  for (int i = 0; i < 6; ++i) c.not_negative("quadratic_damping", v.quadratic_damping[i]);
-  c.finite("restoring", v.restoring);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       const bool allowed = i >= 2 && i <= 4 && j >= 2 && j <= 4;
@@ -115,10 +102,6 @@ void check_vessel(const VesselDescription& v, const SceneNames& names) {
     c.fail(
         "kinematics 'paper' takes state-space memory, as the paper does; leave the convolution to "
         "'yaw_following'");
-  }
-  for (int i = 0; i < 3; ++i) {
-    c.not_negative("mooring_stiffness", v.mooring_stiffness[i]);
-    c.not_negative("mooring_damping", v.mooring_damping[i]);
   }
 }
 
@@ -142,6 +125,7 @@ void check_drives(const SceneDescription& scene, const SceneNames& names) {
   std::map<std::string, std::string> driven;
   for (const auto& d : scene.drivers) {
     const Check c("driver", d.name);
+    check_fields(d, c);
     names.coordinate(c, d.coordinate);
     const auto [other, fresh] = driven.insert({d.coordinate.joint + "." + d.coordinate.coordinate, d.name});
     if (!fresh) {
@@ -177,7 +161,7 @@ void check_points(const SceneDescription& scene, const SceneNames& names) {
   for (const auto& p : scene.points) {
     const Check c("point", p.name);
     names.body(c, p.body);
-    c.near("point", p.point);
+    check_fields(p, c);
   }
 }
 
@@ -210,10 +194,8 @@ void check_vessels(const SceneDescription& scene, const SceneNames& names) {
 void validate(const SceneDescription& scene) {
   const Check c("scene", scene.name);
   c.finite("gravity", scene.gravity);
-  c.not_negative("baumgarte", scene.baumgarte);
-  if (!(scene.length_scale > 0.0) || !std::isfinite(scene.length_scale)) {
-    c.fail("length_scale is " + to_text(scene.length_scale) + " m; make it positive and finite");
-  }
+  c.number("baumgarte", scene.baumgarte, "1/s", {.minimum = 0.0});
+  c.number("length_scale", scene.length_scale, "m", {.minimum = 0.0, .above = true});
   if (scene.bodies.empty()) c.fail("has no bodies; add at least one");
   unique_names("body", scene.bodies);
   unique_names("joint", scene.joints);
@@ -230,7 +212,11 @@ void validate(const SceneDescription& scene) {
   for_each_load_type([&]<class Load>() {
     const auto& descriptions = std::get<std::vector<typename Load::Description>>(*scene.loads);
     unique_names(Load::kind, descriptions);
-    for (const auto& d : descriptions) Load::check(d, Check(Load::kind, d.name), names);
+    for (const auto& d : descriptions) {
+      const Check c(Load::kind, d.name);
+      check_fields(d, c);
+      Load::check(d, c, names);
+    }
   });
   check_followers(scene, names);
   check_vessels(scene, names);

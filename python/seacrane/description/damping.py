@@ -65,10 +65,10 @@ def add_pendulum_damping(
         name=name,
         first=text_of(f"{what}: first", first),
         second=second,
-        first_point=shaped_of(f"{what}: first_point", first_point, (3,)),
+        first_point=first_point,
         second_point=_point(what, "second_point", second_point, load),
-        ratio=number_of(f"{what}: ratio", ratio),
-        mass=number_of(f"{what}: mass", mass),
+        ratio=ratio,
+        mass=mass,
     )
     added: _core.PendulumDamping = add_load(scene, element)
     return added

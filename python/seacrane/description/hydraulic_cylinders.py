@@ -13,7 +13,7 @@ from seacrane.description.forces import add_load
 from seacrane.description.holding import decided
 from seacrane.description.places import placed
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import number_of, positive_of, text_of
 
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
@@ -142,9 +142,9 @@ def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[
 
 def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
     """Of both chambers, Pa, that hold a force: the one that carries nothing has the back pressure."""
-    full, ring = (number_of(f"{what}: {area}", settings[area]) for area in ("full_area", "rod_side_area"))
-    if not (full > 0.0 and ring > 0.0):
-        raise SceneError(f"{what}: areas are {full:g} and {ring:g} m2; make both positive")
+    full, ring = (
+        positive_of(f"{what}: {area}", settings[area], "m2") for area in ("full_area", "rod_side_area")
+    )
     tank = number_of(f"{what}: tank_pressure", settings.get("tank_pressure", ATMOSPHERE))
     back = max(tank, BACK_PRESSURE * number_of(f"{what}: pump_pressure", settings.get("pump_pressure", 0.0)))
     if "pressure" in settings:

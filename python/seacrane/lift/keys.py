@@ -11,7 +11,7 @@ import inspect
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
@@ -44,6 +44,8 @@ class Key:
         What it is, for people.
     choices : tuple of str
         The texts that it may be; of a number, those that stand for one.
+    bounds : mapping of str to float
+        What its numbers must be, in the words of JSON Schema and in `unit`.
     keys : tuple of Key
         Of a table, or of each table in a list.
     """
@@ -55,6 +57,7 @@ class Key:
     required: bool = False
     text: str = ""
     choices: tuple[str, ...] = ()
+    bounds: Mapping[str, float] = field(default_factory=dict)
     keys: tuple[Key, ...] = ()
 
     @property
@@ -140,7 +143,8 @@ def _of_field(field: Any) -> dict[str, Any]:
     if field is None:
         return {}
     shapes = (tuple(field.shape),) if field.type == "array" else ()
-    return {"type": field.type, "unit": field.unit, "shapes": shapes, "text": field.text}
+    told = {name: getattr(field, name) for name in ("type", "unit", "text", "bounds")}
+    return told | {"shapes": shapes}
 
 
 TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}

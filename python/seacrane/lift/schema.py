@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -84,22 +85,24 @@ def _rules(key: Key) -> list[Json]:
 def _described(key: Key, unit: str) -> Json:
     mixed = f" ({key.unit})" if key.unit and not key.units and not key.name.endswith("_deg") else ""
     text = f"{key.text}{f' [{unit}]' if unit else mixed}".strip()
-    return ({"description": text} if text else {}) | _kind(key)
+    scale = 180.0 / math.pi if unit.startswith("deg") else 1.0
+    bounds = {word: bound * scale for word, bound in key.bounds.items()}
+    return ({"description": text} if text else {}) | _kind(key, {"type": "number", **bounds})
 
 
-def _kind(key: Key) -> Json:
+def _kind(key: Key, number: Json) -> Json:
     match key.type:
         case "text":
             return {"type": "string", **({"enum": list(key.choices)} if key.choices else {})}
         case "number":
             words = [{"enum": list(key.choices)}] if key.choices else []
-            return {"anyOf": [{"type": "number"}, *words]} if words else {"type": "number"}
+            return {"anyOf": [number, *words]} if words else number
         case "whole":
             return {"type": "integer"}
         case "flag":
             return {"type": "boolean"}
         case "array":
-            arrays = [_array(shape) for shape in key.shapes]
+            arrays = [_array(shape, number) for shape in key.shapes]
             return arrays[0] if len(arrays) == 1 else {"anyOf": arrays}
         case "texts":
             return {"type": "array", "items": {"type": "string"}}
@@ -117,8 +120,8 @@ def _kind(key: Key) -> Json:
     raise TypeError(f"no lift file holds a {key.type}")
 
 
-def _array(shape: tuple[int, ...]) -> Json:
-    items: Mapping[str, Any] = {"type": "number"} if len(shape) == 1 else _array(shape[1:])
+def _array(shape: tuple[int, ...], number: Json) -> Json:
+    items = number if len(shape) == 1 else _array(shape[1:], number)
     length = {} if shape[0] == -1 else {"minItems": shape[0], "maxItems": shape[0]}
     return {"type": "array", "items": items, **length}
 

@@ -241,9 +241,7 @@ def _gas(
     values = {key: positive_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
     if "pressure" in values:
         return values["pressure"], values["volume"]
-    piston, kappa = number_of(f"{what}: area", area), number_of(f"{what}: exponent", exponent)
-    if not piston > 0.0:
-        raise SceneError(f"{what}: area is {piston} m2; make it positive")
+    piston, kappa = positive_of(f"{what}: area", area, "m2"), number_of(f"{what}: exponent", exponent)
     return values["force"] / piston, kappa * values["force"] * piston / values["stiffness"]
 
 

@@ -154,19 +154,11 @@ def add_soft_stop(
     """
     where = coordinate_of(scene, "soft stop", joint, coordinate)
     name = name_of("soft stop", name or f"{joint} soft stop")
-    what = f"soft stop {name!r}"
-    added: _core.SoftStop = add_load(
-        scene,
-        _core.SoftStop(
-            name=name,
-            joint=joint,
-            coordinate=where,
-            minimum=number_of(f"{what}: minimum", minimum),
-            maximum=number_of(f"{what}: maximum", maximum),
-            stiffness=number_of(f"{what}: stiffness", stiffness),
-            damping=number_of(f"{what}: damping", damping),
-        ),
-    )
+    stop = _core.SoftStop(
+        name=name, joint=joint, coordinate=where, minimum=minimum, maximum=maximum,
+        stiffness=stiffness, damping=damping,
+    )  # fmt: skip
+    added: _core.SoftStop = add_load(scene, stop)
     return added
 
 
@@ -206,14 +198,6 @@ def add_friction(
     """
     where = coordinate_of(scene, "friction", joint, coordinate)
     name = name_of("friction", name or f"{joint} friction")
-    added: _core.Friction = add_load(
-        scene,
-        _core.Friction(
-            name=name,
-            joint=joint,
-            coordinate=where,
-            load=number_of(f"friction {name!r}: load", load),
-            speed=number_of(f"friction {name!r}: speed", speed),
-        ),
-    )
+    friction = _core.Friction(name=name, joint=joint, coordinate=where, load=load, speed=speed)
+    added: _core.Friction = add_load(scene, friction)
     return added

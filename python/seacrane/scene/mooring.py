@@ -14,7 +14,7 @@ from seacrane.description.forces import add_spring
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, shaped_of
+from seacrane.inputs.checked import number_of, positive_of, shaped_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.mooring_parts import (
     FLOATING,
@@ -58,9 +58,7 @@ class MooringSpring:
         point = shaped_of("mooring spring: point", self.point, (3,))
         object.__setattr__(self, "point", tuple(point.tolist()))
         number_of("mooring spring: direction_deg", self.direction_deg)
-        stiffness = number_of("mooring spring: stiffness", self.stiffness)
-        if not stiffness > 0.0:
-            raise SceneError(f"mooring spring: stiffness is {stiffness:g} N/m; give a positive one")
+        positive_of("mooring spring: stiffness", self.stiffness, "N/m")
 
     @property
     def direction(self) -> Array:

@@ -178,36 +178,8 @@ void RecursiveJacobian::gather() {
 
 void RecursiveJacobian::write_column(int k, double* column) {
   const Model& m = *model_;
-  const TreeKinematics<double>& tree = at_->tree.kinematics();
-  // Torques of clusters as wrenches on their bodies, and opposite ones on what carries these.
-  for (auto& load : load_) load.setZero();
-  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
-    const Cluster& c = tree_.clusters[i];
-    if (c.speeds == 0) continue;
-    Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> s(6, c.speeds);
-    for (int j = 0; j < c.speeds; ++j) s.col(j) = tree.columns(c.members[0])[j].vector();
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> gram = s.transpose() * s;
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> torque = torque_[i].col(k).head(c.speeds);
-    const Wrench<double> wrench(s * gram.llt().solve(torque));
-    load_[idx(c.body)] += wrench.vector();
-    if (c.kind != Cluster::floating) {
-      load_[idx(c.parent)] -= wrench.shifted_from(tree.reach(c.body)).vector();
-    }
-  }
-  load_.back().setZero();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    double turned = 0.0;
-    const ElementModel& element = m.elements[idx(rows_[i].first)];
-    const RowBlock<double>& block = at_->blocks[rows_[i].first];
-    for (int side = 0; side < 2; ++side) {
-      const Vec6<Scalar>& a = acceleration_[idx(side == 0 ? element.first : element.second)].vector();
-      for (int j = 0; j < 6; ++j) turned += block.d[side](rows_[i].second, j) * a[j].slope[idx(k)];
-    }
-    right_[static_cast<Eigen::Index>(i)] = -turned;
-  }
-  for (const RowShare& share : row_shares_) {
-    right_[share.row] += share.slopes.dot(motion_[idx(share.from)].col(k));
-  }
+  spread_torques(k);
+  turn_rows(k);
   double power = 0.0, absolute_power = 0.0;
   for (int b = 0; b < m.body_count(); ++b) {
     power += power_[idx(b)].dot(motion_[idx(b)].col(k));
@@ -224,6 +196,43 @@ void RecursiveJacobian::write_column(int k, double* column) {
   Eigen::Map<VecXd> of_loads(fluid + m.layout.loads - m.layout.memory,
                              static_cast<Eigen::Index>(m.load_states.size()));
   for (int b = 0; b < m.body_count(); ++b) of_loads.noalias() += state_over_[idx(b)] * motion_[idx(b)].col(k);
+}
+
+/// load_: torques of clusters as wrenches on their bodies, and opposite ones on what carries these.
+void RecursiveJacobian::spread_torques(int k) {
+  const TreeKinematics<double>& tree = at_->tree.kinematics();
+  for (auto& load : load_) load.setZero();
+  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
+    const Cluster& c = tree_.clusters[i];
+    if (c.speeds == 0) continue;
+    Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> s(6, c.speeds);
+    for (int j = 0; j < c.speeds; ++j) s.col(j) = tree.columns(c.members[0])[j].vector();
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> gram = s.transpose() * s;
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> torque = torque_[i].col(k).head(c.speeds);
+    const Wrench<double> wrench(s * gram.llt().solve(torque));
+    load_[idx(c.body)] += wrench.vector();
+    if (c.kind != Cluster::floating) {
+      load_[idx(c.parent)] -= wrench.shifted_from(tree.reach(c.body)).vector();
+    }
+  }
+  load_.back().setZero();
+}
+
+/// right_: what the rows lack, by how they and the accelerations turn.
+void RecursiveJacobian::turn_rows(int k) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double turned = 0.0;
+    const ElementModel& element = model_->elements[idx(rows_[i].first)];
+    const RowBlock<double>& block = at_->blocks[rows_[i].first];
+    for (int side = 0; side < 2; ++side) {
+      const Vec6<Scalar>& a = acceleration_[idx(side == 0 ? element.first : element.second)].vector();
+      for (int j = 0; j < 6; ++j) turned += block.d[side](rows_[i].second, j) * a[j].slope[idx(k)];
+    }
+    right_[static_cast<Eigen::Index>(i)] = -turned;
+  }
+  for (const RowShare& share : row_shares_) {
+    right_[share.row] += share.slopes.dot(motion_[idx(share.from)].col(k));
+  }
 }
 
 /// own_: by the bodies' directions, and by how their accelerations turn while rates of speeds are held.

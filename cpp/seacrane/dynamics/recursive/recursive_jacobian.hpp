@@ -60,6 +60,8 @@ class RecursiveJacobian {
   void spread_acceleration(const double* u_rate);
   void gather();
   void write_column(int k, double* column);
+  void spread_torques(int k);
+  void turn_rows(int k);
   void solve(double* column, double power, double absolute_power);
   void respond(double* u_rate);
   void add_inertial_slopes(int direction);

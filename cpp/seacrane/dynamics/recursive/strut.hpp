@@ -44,37 +44,16 @@ using StrutMotion = StrutMotionOf<double>;
 
 inline constexpr double kLargestCosine = 1.0 - 1e-9;  // of the angle to the axis of its universal joint
 
-/// `hinge_lever`: parent's state point to the hinge; `axis`: of the hinge; `arm`: hinge to upper end; all
-/// inertial axes.
+/// Rotation from the strut's frame to inertial axes: r, end to end, and m, across it towards the universal
+/// axis, become d and w. `r` is in the strut's frame, `u` along d, `a` the joint's fixed axis.
 template <class T>
-StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& arm_rotation,
-                            const Vec3<T>& hinge_lever, const Vec3<T>& axis, const Vec3<T>& arm) {
+Mat3<T> turned_strut(const Strut& s, const Vec3<T>& r, const Vec3<T>& u, const Vec3<T>& a) {
   using std::sqrt;
-  StrutMotionOf<T> out;
   const Vec3<T> strut_axis = s.strut_axis.cast<T>();
-  const Vec3<T> lower = base * s.base_point.cast<T>();
-  out.end = hinge_lever + arm;
-  out.end_rate = cross<T>(axis, arm);
-  out.end_bend = cross<T>(axis, out.end_rate);
-  const Vec3<T> d = out.end - lower;
-  const T distance2 = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
-  const T squared = valid_where(distance2 > across, distance2, [&](const auto& value) {
-    throw std::domain_error("cylinder '" + s.name + "': its ends are " +
-                            std::to_string(std::sqrt(value_of(value))) +
-                            " m apart, nearer than the parts allow");
-  });
-  const T length = sqrt(squared), along = T(s.extension_sign) * sqrt(squared - across);
-
-  // Directions r (end to end) and m (across, towards the universal axis) in the strut frame, d and w likewise
-  // in inertial axes: the strut frame turns the first pair into the second.
-  const Vec3<T> r = Vec3<T>(T(s.offset[0]), T(s.offset[1]), along) / length;
   const T tilt = strut_axis.dot(r);
   const Vec3<T> across_r = strut_axis - tilt * r;
   const Vec3<T> m = across_r / across_r.norm();
   const T rho = sqrt(T(1) - tilt * tilt);
-  const Vec3<T> u = d / length;
-  const Vec3<T> a = s.universal_at_base ? Vec3<T>(base * s.fixed_axis.cast<T>())
-                                        : Vec3<T>(arm_rotation * s.fixed_axis.cast<T>());
   const Vec3<T> across_u = a - a.dot(u) * u;
   const T lean = across_u.norm();
   const T leaning = -tilt * a.dot(u) / (rho * lean);
@@ -90,10 +69,37 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   Mat3<T> from, to;
   from << r, m, cross<T>(r, m);
   to << u, w, cross<T>(u, w);
-  out.rotation = to * from.transpose();
+  return to * from.transpose();
+}
+
+/// `hinge_lever`: parent's state point to the hinge; `axis`: of the hinge; `arm`: hinge to upper end; all
+/// inertial axes.
+template <class T>
+StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& arm_rotation,
+                            const Vec3<T>& hinge_lever, const Vec3<T>& axis, const Vec3<T>& arm) {
+  using std::sqrt;
+  StrutMotionOf<T> out;
+  const Vec3<T> lower = base * s.base_point.cast<T>();
+  out.end = hinge_lever + arm;
+  out.end_rate = cross<T>(axis, arm);
+  out.end_bend = cross<T>(axis, out.end_rate);
+  const Vec3<T> d = out.end - lower;
+  const T distance2 = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
+  const T squared = valid_where(distance2 > across, distance2, [&](const auto& value) {
+    throw std::domain_error("cylinder '" + s.name + "': its ends are " +
+                            std::to_string(std::sqrt(value_of(value))) +
+                            " m apart, nearer than the parts allow");
+  });
+  const T length = sqrt(squared), along = T(s.extension_sign) * sqrt(squared - across);
+
+  const Vec3<T> r = Vec3<T>(T(s.offset[0]), T(s.offset[1]), along) / length;
+  const Vec3<T> u = d / length;
+  const Vec3<T> a = s.universal_at_base ? Vec3<T>(base * s.fixed_axis.cast<T>())
+                                        : Vec3<T>(arm_rotation * s.fixed_axis.cast<T>());
+  out.rotation = turned_strut(s, r, u, a);
 
   // turn x d + z stroke' = end', turn . (b x a) + b . a' = 0, and once more differentiated.
-  const Vec3<T> z = out.rotation.col(2), b = out.rotation * strut_axis;
+  const Vec3<T> z = out.rotation.col(2), b = out.rotation * s.strut_axis.cast<T>();
   const Vec3<T> a_rate = s.universal_at_base ? Vec3<T>::Zero() : Vec3<T>(cross<T>(axis, a));
   const Vec3<T> c = cross<T>(b, a);
   const T gauge = u.dot(c), projected = z.dot(d);

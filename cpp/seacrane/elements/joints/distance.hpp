@@ -16,7 +16,7 @@ struct Distance : JointDefaults {
 
     static constexpr auto fields() {
       return std::tuple(required("length", &Parameters::length, "m", "between the two points")
-                            .must_be(Bound::positive)
+                            .positive()
                             .as(Role::distance));
     }
   };

@@ -23,11 +23,12 @@ struct ActuatorDescription {
       "rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).";
   static constexpr auto fields() {
     using D = ActuatorDescription;
-    return std::tuple_cat(on_coordinate<D>(),
-                          std::tuple(optional("stiffness", &D::stiffness, "N/m or N m/rad", ""),
-                                     optional("damping", &D::damping, "N s/m or N m s/rad", ""),
-                                     optional("feed_forward", &D::feed_forward, "N or N m", ""),
-                                     optional("reference", &D::reference, "m or rad", "")));
+    return std::tuple_cat(
+        on_coordinate<D>(),
+        std::tuple(optional("stiffness", &D::stiffness, "N/m or N m/rad", "").not_negative(),
+                   optional("damping", &D::damping, "N s/m or N m s/rad", "").not_negative(),
+                   optional("feed_forward", &D::feed_forward, "N or N m", ""),
+                   optional("reference", &D::reference, "m or rad", "")));
   }
 };
 
@@ -40,17 +41,14 @@ struct Actuator {
   static constexpr bool packs = true;
   using Description = ActuatorDescription;
 
+  Description d;
   CoordinateData coordinate;
-  double stiffness = 0.0, damping = 0.0;
-  Curve feed_forward, reference;
   int slot = 0;  // inputs: [force added, reference added, its rate]
   Followed follows;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
     names.input(c, kind, d.name);
-    c.not_negative("stiffness", d.stiffness);
-    c.not_negative("damping", d.damping);
   }
 
   static Description example() {
@@ -62,12 +60,11 @@ struct Actuator {
     const int force = context.input(d.name + ".force");
     context.input(d.name + ".reference");
     context.input(d.name + ".reference_rate");
-    return {context.coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, force,
-            context.followed(kind, d.name)};
+    return {d, context.coordinate(d.coordinate), force, context.followed(kind, d.name)};
   }
 
   std::vector<LoadKinks> kinks() const {
-    return {kinks_of(reference, stiffness, damping), kinks_of(feed_forward, 1.0)};
+    return {kinks_of(d.reference, d.stiffness, d.damping), kinks_of(d.feed_forward, 1.0)};
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
@@ -80,11 +77,11 @@ struct Actuator {
   /// Along the coordinate, at its value and rate.
   template <class T>
   T force(const LoadInput<T>& in, const T& value, const T& rate) const {
-    const CurveValue ref = reference.at(in.time, in.curve_limit);
+    const CurveValue ref = d.reference.at(in.time, in.curve_limit);
     const T error = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - value;
     const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
-    return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
-           T(damping) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - rate);
+    return T(d.feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(d.stiffness) * wrapped +
+           T(d.damping) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - rate);
   }
 
   template <class T>

@@ -5,6 +5,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -18,21 +19,19 @@ struct ConstantTensionDescription {
     using D = ConstantTensionDescription;
     return std::tuple(
         optional("tension", &D::tension, "N", "that the winch holds: it renders above, recovers below"),
-        optional("tension_gain", &D::tension_gain, "m/s/N",
-                 "rate over tension beyond the band; 0: none held"),
-        optional("dead_band", &D::dead_band, "N", "on both sides of the tension, in which it stands still"));
+        optional("tension_gain", &D::tension_gain, "m/s/N", "rate over tension beyond the band; 0: none held")
+            .not_negative(),
+        optional("dead_band", &D::dead_band, "N", "on both sides of the tension, in which it stands still")
+            .not_negative());
   }
 };
 
 /// A tension that a winch holds: a rate is added to its command, gain times what EA e is beyond the set
 /// tension and the dead band. Above it pays out, below it hauls in, a slack line too.
 struct ConstantTension {
-  Curve tension;
-  double gain = 0.0, dead_band = 0.0;
+  ConstantTensionDescription d;
 
   static void check(const ConstantTensionDescription& d, const Check& c) {
-    c.not_negative("tension_gain", d.tension_gain);
-    c.not_negative("dead_band", d.dead_band);
     const bool given = d.tension.pieces().size() > 1 || d.tension.at(0.0).value != 0.0;
     if (d.tension_gain == 0.0 && (given || d.dead_band > 0.0)) {
       c.fail(
@@ -52,18 +51,18 @@ struct ConstantTension {
   template <class T>
   T rate(const LoadInput<T>& in, const T& pull) const {
     const T beyond = excess(in, pull);
-    return T(gain) * (beyond - clamped(beyond, T(-dead_band), T(dead_band)));
+    return T(d.tension_gain) * (beyond - clamped(beyond, T(-d.dead_band), T(d.dead_band)));
   }
-  /// Change their signs at the ends of the dead band.
-  std::array<double, 2> margins(const LoadInput<double>& in, double pull) const {
+  /// At the ends of the dead band.
+  std::array<Margin, 2> margins(const LoadInput<double>& in, double pull) const {
     const double beyond = excess(in, pull);
-    return {dead_band - beyond, dead_band + beyond};
+    return {{{nullptr, d.dead_band - beyond}, {nullptr, d.dead_band + beyond}}};
   }
 
  private:
   template <class T>
   T excess(const LoadInput<T>& in, const T& pull) const {
-    return pull - T(tension.at(in.time, in.curve_limit).value);
+    return pull - T(d.tension.at(in.time, in.curve_limit).value);
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -24,14 +25,21 @@ struct DrumDescription {
   static constexpr auto fields() {
     using D = DrumDescription;
     return std::tuple(
-        optional("drum_inertia", &D::drum_inertia, "kg m2", "of drum, gear and motor at the drum; 0: none"),
-        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs").usually(0.01, 10.0),
-        optional("maximum_tension", &D::maximum_tension, "N", "of the motor, at the rope; 0: no motor"),
-        optional("maximum_power", &D::maximum_power, "W", "that the motor gives"),
+        optional("drum_inertia", &D::drum_inertia, "kg m2", "of drum, gear and motor at the drum; 0: none")
+            .not_negative(),
+        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs")
+            .not_negative()
+            .usually(0.01, 10.0),
+        optional("maximum_tension", &D::maximum_tension, "N", "of the motor, at the rope; 0: no motor")
+            .not_negative(),
+        optional("maximum_power", &D::maximum_power, "W", "that the motor gives").positive(),
         optional("brake", &D::brake, "", "share of its capacity that is applied, 0 (open) to 1")
+            .within(0.0, 1.0)
             .usually(0.0, 1.0),
-        optional("brake_capacity", &D::brake_capacity, "N", "of the brake, at the rope; 0: no brake"),
+        optional("brake_capacity", &D::brake_capacity, "N", "of the brake, at the rope; 0: no brake")
+            .not_negative(),
         optional("brake_give", &D::brake_give, "m", "of rope, before the brake bears its capacity")
+            .positive()
             .usually(1e-5, 0.5));
   }
 };
@@ -54,42 +62,27 @@ struct Drum {
     double motor, brake, rate, brake_power;
   };
 
-  double radius = 0.0, mass = 0.0, maximum_tension = 0.0, maximum_power = 0.0;
-  Curve brake;
-  double capacity = 0.0, stiffness = 0.0, damping = 1.0;
+  DrumDescription d;
+  double mass = 0.0, stiffness = 0.0, damping = 1.0;
   int wound = -1;  // z among the states; none: no brake
 
-  /// Kinks, each where its number changes its sign, and the bound that is met where it turns negative, or
-  /// null.
-  static constexpr std::array<const char*, 6> kBounds = {
-      "maximum_tension", "maximum_tension", "maximum_power", nullptr, nullptr, "brake_capacity"};
+  static constexpr std::array<Margin, 6> kMargins = {
+      {{"maximum_tension"}, {"maximum_tension"}, {"maximum_power"}, {}, {}, {"brake_capacity"}}};
 
   static void check(const DrumDescription& d, double lag, const Check& c) {
-    c.not_negative("drum_inertia", d.drum_inertia);
     if (d.drum_inertia == 0.0) return check_absent(d, c);
-    for (const auto& [what, value] :
-         {std::pair{"drum_radius", d.drum_radius}, std::pair{"maximum_power", d.maximum_power},
-          std::pair{"brake_give", d.brake_give}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.not_negative("maximum_tension", d.maximum_tension);
-    c.not_negative("brake_capacity", d.brake_capacity);
+    if (d.drum_radius == 0.0) c.fail("has a drum_inertia and no drum_radius; give it, m");
     if (!(lag > 0.0))
       c.fail("a drum with inertia needs a lag, of its motor's speed; give one, such as 0.1 s");
-    check_brake(d, c);
+    if (d.brake_capacity == 0.0 && is_given(d.brake)) {
+      c.fail("has a brake without a capacity; give brake_capacity, N at the rope");
+    }
   }
 
   template <class Context>
   static Drum compile(const DrumDescription& d, const std::string& line, Context& context) {
-    Drum out;
-    out.radius = d.drum_radius;
-    out.mass = d.drum_inertia / (d.drum_radius * d.drum_radius);
-    out.maximum_tension = d.maximum_tension;
-    out.maximum_power = d.maximum_power;
+    Drum out{d, d.drum_inertia / (d.drum_radius * d.drum_radius)};
     if (d.brake_capacity == 0.0) return out;
-    out.brake = d.brake;
-    out.capacity = d.brake_capacity;
     out.stiffness = d.brake_capacity / d.brake_give;
     out.damping = 2.0 * std::sqrt(out.stiffness * out.mass);
     out.wound = context.state({line + ".brake", "m", 0.0, d.brake_give});
@@ -101,9 +94,9 @@ struct Drum {
   /// F, for the acceleration a that is asked for.
   template <class T>
   T motor(const LoadInput<T>& in, const T& asked, const T& tension, const T& rate) const {
-    const T force = clamped(wanted(asked, tension), T(-maximum_tension), T(maximum_tension));
+    const T force = clamped(wanted(asked, tension), T(-d.maximum_tension), T(d.maximum_tension));
     const T speed = select(rate < T(0), T(-rate), rate);
-    const T strongest = T(maximum_power) / select(speed > T(kSlowest), speed, T(kSlowest));
+    const T strongest = T(d.maximum_power) / select(speed > T(kSlowest), speed, T(kSlowest));
     const T given = select(force * rate > T(0), clamped(force, T(-strongest), strongest), force);
     return T(1.0 - applied(in)) * given;
   }
@@ -111,7 +104,7 @@ struct Drum {
   template <class T>
   T braking(const LoadInput<T>& in, const T& rate) const {
     if (!has_brake()) return T(0);
-    const T most(capacity * applied(in));
+    const T most(d.brake_capacity * applied(in));
     return clamped(grip(in, rate), T(-most), most);
   }
   /// r'.
@@ -135,22 +128,21 @@ struct Drum {
     return spring + 0.5 * mass * rate * rate;
   }
 
-  /// See kBounds. A motor that has let go, and a brake that is not closed, meet no bound.
-  std::array<double, 6> margins(const LoadInput<double>& in, double asked, double tension,
+  /// A motor that has let go, and a brake that is not closed, meet no bound.
+  std::array<Margin, 6> margins(const LoadInput<double>& in, double asked, double tension,
                                 double rate) const {
-    std::array<double, 6> out;
-    out.fill(1.0);
-    if (applied(in) < 1.0 && maximum_tension > 0.0) {
+    auto out = kMargins;
+    if (applied(in) < 1.0 && d.maximum_tension > 0.0) {
       const double force = wanted(asked, tension);
-      out[0] = maximum_tension - force;
-      out[1] = maximum_tension + force;
-      out[2] = maximum_power - clamped(force, -maximum_tension, maximum_tension) * rate;
+      out[0].value = d.maximum_tension - force;
+      out[1].value = d.maximum_tension + force;
+      out[2].value = d.maximum_power - clamped(force, -d.maximum_tension, d.maximum_tension) * rate;
     }
     if (has_brake()) {
-      const double held = grip(in, rate), most = capacity * applied(in);
-      out[3] = most - held;
-      out[4] = most + held;
-      if (applied(in) >= 1.0) out[5] = most - std::abs(held);
+      const double held = grip(in, rate), most = d.brake_capacity * applied(in);
+      out[3].value = most - held;
+      out[4].value = most + held;
+      if (applied(in) >= 1.0) out[5].value = most - std::abs(held);
     }
     return out;
   }
@@ -170,23 +162,12 @@ struct Drum {
     needs_drum(is_given(d.brake), "brake");
   }
 
-  static void check_brake(const DrumDescription& d, const Check& c) {
-    if (d.brake_capacity == 0.0 && is_given(d.brake)) {
-      c.fail("has a brake without a capacity; give brake_capacity, N at the rope");
-    }
-    for (const Curve::Piece& piece : d.brake.pieces()) {
-      const double share = d.brake.at(piece.start).value;
-      if (share >= 0.0 && share <= 1.0) continue;
-      c.fail("brake is " + to_text(share) + " at t = " + to_text(piece.start) +
-             " s; give the share of its capacity, 0 (open) to 1 (closed)");
-    }
-  }
   static bool is_given(const Curve& curve) { return curve.pieces().size() > 1 || curve.at(0.0).value != 0.0; }
 
   /// b.
   template <class T>
   double applied(const LoadInput<T>& in) const {
-    return clamped(brake.at(in.time, in.curve_limit).value, 0.0, 1.0);
+    return clamped(d.brake.at(in.time, in.curve_limit).value, 0.0, 1.0);
   }
   template <class T>
   T wanted(const T& asked, const T& tension) const {

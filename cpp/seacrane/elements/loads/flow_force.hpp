@@ -34,12 +34,12 @@ struct FlowForceDescription {
     using D = FlowForceDescription;
     return std::tuple(
         on_body("body", &D::body), optional("point", &D::point, "m", "where the load acts, body coordinates"),
-        required("density", &D::density, "kg/m3", "").usually(0.5, 1500.0),
+        required("density", &D::density, "kg/m3", "").not_negative().usually(0.5, 1500.0),
         required("speed", &D::speed, "m/s", "").usually(0.0, 100.0),
         required("direction", &D::direction, "rad", "where the flow goes, from +x towards +y"),
-        required("frontal_area", &D::frontal_area, "m2", "").usually(0.0, 1e5),
-        required("lateral_area", &D::lateral_area, "m2", "").usually(0.0, 1e5),
-        required("length", &D::length, "m", "").usually(0.2, 600.0),
+        required("frontal_area", &D::frontal_area, "m2", "").not_negative().usually(0.0, 1e5),
+        required("lateral_area", &D::lateral_area, "m2", "").not_negative().usually(0.0, 1e5),
+        required("length", &D::length, "m", "").not_negative().usually(0.2, 600.0),
         required("angles", &D::angles, "rad", ""),
         required("coefficients", &D::coefficients, "", "C_x, C_y, C_n at the angles").usually(0.0, 20.0));
   }
@@ -53,29 +53,21 @@ struct FlowForce {
   static constexpr const char* kind = "flow force";
   using Description = FlowForceDescription;
 
+  Description d;
   int body = 0;
-  Vec3d point;  // from the state point, body axes
-  Vec3d bow;    // x axis of the described body
-  Curve speed;
+  Vec3d point;                      // from the state point, body axes
+  Vec3d bow;                        // x axis of the described body
   double cosine = 1.0, sine = 0.0;  // of the flow's direction
   PeriodicKnots knots;
   std::vector<Vec3d> load, curvature;  // over V^2, at the knots: N s2/m2, N s2/m2, N m s2/m2
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
-    c.near("point", d.point);
-    c.not_negative("density", d.density);
-    c.finite("direction", d.direction);
-    c.not_negative("frontal_area", d.frontal_area);
-    c.not_negative("lateral_area", d.lateral_area);
-    c.not_negative("length", d.length);
     if (d.angles.size() < 4 || d.angles.size() != d.coefficients.size()) {
       c.fail("has " + std::to_string(d.angles.size()) + " angles and " +
              std::to_string(d.coefficients.size()) + " coefficients; give as many of both, at least four");
     }
     for (std::size_t i = 0; i < d.angles.size(); ++i) {
-      c.finite("angles", d.angles[i]);
-      c.finite("coefficients", d.coefficients[i]);
       const double next = i + 1 < d.angles.size() ? d.angles[i + 1] : d.angles.front() + PeriodicKnots::turn;
       if (!(next > d.angles[i] && next - d.angles[i] <= largest_gap)) {
         c.fail("angle " + to_text(d.angles[i]) + " rad is followed by " + to_text(next) +
@@ -101,11 +93,11 @@ struct FlowForce {
   template <class Context>
   static FlowForce compile(const Description& d, Context& context) {
     FlowForce f;
+    f.d = d;
     const Attachment on = context.attach(d.body, d.point);
     f.body = on.body;
     f.point = on.point;
     f.bow = on.axes.col(0);
-    f.speed = d.speed;
     f.cosine = std::cos(d.direction);
     f.sine = std::sin(d.direction);
     f.knots = PeriodicKnots(d.angles);
@@ -126,7 +118,7 @@ struct FlowForce {
     Vec3d largest = Vec3d::Zero();
     for (const Vec3d& at : load) largest = largest.cwiseMax(at.cwiseAbs());
     LoadKinks out;
-    for (const CurveKink& kink : speed.kinks()) {
+    for (const CurveKink& kink : d.speed.kinks()) {
       const std::array<double, 3> jump = {square(kink.after, 0) - square(kink.before, 0),
                                           square(kink.after, 1) - square(kink.before, 1),
                                           square(kink.after, 2) - square(kink.before, 2)};
@@ -157,7 +149,7 @@ struct FlowForce {
     const auto& k = in.bodies[body];
     const Vec3<T> lever = k.rotation * point.cast<T>();
     const Vec3<T> velocity = k.velocity + cross<T>(k.angular_velocity, lever);
-    const T u = T(speed.at(in.time, in.curve_limit).value);
+    const T u = T(d.speed.at(in.time, in.curve_limit).value);
     const T along = T(cosine) * u - velocity.x(), across = T(sine) * u - velocity.y();
     const T square = along * along + across * across;
     if (!(square > T(0))) return;  // no direction, and no load

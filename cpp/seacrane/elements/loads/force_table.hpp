@@ -33,32 +33,26 @@ struct ForceTable {
   static constexpr bool packs = true;
   using Description = ForceTableDescription;
 
+  Description d;
   int body = 0;
-  Vec3d point;
-  std::vector<double> times;
-  std::vector<Vec6d> wrenches;  // inertial axes
+  Vec3d point;  // from the state point, body axes
 
   Vec6d at(double t) const {
-    if (t <= times.front()) return wrenches.front();
-    if (t >= times.back()) return wrenches.back();
-    const auto next = std::upper_bound(times.begin(), times.end(), t);
-    const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
-    const double s = (t - times[i]) / (times[i + 1] - times[i]);
-    return (1.0 - s) * wrenches[i] + s * wrenches[i + 1];
+    if (t <= d.times.front()) return d.wrenches.front();
+    if (t >= d.times.back()) return d.wrenches.back();
+    const auto next = std::upper_bound(d.times.begin(), d.times.end(), t);
+    const auto i = static_cast<std::size_t>(next - d.times.begin()) - 1;
+    const double s = (t - d.times[i]) / (d.times[i + 1] - d.times[i]);
+    return (1.0 - s) * d.wrenches[i] + s * d.wrenches[i + 1];
   }
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
-    c.near("point", d.point);
     if (d.times.empty() || d.times.size() != d.wrenches.size()) {
       c.fail("has " + std::to_string(d.times.size()) + " times and " + std::to_string(d.wrenches.size()) +
              " wrenches; give as many of both");
     }
-    for (std::size_t i = 0; i < d.times.size(); ++i) {
-      c.finite("times", d.times[i]);
-      c.finite("wrenches", d.wrenches[i]);
-      if (i > 0 && !(d.times[i] > d.times[i - 1])) c.fail("times must increase");
-    }
+    c.increases("times", d.times);
   }
 
   static Description example() {
@@ -69,17 +63,17 @@ struct ForceTable {
   template <class Context>
   static ForceTable compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
-    return {on.body, on.point, d.times, d.wrenches};
+    return {d, on.body, on.point};
   }
 
   std::vector<LoadKinks> kinks() const {
     LoadKinks out;
     Vec6d before = Vec6d::Zero();
-    for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t i = 0; i < d.times.size(); ++i) {
       Vec6d after = Vec6d::Zero();
-      if (i + 1 < times.size()) after = (wrenches[i + 1] - wrenches[i]) / (times[i + 1] - times[i]);
+      if (i + 1 < d.times.size()) after = (d.wrenches[i + 1] - d.wrenches[i]) / (d.times[i + 1] - d.times[i]);
       LoadKink& kink = out.emplace_back();
-      kink.time = times[i];
+      kink.time = d.times[i];
       kink.jump.setZero(6, 4);
       kink.jump.col(2) = after - before;
       before = after;

@@ -30,9 +30,10 @@ struct FrictionDescription {
       "Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction.";
   static constexpr auto fields() {
     using D = FrictionDescription;
-    return std::tuple_cat(on_coordinate<D>(),
-                          std::tuple(required("load", &D::load, "N or N m", ""),
-                                     required("speed", &D::speed, "m/s or rad/s", "").usually(1e-6, 1.0)));
+    return std::tuple_cat(
+        on_coordinate<D>(),
+        std::tuple(required("load", &D::load, "N or N m", "").not_negative(),
+                   required("speed", &D::speed, "m/s or rad/s", "").positive().usually(1e-6, 1.0)));
   }
 };
 
@@ -42,24 +43,18 @@ struct Friction {
   static constexpr const char* kind = "friction";
   using Description = FrictionDescription;
 
+  Description d;
   CoordinateData coordinate;
-  double load = 0.0, speed = 1.0;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
-    c.not_negative("load", d.load);
-    c.finite("speed", d.speed);
-    if (!(d.speed > 0.0)) {
-      c.fail("speed is " + to_text(d.speed) +
-             " m/s or rad/s; give a positive one, where friction has 76 % of its load");
-    }
   }
 
   static Description example() { return {"load", {"joint", "angle"}, 4.0, 0.7}; }
 
   template <class Context>
   static Friction compile(const Description& d, Context& context) {
-    return {context.coordinate(d.coordinate), d.load, d.speed};
+    return {d, context.coordinate(d.coordinate)};
   }
 
   static std::vector<LoadKinks> kinks() { return {}; }
@@ -72,8 +67,8 @@ struct Friction {
     const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
     const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, ka, kb);
     const T rate = coordinate_rate<T>(row, ka, kb);
-    const T ratio = rate / T(speed);
-    const T drag = T(-load) * tanh(ratio);
+    const T ratio = rate / T(d.speed);
+    const T drag = T(-d.load) * tanh(ratio);
     out.add_power(apply_along<T>(coordinate, row, drag, rate, out));
   }
 };

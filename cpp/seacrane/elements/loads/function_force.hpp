@@ -38,11 +38,10 @@ struct FunctionForce {
   static constexpr const char* kind = "function force";
   using Description = FunctionForceDescription;
 
+  Description d;
   int body = 0;
   Vec3d origin;  // body origin from the state point, body axes
   Mat3d axes;    // of the described body
-  ForceFunction function = nullptr;
-  std::vector<double> parameters;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
@@ -62,7 +61,7 @@ struct FunctionForce {
   template <class Context>
   static FunctionForce compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, Vec3d::Zero());
-    return {on.body, on.point, on.axes, d.function, d.parameters};
+    return {d, on.body, on.point, on.axes};
   }
 
   /// What the function makes of time is not known.
@@ -81,7 +80,7 @@ struct FunctionForce {
     view<4>(state + 3) = quaternion_from_rotation(Mat3d(k.rotation * axes));
     view<3>(state + 7) = velocity;
     view<3>(state + 10) = k.angular_velocity;
-    function(in.time, state, parameters.data(), wrench);
+    d.function(in.time, state, d.parameters.data(), wrench);
     const Vec3d force = view<3>(wrench), moment = view<3>(wrench + 3);
     out.wrench[body].add(force, lever);
     out.wrench[body].moment += moment;

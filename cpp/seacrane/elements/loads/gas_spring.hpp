@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/elements/field.hpp"
-#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
+#include "seacrane/elements/loads/span.hpp"
 #include "seacrane/math/power.hpp"
-#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
-struct GasSpringDescription {
-  std::string name, first, second;
-  Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
+struct GasSpringDescription : SpanDescription {
   double area = 0.0, pressure = 0.0, volume = 0.0, length = 0.0, exponent = 1.4;
   bool pushes = false;
   double damping = 0.0, quadratic_damping = 0.0;
@@ -26,22 +23,28 @@ struct GasSpringDescription {
       "Scene.add_gas_spring.";
   static constexpr auto fields() {
     using D = GasSpringDescription;
-    return std::tuple(
-        on_body("first", &D::first), on_body("second", &D::second),
-        optional("first_point", &D::first_point, "m", "coordinates of the first body"),
-        optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-        required("area", &D::area, "m2", "of the piston").usually(1e-4, 10.0),
-        required("pressure", &D::pressure, "Pa", "of the gas at `length`").usually(1e4, 2e8),
-        required("volume", &D::volume, "m3", "of the gas at `length`"),
-        required("length", &D::length, "m", "at which pressure and volume are given").usually(0.01, 500.0),
-        optional("exponent", &D::exponent, "", "of the gas: p V^exponent stays").usually(0.9, 3.0),
-        optional("pushes", &D::pushes, "", "shortening compresses the gas, in place of lengthening"),
-        optional("damping", &D::damping, "N s/m", "of the oil, times the rate of length"),
-        optional("quadratic_damping", &D::quadratic_damping, "N s2/m2", "times the rate times its magnitude"),
-        optional("minimum", &D::minimum, "m", "length at which an end stop is met; 0: none")
-            .usually(1e-3, 500.0),
-        optional("maximum", &D::maximum, "m", "likewise; at 1e7 there is none").usually(0.01, 500.0),
-        optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the end stops"));
+    return std::tuple_cat(
+        SpanDescription::fields(),
+        std::tuple(
+            required("area", &D::area, "m2", "of the piston").positive().usually(1e-4, 10.0),
+            required("pressure", &D::pressure, "Pa", "of the gas at `length`").positive().usually(1e4, 2e8),
+            required("volume", &D::volume, "m3", "of the gas at `length`").positive(),
+            required("length", &D::length, "m", "at which pressure and volume are given")
+                .positive()
+                .usually(0.01, 500.0),
+            optional("exponent", &D::exponent, "", "of the gas, p V^exponent stays: 1 slow, 1.4 nitrogen")
+                .within(1.0, 2.0)
+                .usually(0.9, 3.0),
+            optional("pushes", &D::pushes, "", "shortening compresses the gas, in place of lengthening"),
+            optional("damping", &D::damping, "N s/m", "of the oil, times the rate of length").not_negative(),
+            optional("quadratic_damping", &D::quadratic_damping, "N s2/m2",
+                     "times the rate times its magnitude")
+                .not_negative(),
+            optional("minimum", &D::minimum, "m", "length at which an end stop is met; 0: none")
+                .not_negative()
+                .usually(1e-3, 500.0),
+            optional("maximum", &D::maximum, "m", "likewise; at 1e7 there is none").usually(0.01, 500.0),
+            optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the end stops").not_negative()));
   }
 };
 
@@ -54,41 +57,18 @@ struct GasSpring {
   static constexpr const char* kind = "gas spring";
   using Description = GasSpringDescription;
 
-  std::string name;
-  int first = 0, second = 0;
-  Vec3d first_point, second_point;  // from the state points, body axes
-  double area = 0.0, pressure = 0.0, volume = 0.0, length = 0.0, exponent = 0.0, side_of_gas = 1.0;
-  double damping = 0.0, quadratic_damping = 0.0, minimum = 0.0, maximum = 0.0, stop_stiffness = 0.0;
+  Description d;
+  Span span;
+  double side_of_gas = 1.0;
   double least = 0.0;  // m3, below which the volume is not taken
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
-    names.body(c, d.first, true);
-    names.body(c, d.second, true);
-    if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
-    c.near("first_point", d.first_point);
-    c.near("second_point", d.second_point);
-    for (const auto& [what, value] : {std::pair{"area", d.area}, std::pair{"pressure", d.pressure},
-                                      std::pair{"volume", d.volume}, std::pair{"length", d.length}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.finite("exponent", d.exponent);
-    if (!(d.exponent >= 1.0 && d.exponent <= 2.0)) {
-      c.fail("exponent is " + to_text(d.exponent) + "; give 1 (slow) to 1.67, 1.4 for nitrogen");
-    }
-    c.not_negative("damping", d.damping);
-    c.not_negative("quadratic_damping", d.quadratic_damping);
-    c.not_negative("minimum", d.minimum);
-    c.not_negative("stop_stiffness", d.stop_stiffness);
+    d.check(c, names);
     check_stops(d, c);
   }
 
   static Description example() {
-    Description d;
-    d.name = "load";
-    d.first = "first";
-    d.second = "second";
-    d.first_point = {2.0, 0.5, -1.0};
+    auto d = example_span<Description>();
     d.area = 0.8;
     d.pressure = 12.0;
     d.volume = 6.0;
@@ -103,96 +83,63 @@ struct GasSpring {
 
   template <class Context>
   static GasSpring compile(const Description& d, Context& context) {
-    const Attachment a = context.attach(d.first, d.first_point), b = context.attach(d.second, d.second_point);
-    GasSpring out;
-    out.name = d.name;
-    out.first = a.body;
-    out.second = b.body;
-    out.first_point = a.point;
-    out.second_point = b.point;
-    out.area = d.area;
-    out.pressure = d.pressure;
-    out.volume = d.volume;
-    out.length = d.length;
-    out.exponent = d.exponent;
-    out.side_of_gas = d.pushes ? -1.0 : 1.0;
-    out.damping = d.damping;
-    out.quadratic_damping = d.quadratic_damping;
-    out.minimum = d.minimum;
-    out.maximum = d.maximum;
-    out.stop_stiffness = d.stop_stiffness;
-    out.least = kLeastVolume * (has_end(d) ? volume_at_end(d) : d.volume);
-    return out;
+    return {d, Span::compile(d, context), d.pushes ? -1.0 : 1.0,
+            kLeastVolume * (has_end(d) ? volume_at_end(d) : d.volume)};
   }
 
   /// Its kinks are in the state.
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  std::array<int, 2> bodies() const { return {first, second}; }
+  std::array<int, 2> bodies() const { return span.bodies(); }
 
   /// What it does at an instant.
   template <class T>
-  struct Motion {
-    T length, rate, pressure, elastic, viscous;
-    Vec3<T> along, lever_first, lever_second;
+  struct Motion : SpanMotion<T> {
+    T pressure, elastic, viscous;
     T tension() const { return elastic + viscous; }
   };
 
   template <class T>
   Motion<T> motion(const LoadInput<T>& in) const {
-    using std::sqrt;
-    const auto &ka = in.bodies[first], &kb = in.bodies[second];
-    Motion<T> m;
-    m.lever_first = ka.rotation * first_point.cast<T>();
-    m.lever_second = kb.rotation * second_point.cast<T>();
-    const Vec3<T> d = kb.position + m.lever_second - ka.position - m.lever_first;
-    const T square = d.dot(d);
-    const bool apart = square > T(0);  // else it has no direction
-    m.length = apart ? T(sqrt(square)) : T(0);
-    m.along = apart ? Vec3<T>(d / m.length) : Vec3<T>(Vec3<T>::Zero());
-    const Vec3<T> d_rate = kb.velocity + cross<T>(kb.angular_velocity, m.lever_second) - ka.velocity -
-                           cross<T>(ka.angular_velocity, m.lever_first);
-    m.rate = m.along.dot(d_rate);
-    m.pressure = T(pressure) * power(T(T(volume) / gas_volume(m.length)), exponent);
-    m.elastic = T(side_of_gas * area) * m.pressure + T(stop_stiffness) * beyond(m.length);
+    Motion<T> m{span.motion(in), T(0), T(0), T(0)};
+    m.pressure = T(d.pressure) * power(T(T(d.volume) / gas_volume(m.length)), d.exponent);
+    m.elastic = T(side_of_gas * d.area) * m.pressure + T(d.stop_stiffness) * beyond(m.length);
     const T speed = select(m.rate < T(0), T(-m.rate), m.rate);
-    m.viscous = (T(damping) + T(quadratic_damping) * speed) * m.rate;
+    m.viscous = (T(d.damping) + T(d.quadratic_damping) * speed) * m.rate;
     return m;
   }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const Motion<T> m = motion(in);
-    const Vec3<T> pull = m.along * m.tension(), back = -pull;
-    out.wrench[first].add(pull, m.lever_first);
-    out.wrench[second].add(back, m.lever_second);
+    span.pull(m, m.tension(), out);
     out.add_power(-m.viscous * m.rate);
   }
 
-  bool has_sides() const { return stop_stiffness > 0.0; }
-  /// 1 beyond the maximum, -1 beyond the minimum, else 0.
-  int side(const LoadInput<double>& in) const {
-    const double l = motion(in).length;
-    return l > maximum ? 1 : (l < minimum ? -1 : 0);
-  }
-  double across(const LoadInput<double>& in, int from, int to) const {
-    return motion(in).length - ((from != 0 ? from : to) > 0 ? maximum : minimum);
-  }
-  /// What is reached where it changes its side; empty: nothing.
-  std::string reached(int from, int to) const {
-    if (to == 0 || to == from) return "";
-    return name + (to > 0 ? ".maximum" : ".minimum");
-  }
+  bool has_sides() const { return d.stop_stiffness > 0.0; }
+  int side(const LoadInput<double>& in) const { return margins(in).side(); }
+  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
 
   double potential(const LoadInput<double>& in) const {
-    const double l = motion(in).length, ratio = volume / gas_volume(l), depth = beyond(l);
-    const double gas =
-        exponent == 1.0 ? std::log(ratio) : std::expm1((exponent - 1.0) * std::log(ratio)) / (exponent - 1.0);
-    return pressure * volume * gas + 0.5 * stop_stiffness * depth * depth;
+    const double l = motion(in).length, ratio = d.volume / gas_volume(l), depth = beyond(l);
+    const double gas = d.exponent == 1.0
+                           ? std::log(ratio)
+                           : std::expm1((d.exponent - 1.0) * std::log(ratio)) / (d.exponent - 1.0);
+    return d.pressure * d.volume * gas + 0.5 * d.stop_stiffness * depth * depth;
   }
 
  private:
+  static constexpr std::array<Margin, 2> kMargins = {{{"maximum"}, {"minimum"}}};
   static constexpr double kLeastVolume = 0.1;  // of that at the end stop, where there is one
+
+  Margins margins(const LoadInput<double>& in) const {
+    const double length = span.length(in);
+    auto out = kMargins;
+    out[0].value = d.maximum - length;
+    out[1].value = length - d.minimum;
+    return Margins(out);
+  }
 
   static bool has_end(const Description& d) { return d.pushes ? true : d.maximum < kFarthest; }
   static double volume_at_end(const Description& d) {
@@ -217,13 +164,13 @@ struct GasSpring {
 
   template <class T>
   T gas_volume(const T& l) const {
-    const T now = T(volume) - T(side_of_gas * area) * (l - T(length));
+    const T now = T(d.volume) - T(side_of_gas * d.area) * (l - T(d.length));
     return select(now < T(least), T(least), now);
   }
   /// How far the length is beyond a stop: positive beyond the maximum.
   template <class T>
   T beyond(const T& l) const {
-    return select(l > T(maximum), T(l - T(maximum)), select(l < T(minimum), T(l - T(minimum)), T(0)));
+    return select(l > T(d.maximum), T(l - T(d.maximum)), select(l < T(d.minimum), T(l - T(d.minimum)), T(0)));
   }
 };
 

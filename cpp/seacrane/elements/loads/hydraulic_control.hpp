@@ -22,8 +22,10 @@ struct HydraulicControlDescription {
         optional("command", &D::command, "", "of the spool, -1 (retracts) to 1 (extends)").usually(0.0, 1.0),
         optional("reference", &D::reference, "m", "stroke that the spool is to follow"),
         optional("gain", &D::gain, "1/m", "spool over the stroke that is missing; 0: open loop")
+            .not_negative()
             .usually(0.05, 1e3),
         optional("rate_gain", &D::rate_gain, "s/m", "spool over the rate of the reference")
+            .not_negative()
             .usually(0.02, 1e3));
   }
 };
@@ -31,14 +33,11 @@ struct HydraulicControlDescription {
 /// What asks for a spool position: command + gain (reference - stroke) + rate_gain reference rate, within -1
 /// and 1. The stroke of a heave compensator adds to the reference.
 struct HydraulicControl {
-  Curve command, reference;
-  double gain = 0.0, rate_gain = 0.0;
+  HydraulicControlDescription d;
   int slot = 0;  // inputs: [command added, reference added, its rate]
   Followed follows;
 
   static void check(const HydraulicControlDescription& d, double rated_flow, const Check& c) {
-    c.not_negative("gain", d.gain);
-    c.not_negative("rate_gain", d.rate_gain);
     if (rated_flow > 0.0) return;
     if (d.gain > 0.0 || d.rate_gain > 0.0 || d.command.pieces().size() > 1 ||
         d.command.at(0.0).value != 0.0) {
@@ -47,23 +46,22 @@ struct HydraulicControl {
   }
 
   template <class Context>
-  void take(const HydraulicControlDescription& d, const std::string& name, Context& context) {
-    command = d.command;
-    reference = d.reference;
-    gain = d.gain;
-    rate_gain = d.rate_gain;
-    slot = context.input(name + ".command");
+  static HydraulicControl compile(const HydraulicControlDescription& d, const char* kind,
+                                  const std::string& name, Context& context) {
+    const int slot = context.input(name + ".command");
     context.input(name + ".reference");
     context.input(name + ".reference_rate");
+    return {d, slot, context.followed(kind, name)};
   }
 
   /// Spool that is asked for, without bounds.
   template <class T>
   T asked(const LoadInput<T>& in, const T& stroke) const {
-    const CurveValue ref = reference.at(in.time, in.curve_limit);
-    const T open(command.at(in.time, in.curve_limit).value + in.slots[slot]);
+    const CurveValue ref = d.reference.at(in.time, in.curve_limit);
+    const T open(d.command.at(in.time, in.curve_limit).value + in.slots[slot]);
     const T missing = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - stroke;
-    return open + T(gain) * missing + T(rate_gain) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in));
+    return open + T(d.gain) * missing +
+           T(d.rate_gain) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in));
   }
 
   /// Jumps of a force whose derivative of an order, 1 or 2, is `share` times what is asked for.
@@ -79,8 +77,8 @@ struct HydraulicControl {
         }
       }
     };
-    add(command, 1.0, 0.0);
-    add(reference, gain, rate_gain);
+    add(d.command, 1.0, 0.0);
+    add(d.reference, d.gain, d.rate_gain);
     return all;
   }
 };

@@ -14,6 +14,7 @@
 namespace seacrane {
 
 inline constexpr double kAtmosphere = 1e5;  // Pa
+inline constexpr double kMostAir = 0.1;
 
 struct HydraulicOilDescription {
   double oil_modulus = 1.5e9, hose_modulus = 1.5e8, cylinder_modulus = 3.15e10, air = 0.0;
@@ -23,11 +24,19 @@ struct HydraulicOilDescription {
     using D = HydraulicOilDescription;
     return std::tuple(
         optional("oil_modulus", &D::oil_modulus, "Pa", "bulk modulus of the oil without air")
+            .positive()
             .usually(1e8, 1e11),
-        optional("hose_modulus", &D::hose_modulus, "Pa", "of the hoses, by their volume").usually(5e6, 0.0),
-        optional("cylinder_modulus", &D::cylinder_modulus, "Pa", "of the barrel, likewise").usually(1e9, 0.0),
-        optional("air", &D::air, "", "share of the volume that is free air at 1e5 Pa").usually(0.0, 0.5),
+        optional("hose_modulus", &D::hose_modulus, "Pa", "of the hoses, by their volume")
+            .positive()
+            .usually(5e6, 0.0),
+        optional("cylinder_modulus", &D::cylinder_modulus, "Pa", "of the barrel, likewise")
+            .positive()
+            .usually(1e9, 0.0),
+        optional("air", &D::air, "", "share of the volume that is free air at 1e5 Pa")
+            .within(0.0, kMostAir)
+            .usually(0.0, 0.5),
         optional("vapour_pressure", &D::vapour_pressure, "Pa", "below it the oil boils: an event")
+            .not_negative()
             .usually(0.0, 1e5));
   }
 };
@@ -52,21 +61,9 @@ struct HydraulicOil {
   double air = 0.0;
 
   static void check(const HydraulicOilDescription& d, const Check& c) {
-    for (const auto& [what, value] :
-         {std::pair{"oil_modulus", d.oil_modulus}, std::pair{"hose_modulus", d.hose_modulus},
-          std::pair{"cylinder_modulus", d.cylinder_modulus}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + " Pa; it must be positive");
-    }
     if (d.hose_modulus > d.cylinder_modulus) {
       c.fail("hose_modulus is " + to_text(d.hose_modulus) + " Pa, stiffer than the barrel's " +
              to_text(d.cylinder_modulus) + " Pa; make it smaller");
-    }
-    c.not_negative("vapour_pressure", d.vapour_pressure);
-    c.finite("air", d.air);
-    if (!(d.air >= 0.0 && d.air <= kMostAir)) {
-      c.fail("air is " + to_text(d.air) + "; give a share of the volume at 1e5 Pa, 0 to " +
-             to_text(kMostAir));
     }
   }
 
@@ -102,7 +99,7 @@ struct HydraulicOil {
   }
 
  private:
-  static constexpr double kExponent = 1.4, kMostAir = 0.1;
+  static constexpr double kExponent = 1.4;
   static constexpr double kLeast = 1.0;  // Pa: air is not thinner than that
 
   template <class T>

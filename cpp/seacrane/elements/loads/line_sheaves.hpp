@@ -23,7 +23,7 @@ struct SheaveDescriptions {
     return std::any_of(radii.begin(), radii.end(), [](double r) { return r > 0.0; });
   }
 
-  void check(std::size_t points, int most, const Check& c) const {
+  void check(std::size_t points, std::size_t most, const Check& c) const {
     check_count("radii", radii.size(), points, c);
     check_count("axes", axes.size(), points, c);
     check_count("turns", turns.size(), points, c);
@@ -31,12 +31,8 @@ struct SheaveDescriptions {
     check_count("frictions", frictions.size(), points, c);
     if (any() && axes.empty()) c.fail("has sheaves and no axes; give the axis of each, (0, 0, 0) at points");
     for (std::size_t i = 0; i < points; ++i) check_point(i, i == 0 || i + 1 == points, c);
-    if (any() && points > static_cast<std::size_t>(most)) {
+    if (any() && points > most) {
       c.fail("has sheaves and " + std::to_string(points) + " points; give at most " + std::to_string(most));
-    }
-    c.finite("slip_speed", slip_speed);
-    if (!(slip_speed > 0.0)) {
-      c.fail("slip_speed is " + to_text(slip_speed) + " m/s; give a positive one, such as 0.01");
     }
   }
 
@@ -92,19 +88,10 @@ struct SheaveDescriptions {
     const std::string at = " at point " + std::to_string(i);
     const double radius = value(radii, i, 0.0), whole = value(turns, i, 0.0),
                  efficiency = value(efficiencies, i, 1.0), friction = value(frictions, i, 0.0);
-    c.not_negative(("radii" + at).c_str(), radius);
-    if (!axes.empty()) c.finite("axes", axes[i]);
     if (radius > 0.0 && !axes.empty() && !(axes[i].norm() > 0.0)) {
       c.fail("axes are zero" + at + ", which is a sheave; give the axis about which the line runs");
     }
-    if (!(whole >= 0.0 && whole <= 1e3 && whole == std::floor(whole))) {
-      c.fail("turns are " + to_text(whole) + at + "; give a whole number, 0 or more");
-    }
-    if (!(efficiency > 0.0 && efficiency <= 1.0)) {
-      c.fail("efficiencies hold " + to_text(efficiency) + at +
-             "; give more than 0 and at most 1, such as 0.98");
-    }
-    c.not_negative(("frictions" + at).c_str(), friction);
+    if (whole != std::floor(whole)) c.fail("turns are " + to_text(whole) + at + "; give a whole number");
     if (radius == 0.0 && (friction > 0.0 || whole > 0.0)) {
       c.fail("has friction or turns" + at + ", which has no radius; give it one, or an efficiency");
     }
@@ -125,14 +112,20 @@ constexpr auto sheave_fields() {
   constexpr auto frictions = [](auto& d) -> auto& { return d.sheaves.frictions; };
   constexpr auto slip_speed = [](auto& d) -> auto& { return d.sheaves.slip_speed; };
   return std::tuple(
-      optional("radii", radii, "m", "of sheaves at the points; 0: a point").usually(5e-3, 10.0),
+      optional("radii", radii, "m", "of sheaves at the points; 0: a point")
+          .not_negative()
+          .usually(5e-3, 10.0),
       optional("axes", axes, "",
                "of the sheaves, body coordinates; the line runs about them by the right hand"),
-      optional("turns", turns, "", "whole turns on each besides").usually(0.0, 20.0),
+      optional("turns", turns, "", "whole turns on each besides").within(0.0, 1e3).usually(0.0, 20.0),
       optional("efficiencies", efficiencies, "", "of each: the smaller tension over the larger")
+          .must_be({.minimum = 0.0, .maximum = 1.0, .above = true})
           .usually(0.3, 1.0),
-      optional("frictions", frictions, "", "coefficients of friction on each").usually(1e-3, 3.0),
+      optional("frictions", frictions, "", "coefficients of friction on each")
+          .not_negative()
+          .usually(1e-3, 3.0),
       optional("slip_speed", slip_speed, "m/s", "at which sheaves have 76 % of their friction")
+          .positive()
           .usually(5e-5, 2.0));
 }
 

@@ -29,18 +29,15 @@ struct PointForce {
   static constexpr bool packs = true;
   using Description = PointForceDescription;
 
+  Description d;
   int body = 0;
   Vec3d point;  // from the state point, body axes
   Mat3d axes;   // of the described body
-  Vec3d force;
-  bool body_axes = false;
   int slot = 0;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
     names.input(c, kind, d.name);
-    c.near("point", d.point);
-    c.finite("force", d.force);
   }
 
   static Description example() {
@@ -50,7 +47,7 @@ struct PointForce {
   template <class Context>
   static PointForce compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
-    return {on.body, on.point, on.axes, d.force, d.body_axes, context.input(d.name + ".force", 3)};
+    return {d, on.body, on.point, on.axes, context.input(d.name + ".force", 3)};
   }
 
   /// Inputs, which add to it, are held between calls of a controller, and those restart the integration.
@@ -61,9 +58,9 @@ struct PointForce {
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const auto& k = in.bodies[body];
-    const Vec3d total = force + view<3>(in.slots + slot);
+    const Vec3d total = d.force + view<3>(in.slots + slot);
     Vec3<T> f = total.cast<T>();
-    if (body_axes) f = k.rotation * (axes * total).template cast<T>();
+    if (d.body_axes) f = k.rotation * (axes * total).template cast<T>();
     const Vec3<T> lever = k.rotation * point.cast<T>();
     out.wrench[body].add(f, lever);
     out.add_power(f.dot(k.velocity + cross<T>(k.angular_velocity, lever)));

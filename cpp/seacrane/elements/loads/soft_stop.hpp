@@ -24,8 +24,8 @@ struct SoftStopDescription {
         on_coordinate<D>(),
         std::tuple(optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
                    optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
-                   required("stiffness", &D::stiffness, "N/m or N m/rad", ""),
-                   optional("damping", &D::damping, "s/m or s/rad", "").usually(0.0, 100.0)));
+                   required("stiffness", &D::stiffness, "N/m or N m/rad", "").positive(),
+                   optional("damping", &D::damping, "s/m or s/rad", "").not_negative().usually(0.0, 100.0)));
   }
 };
 
@@ -35,9 +35,8 @@ struct SoftStop {
   static constexpr const char* kind = "soft stop";
   using Description = SoftStopDescription;
 
+  Description d;
   CoordinateData coordinate;
-  double minimum = -kFarthest, maximum = kFarthest;
-  double stiffness = 0.0, damping = 0.0;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
@@ -53,16 +52,13 @@ struct SoftStop {
       c.fail("bounds of an angle are " + to_text(d.minimum) + " and " + to_text(d.maximum) +
              " rad; give both, between -pi and pi: the other way round would reach them too");
     }
-    c.finite("stiffness", d.stiffness);
-    if (!(d.stiffness > 0.0)) c.fail("stiffness is " + to_text(d.stiffness) + "; make it positive");
-    c.not_negative("damping", d.damping);
   }
 
   static Description example() { return {"load", {"joint", "angle"}, -3.0, -2.9, 7.0, 0.2}; }
 
   template <class Context>
   static SoftStop compile(const Description& d, Context& context) {
-    return {context.coordinate(d.coordinate), d.minimum, d.maximum, d.stiffness, d.damping};
+    return {d, context.coordinate(d.coordinate)};
   }
 
   /// Its kinks are in the state.
@@ -74,12 +70,12 @@ struct SoftStop {
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
     const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, ka, kb);
-    const double side = row.value < T(minimum) ? 1.0 : (row.value > T(maximum) ? -1.0 : 0.0);
+    const double side = row.value < T(d.minimum) ? 1.0 : (row.value > T(d.maximum) ? -1.0 : 0.0);
     if (side == 0.0) return;
-    const T depth = T(side) * (T(side > 0.0 ? minimum : maximum) - row.value);
+    const T depth = T(side) * (T(side > 0.0 ? d.minimum : d.maximum) - row.value);
     const T rate = coordinate_rate<T>(row, ka, kb);
-    const T elastic = T(stiffness) * depth;
-    T viscous = T(-side * damping) * rate * elastic;
+    const T elastic = T(d.stiffness) * depth;
+    T viscous = T(-side * d.damping) * rate * elastic;
     if (elastic + viscous < T(0)) viscous = -elastic;
     const T total = T(side) * (elastic + viscous);
     apply_along<T>(coordinate, row, total, rate, out);
@@ -99,8 +95,8 @@ struct SoftStop {
     const double q = evaluate_coordinate<double>(coordinate, in.bodies[coordinate.joint.first],
                                                  in.bodies[coordinate.joint.second])
                          .value;
-    const double depth = q < minimum ? minimum - q : (q > maximum ? q - maximum : 0.0);
-    return 0.5 * stiffness * depth * depth;
+    const double depth = q < d.minimum ? d.minimum - q : (q > d.maximum ? q - d.maximum : 0.0);
+    return 0.5 * d.stiffness * depth * depth;
   }
 
  private:
@@ -108,8 +104,8 @@ struct SoftStop {
   double pressed(const LoadInput<double>& in, int side) const {
     const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
     const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, ka, kb);
-    const double depth = side * ((side > 0 ? minimum : maximum) - row.value);
-    return std::min(depth, 1.0 - side * damping * coordinate_rate<double>(row, ka, kb));
+    const double depth = side * ((side > 0 ? d.minimum : d.maximum) - row.value);
+    return std::min(depth, 1.0 - side * d.damping * coordinate_rate<double>(row, ka, kb));
   }
 };
 

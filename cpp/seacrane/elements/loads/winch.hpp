@@ -13,6 +13,7 @@
 #include "seacrane/elements/loads/drum.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -27,16 +28,20 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
   static constexpr auto fields() {
     using D = WinchDescription;
     return std::tuple_cat(
-        std::tuple(
-            optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
-            optional("rate", &D::rate, "m/s", "commanded, positive: pays out").usually(0.0, 20.0),
-            optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none")
-                .usually(1e-3, 50.0),
-            optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag")
-                .usually(1e-4, 50.0),
-            optional("lag", &D::lag, "s", "of the winch's rate behind the command").usually(1e-3, 30.0),
-            optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
-                .usually(0.0, 50.0)),
+        std::tuple(optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
+                   optional("rate", &D::rate, "m/s", "commanded, positive: pays out").usually(0.0, 20.0),
+                   optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none")
+                       .positive()
+                       .usually(1e-3, 50.0),
+                   optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag")
+                       .positive()
+                       .usually(1e-4, 50.0),
+                   optional("lag", &D::lag, "s", "of the winch's rate behind the command")
+                       .not_negative()
+                       .usually(1e-3, 30.0),
+                   optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
+                       .positive()
+                       .usually(0.0, 50.0)),
         ConstantTensionDescription::fields(), DrumDescription::fields());
   }
 };
@@ -47,8 +52,7 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
 ///
 /// `pull` is EA e, without damping: what the winch measures where it holds a tension.
 struct Winch {
-  Curve command;
-  double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
+  WinchDescription d;
   int slot = 0;       // of the rate that is added to the command
   Followed follows;   // so is the rate of a heave compensator
   StateRange states;  // length, rate with a lag, and that of a drum's brake
@@ -56,20 +60,15 @@ struct Winch {
   std::optional<Drum> drum;
 
   using Drives = std::vector<std::pair<const Curve*, double>>;
-  /// Kinks of the winch: see margins().
-  static constexpr std::size_t kOwn = 4, kKinks = kOwn + 2 + Drum::kBounds.size();
+  /// Bounds of the rate and the acceleration in both directions.
+  static constexpr std::array<Margin, 4> kMargins = {
+      {{"maximum_rate"}, {"maximum_rate"}, {"maximum_acceleration"}, {"maximum_acceleration"}}};
+  static constexpr std::size_t kKinks = kMargins.size() + 2 + Drum::kMargins.size();
 
   static void check(const WinchDescription& d, const Curve& length, const Check& c) {
     if (length.pieces().size() > 1 || length.at(0.0).value != length.at(1.0).value) {
       c.fail("length changes over time, and the winch does that; give the length at the start");
     }
-    for (const auto& [what, value] : {std::pair{"maximum_rate", d.maximum_rate},
-                                      std::pair{"maximum_acceleration", d.maximum_acceleration},
-                                      std::pair{"minimum_length", d.minimum_length}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.not_negative("lag", d.lag);
     if (d.maximum_acceleration < kFarthest && d.lag == 0.0) {
       c.fail(
           "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
@@ -86,11 +85,7 @@ struct Winch {
   template <class Context>
   static Winch compile(const WinchDescription& d, const std::string& name, double start, Context& context) {
     Winch out;
-    out.command = d.rate;
-    out.maximum_rate = d.maximum_rate;
-    out.maximum_acceleration = d.maximum_acceleration;
-    out.lag = d.lag;
-    out.minimum_length = d.minimum_length;
+    out.d = d;
     out.slot = context.input(name + ".rate");
     out.follows = context.followed("line", name);
     const double scale = context.length_scale();
@@ -99,7 +94,7 @@ struct Winch {
       context.state({name + ".rate", "m/s", 0.0, scale});
       out.states.count = 2;
     }
-    if (d.tension_gain > 0.0) out.tension = ConstantTension{d.tension, d.tension_gain, d.dead_band};
+    if (d.tension_gain > 0.0) out.tension = ConstantTension{d};
     if (d.drum_inertia > 0.0) {
       out.drum = Drum::compile(d, name, context);
       if (out.drum->has_brake()) ++out.states.count;
@@ -109,13 +104,13 @@ struct Winch {
 
   /// Curves that drive l0, each by a factor, after `integrations`.
   Drives driven_by() const {
-    const double share = lag > 0.0 ? 1.0 / lag : 1.0;
-    Drives out = {{&command, share}};
-    if (tension) out.emplace_back(&tension->tension, tension->gain * share);
-    if (drum && drum->has_brake()) out.emplace_back(&drum->brake, drum->capacity / drum->mass);
+    const double share = d.lag > 0.0 ? 1.0 / d.lag : 1.0;
+    Drives out = {{&d.rate, share}};
+    if (tension) out.emplace_back(&d.tension, d.tension_gain * share);
+    if (drum && drum->has_brake()) out.emplace_back(&d.brake, d.brake_capacity / drum->mass);
     return out;
   }
-  int integrations() const { return lag > 0.0 ? 2 : 1; }
+  int integrations() const { return d.lag > 0.0 ? 2 : 1; }
 
   template <class T>
   T length(const LoadInput<T>& in) const {
@@ -124,7 +119,7 @@ struct Winch {
   /// r.
   template <class T>
   T turning(const LoadInput<T>& in, const T& pull) const {
-    return lag > 0.0 ? in.states[states.first + 1] : commanded(in, pull);
+    return d.lag > 0.0 ? in.states[states.first + 1] : commanded(in, pull);
   }
   /// l0': r, but for hauling in beyond the end.
   template <class T>
@@ -137,14 +132,14 @@ struct Winch {
   T asked_acceleration(const LoadInput<T>& in, const T& pull) const {
     const T goal = commanded(in, pull);
     const bool ended = drum.has_value() && at_end(in) && goal < T(0);
-    const T asked = (select(ended, T(0), goal) - in.states[states.first + 1]) / T(lag);
-    return clamped(asked, T(-maximum_acceleration), T(maximum_acceleration));
+    const T asked = (select(ended, T(0), goal) - in.states[states.first + 1]) / T(d.lag);
+    return clamped(asked, T(-d.maximum_acceleration), T(d.maximum_acceleration));
   }
 
   template <class T>
   void set_rates(const LoadInput<T>& in, const T& pull, const T& line_tension, T* state_rates) const {
     state_rates[states.first] = rate(in, pull);
-    if (!(lag > 0.0)) return;
+    if (!(d.lag > 0.0)) return;
     const T asked = asked_acceleration(in, pull), r = turning(in, pull);
     state_rates[states.first + 1] = drum ? drum->acceleration(in, asked, line_tension, r) : asked;
     if (drum && drum->has_brake()) state_rates[drum->wound] = drum->winding(in, r);
@@ -162,36 +157,22 @@ struct Winch {
     out.add_power(line_tension * r + into_line);
   }
 
-  /// Kinks, each where its number changes its sign: the bounds of rate and acceleration on both sides, the
-  /// ends of the dead band, and those of the drum.
-  std::array<double, kKinks> margins(const LoadInput<double>& in, double pull, double line_tension) const {
-    std::array<double, kKinks> out;
-    out.fill(1.0);
-    const double asked = goal(in, pull), at_bound = (1.0 + kRounding) * maximum_rate;
-    out[0] = at_bound - asked;
-    out[1] = at_bound + asked;
-    if (lag > 0.0) {
-      const double change = (commanded(in, pull) - in.states[states.first + 1]) / lag,
-                   most = (1.0 + kRounding) * maximum_acceleration;
-      out[2] = most - change;
-      out[3] = most + change;
+  /// Its own, those of the dead band, and those of the drum.
+  void add_margins(const LoadInput<double>& in, double pull, double line_tension, Margins& out) const {
+    auto own = kMargins;
+    const double asked = goal(in, pull), at_bound = (1.0 + kRounding) * d.maximum_rate;
+    own[0].value = at_bound - asked;
+    own[1].value = at_bound + asked;
+    if (d.lag > 0.0) {
+      const double change = (commanded(in, pull) - in.states[states.first + 1]) / d.lag,
+                   most = (1.0 + kRounding) * d.maximum_acceleration;
+      own[2].value = most - change;
+      own[3].value = most + change;
     }
-    if (tension) {
-      const std::array<double, 2> band = tension->margins(in, pull);
-      std::copy(band.begin(), band.end(), out.begin() + kOwn);
-    }
-    if (drum) {
-      const std::array<double, Drum::kBounds.size()> of_drum =
-          drum->margins(in, asked_acceleration(in, pull), line_tension, turning(in, pull));
-      std::copy(of_drum.begin(), of_drum.end(), out.begin() + kOwn + 2);
-    }
-    return out;
-  }
-  /// The bound that is met where a margin turns negative; null: none.
-  static const char* bound(std::size_t margin) {
-    if (margin < 2) return "maximum_rate";
-    if (margin < kOwn) return "maximum_acceleration";
-    return margin < kOwn + 2 ? nullptr : Drum::kBounds[margin - kOwn - 2];
+    out.add(own);
+    out.add(tension ? tension->margins(in, pull) : std::array<Margin, 2>());
+    out.add(drum ? drum->margins(in, asked_acceleration(in, pull), line_tension, turning(in, pull))
+                 : Drum::kMargins);
   }
 
  private:
@@ -200,17 +181,17 @@ struct Winch {
   /// What is commanded, before its bound.
   template <class T>
   T goal(const LoadInput<T>& in, const T& pull) const {
-    const double given = command.at(in.time, in.curve_limit).value + in.slots[slot];
+    const double given = d.rate.at(in.time, in.curve_limit).value + in.slots[slot];
     const T asked = T(given) + follows.rate(in);
     return tension ? T(asked + tension->rate(in, pull)) : asked;
   }
   template <class T>
   T commanded(const LoadInput<T>& in, const T& pull) const {
-    return clamped(goal(in, pull), T(-maximum_rate), T(maximum_rate));
+    return clamped(goal(in, pull), T(-d.maximum_rate), T(d.maximum_rate));
   }
   template <class T>
   bool at_end(const LoadInput<T>& in) const {
-    return !(length(in) > T(minimum_length));  // at it, as where it was located
+    return !(length(in) > T(d.minimum_length));  // at it, as where it was located
   }
 };
 

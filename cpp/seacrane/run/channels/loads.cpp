@@ -52,9 +52,9 @@ void write_drums(const Output& o, double* out) {
   }
 }
 
-double motor_torque_of(const Drum& d, const Drum::Drive& now) { return now.motor * d.radius; }
+double motor_torque_of(const Drum& drum, const Drum::Drive& now) { return now.motor * drum.d.drum_radius; }
 double motor_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now.motor * now.rate; }
-double brake_torque_of(const Drum& d, const Drum::Drive& now) { return now.brake * d.radius; }
+double brake_torque_of(const Drum& drum, const Drum::Drive& now) { return now.brake * drum.d.drum_radius; }
 double brake_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now.brake_power; }
 
 using Motion = const Line::Motion<double>&;

@@ -8,7 +8,7 @@ namespace {
 const std::vector<Line>& lines_of(const Model& m) { return std::get<std::vector<Line>>(*m.loads); }
 
 /// "hoist 2" for point 2 of the line, at the end of section 2.
-std::string label(const Line& one, std::size_t i) { return one.name + " " + std::to_string(i); }
+std::string label(const Line& one, std::size_t i) { return one.d.name + " " + std::to_string(i); }
 
 const Axis section{"section", {}, [](const Model& m) {
                      std::vector<std::string> names;

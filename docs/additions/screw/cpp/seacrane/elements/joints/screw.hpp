@@ -25,8 +25,8 @@ struct Screw : JointDefaults {
     double lead = 0.0;
 
     static constexpr auto fields() {
-      return std::tuple(required("lead", &Parameters::lead, "m", "advance in one turn; negative: left-handed")
-                            .must_be(Bound::not_zero));
+      return std::tuple(
+          required("lead", &Parameters::lead, "m", "advance in one turn; negative: left-handed").not_zero());
     }
     double advance() const { return lead / (2.0 * std::numbers::pi); }  // m/rad
   };

@@ -15,11 +15,9 @@ const Axis spring{
     }};
 
 void write_spring_length(const Output& o, double* out) {
-  const auto& bodies = o.terms.bodies();
-  for (const SpringDamper& s : std::get<std::vector<SpringDamper>>(*o.terms.model().loads)) {
-    const auto &first = bodies[idx(s.first)], &second = bodies[idx(s.second)];
-    const Vec3d from = first.position + first.rotation * s.first_point;
-    *out++ = (second.position + second.rotation * s.second_point - from).norm();
+  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  for (const SpringDamper& one : std::get<std::vector<SpringDamper>>(*o.terms.model().loads)) {
+    *out++ = one.span.length(in);
   }
 }
 

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "seacrane/elements/loads/line_elasticity.hpp"
+#include "seacrane/elements/loads/line_sheaves.hpp"
+#include "seacrane/elements/loads/winch.hpp"
+
+namespace seacrane {
+
+inline constexpr const char* kQuasiStatic = "quasi-static";
+
+struct LineDescription : WinchDescription {
+  std::string name;
+  std::vector<std::string> bodies;
+  std::vector<Vec3d> points;
+  double EA = 0.0;
+  Curve length;
+  double damping_ratio = 0.02, mass = 0.0;
+  std::string rung = "elastic";
+  double settling = 0.2;
+  SheaveDescriptions sheaves;
+  std::vector<double> strains, tensions;
+
+  static constexpr const char* type = "Line";
+  static constexpr const char* text =
+      "An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line.";
+  static constexpr auto fields() {
+    using D = LineDescription;
+    const auto own = std::tuple(
+        on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
+        required("points", &D::points, "m", "coordinates of these bodies"),
+        required("EA", &D::EA, "N", "axial stiffness: tension over strain").positive().usually(0.0, 2e10),
+        required("length", &D::length, "m", "unstretched; with a winch, at the start").positive(),
+        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line")
+            .not_negative()
+            .usually(1e-4, 1.0),
+        optional("mass", &D::mass, "kg", "that bounces on the line; 0: what its start tells, see LineBounce")
+            .not_negative(),
+        optional("rung", &D::rung, "", "'elastic', or 'quasi-static': its stretch follows the tension"),
+        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")
+            .positive()
+            .usually(1e-3, 10.0));
+    const auto table = std::tuple(
+        optional("strains", &D::strains, "", "from 0, of a table in place of EA").usually(0.0, 3.0),
+        optional("tensions", &D::tensions, "N", "at these strains, from 0"));
+    return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table);
+  }
+
+  /// A path over sheaves may have `most` points.
+  void check(const Check& c, const SceneNames& names, std::size_t most) const {
+    check_path(c, names);
+    sheaves.check(points.size(), most, c);
+    sheaves.check_neighbours(bodies, points, c);
+    LineElasticity::check(strains, tensions, c);
+    check_rung(c);
+    if (winch) {
+      Winch::check(*this, length, c);
+    } else if (rate.at(0.0).value != 0.0 || rate.pieces().size() > 1 || lag != 0.0) {
+      c.fail("has a rate or a lag, and no winch; set winch, or leave them out");
+    } else if (tension_gain != 0.0 || drum_inertia != 0.0) {
+      c.fail("holds a tension or has a drum, and no winch; set winch, or leave them out");
+    }
+  }
+
+  static LineDescription example() {
+    LineDescription d;
+    d.name = "load";
+    d.bodies = {"first", "third", "second"};
+    d.points = {{2.0, 0.5, -1.0}, {0.2, -0.4, 0.3}, {-1.0, 0.3, 2.0}};
+    d.EA = 60.0;
+    d.length = Curve::constant(3.0);
+    d.damping_ratio = 0.1;
+    d.winch = true;
+    d.rate = Curve::quintic(0.0, 2.0, 0.1, 0.3);
+    d.maximum_rate = 5.0;
+    d.maximum_acceleration = 50.0;
+    d.lag = 0.4;
+    d.tension = Curve::constant(10.0);
+    d.tension_gain = 0.01;
+    d.dead_band = 1.0;
+    d.drum_inertia = 2.0;
+    d.drum_radius = 0.5;
+    d.maximum_tension = 1e4;
+    d.maximum_power = 1e5;
+    d.brake = Curve::quintic(0.2, 1.2, 0.0, 1.0);
+    d.brake_capacity = 30.0;
+    d.brake_give = 0.5;
+    d.sheaves.radii = {0.0, 0.2, 0.0};
+    d.sheaves.axes = {{0.0, 0.0, 0.0}, {0.3, -1.0, 0.2}, {0.0, 0.0, 0.0}};
+    d.sheaves.turns = {0.0, 1.0, 0.0};
+    d.sheaves.efficiencies = {1.0, 0.9, 1.0};
+    d.sheaves.frictions = {0.0, 0.02, 0.0};
+    d.sheaves.slip_speed = 0.4;
+    d.strains = {0.0, 0.5, 2.0, 9.0};
+    d.tensions = {0.0, 20.0, 150.0, 900.0};
+    return d;
+  }
+
+ private:
+  void check_path(const Check& c, const SceneNames& names) const {
+    if (points.size() < 2 || points.size() != bodies.size()) {
+      c.fail("has " + std::to_string(bodies.size()) + " bodies and " + std::to_string(points.size()) +
+             " points; give as many of both, at least two");
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      names.body(c, bodies[i], true);
+      if (i > 0 && bodies[i] == bodies[i - 1] && points[i] == points[i - 1]) {
+        c.fail("visits point " + std::to_string(i) + " twice in a row; leave one of them out");
+      }
+    }
+    const auto other = [&](const std::string& name) { return name != bodies.front(); };
+    if (std::none_of(bodies.begin(), bodies.end(), other)) {
+      c.fail("has all its points on '" + bodies.front() + "', which it cannot move; name two bodies");
+    }
+  }
+
+  void check_rung(const Check& c) const {
+    if (rung != kQuasiStatic && rung != "elastic") {
+      c.fail("rung '" + rung + "' is unknown; choose 'elastic' or 'quasi-static'");
+    }
+    if (rung != kQuasiStatic) return;
+    if (!strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose rung 'elastic'");
+    if (winch && lag == 0.0) {
+      c.fail(
+          "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
+    }
+    if (drum_inertia > 0.0) {
+      c.fail("a drum with inertia rings with its line; choose rung 'elastic', or leave drum_inertia out");
+    }
+    for (const CurveKink& kink : length.kinks()) {
+      if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
+      c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
+             to_text(kink.time) + " s, or its rate; smooth it, or choose rung 'elastic'");
+    }
+  }
+  static constexpr double kJump = 1e-9;  // m and m/s
+};
+
+}  // namespace seacrane
