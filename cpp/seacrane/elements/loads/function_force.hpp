@@ -36,6 +36,7 @@ struct FunctionForceDescription {
 /// A user's C function called in every evaluation, see ForceFunction.
 struct FunctionForce {
   static constexpr const char* kind = "function force";
+  static constexpr bool by_differences = true;  // apply() knows doubles alone, and one body
   using Description = FunctionForceDescription;
 
   int body = 0;

@@ -108,6 +108,7 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
 /// load-holding valve the hose is at the atmosphere then, and the hole in series with that valve.
 struct HydraulicCylinder {
   static constexpr const char* kind = "hydraulic cylinder";
+  static constexpr const char* follows_as = "actuator";
   using Description = HydraulicCylinderDescription;
   /// Where power enters and is lost: pump and tank give positive, all others take, negative.
   static constexpr std::array<const char*, 9> kPowers = {
