@@ -250,7 +250,7 @@ class Compiler final : private LoadContext {
     for (std::size_t i = model_.limits.size(); i-- > 0;) {
       Limit& limit = model_.limits[i];
       const bool here = holds(model_.closed, static_cast<int>(i));
-      if (limit.kind == LimitKind::stop) {
+      if (limit.kind->of_coordinate) {
         limit.coordinate = coordinate(limit.described);
         limit.element = here ? --element : -1;
       } else {
@@ -428,7 +428,7 @@ void check_start(const Model& model) {
   terms.read(0.0, model.initial_state.data());
   for (std::size_t i = 0; i < model.limits.size(); ++i) {
     const Limit& limit = model.limits[i];
-    if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
+    if (holds(model.closed, static_cast<int>(i)) || !limit.kind->closes_again) continue;
     const double gap = limit.side * evaluate_limit(limit, terms.bodies().data()).value;
     if (gap >= -kBeyond) continue;
     throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +

@@ -6,7 +6,7 @@
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/driver.hpp"
-#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 
 namespace seacrane {
 namespace {
@@ -259,15 +259,14 @@ void BodyResidual::add_waves(int b) {
 
 void BodyResidual::add_rows(int b) {
   const Model& m = *model_;
-  for_each_joint_type([&]<class Type>(std::size_t kind) {
-    for (const JointData& joint : m.joints[kind]) {
+  for (const JointKind& kind : joint_kinds()) {
+    for (const JointData& joint : m.joints[kind.index]) {
       if ((joint.first != b && joint.second != b) || !counted_[idx(joint.element)]) continue;
       RowBlock<Scalar> block;
-      const JointGeometry<Scalar> g(joint, bodies_[idx(joint.first)], bodies_[idx(joint.second)]);
-      Type::template evaluate<Scalar>(g, joint, block);
+      kind.evaluate_slopes(joint, bodies_.data(), block);
       add_rows(block, m.elements[idx(joint.element)]);
     }
-  });
+  }
   for (const DriverData& driver : m.drivers) {
     const JointData& joint = driver.coordinate.joint;
     if ((joint.first != b && joint.second != b) || !counted_[idx(driver.element)]) continue;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "seacrane/dynamics/inertia.hpp"
-#include "seacrane/dynamics/recursive/articulated.hpp"
 #include "seacrane/dynamics/recursive/tree_actuators.hpp"
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/recursive/turning_inertia.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/lanes/lane_system.hpp"
