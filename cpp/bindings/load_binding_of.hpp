@@ -12,6 +12,8 @@ const LoadBinding& load_binding() {
         type.def_static("example", &Load::example,
                         "One for checks, on bodies 'first', 'second' and 'third'.");
         type.attr("STIFF") = seacrane::StiffLoad<Load>;
+        type.attr("OWN_PACE") = requires { requires Load::own_pace; };
+        type.attr("PASSIVE") = requires { requires Load::passive; };
         return type;
       },
       .add =

@@ -847,6 +847,8 @@ class HeaveCompensator:
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
@@ -952,6 +954,8 @@ class Actuator:
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
@@ -1012,6 +1016,8 @@ class PointForce:
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
@@ -1062,6 +1068,8 @@ class Spring:
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
@@ -1137,6 +1145,8 @@ class ForceTable:
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
@@ -1187,6 +1197,8 @@ class FunctionForce:
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = True
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
@@ -1229,6 +1241,8 @@ class FlowForce:
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
@@ -1309,6 +1323,8 @@ class Friction:
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
@@ -1359,6 +1375,8 @@ class SoftStop:
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = True
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
@@ -1419,6 +1437,8 @@ class Line:
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
@@ -1609,6 +1629,8 @@ class GasSpring:
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
@@ -1714,6 +1736,8 @@ class PendulumDamping:
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
@@ -1774,6 +1798,8 @@ class SpanDrag:
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
@@ -1849,6 +1875,8 @@ class HydraulicCylinder:
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
@@ -2159,6 +2187,8 @@ class Limit:
     What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...

@@ -37,6 +37,7 @@ struct FunctionForceDescription {
 struct FunctionForce {
   static constexpr const char* kind = "function force";
   static constexpr bool by_differences = true;  // apply() knows doubles alone, and one body
+  static constexpr bool own_pace = true;        // of a frequency that nobody knows
   using Description = FunctionForceDescription;
 
   int body = 0;
