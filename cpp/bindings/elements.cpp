@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "description.hpp"
+#include "load_binding.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 
@@ -93,17 +94,20 @@ void bind_joint(py::module_& m) {
           py::arg("name"), "A parameter by its name, or its default.");
 }
 
+/// In the order of their registration.
+std::vector<const LoadBinding*> load_bindings() {
+  return []<class... Load>(std::type_identity<std::tuple<Load...>>) {
+    return std::vector<const LoadBinding*>{&load_binding<Load>()...};
+  }(std::type_identity<LoadTypes>{});
+}
+
 void bind_loads(py::module_& m) {
   py::dict kinds;
-  for_each_load_type([&]<class Load>() {
-    using D = typename Load::Description;
-    auto type = description::bind<D>(m, Load::kind);
-    type.def_static("example", &Load::example, "One for checks, on bodies 'first', 'second' and 'third'.");
-    type.attr("STIFF") = StiffLoad<Load>;
-    kinds[Load::kind] = type;
-  });
+  const std::vector<const LoadBinding*> bindings = load_bindings();
+  for (std::size_t i = 0; i < bindings.size(); ++i) kinds[load_kinds()[i]->name] = bindings[i]->bind(m);
   auto limit = description::bind<LimitDescription>(m, "limit");
-  limit.attr("STIFF") = false;
+  limit.attr("STIFF") = limit.attr("OWN_PACE") = false;
+  limit.attr("PASSIVE") = true;
   kinds["limit"] = limit;
   m.attr("LOAD_KINDS") = kinds;
 }
@@ -169,6 +173,13 @@ void bind_vessel(py::module_& m) {
 }
 
 }  // namespace
+
+void add_load(LoadDescriptions& loads, const py::object& object) {
+  for (const LoadBinding* kind : load_bindings()) {
+    if (kind->add(loads, object)) return;
+  }
+  throw std::invalid_argument("load " + py::repr(object).cast<std::string>() + " is of no known kind");
+}
 
 void bind_elements(py::module_& m) {
   bind_fields(m);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "bindings.hpp"
+#include "load_binding.hpp"
 #include "seacrane/compile/compile.hpp"
 #include "seacrane/compile/in_sea.hpp"
 #include "seacrane/dynamics/constraints.hpp"
@@ -11,7 +12,6 @@
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/time_parts.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepped_bodies.hpp"
 #include "vector_state.hpp"
@@ -21,24 +21,6 @@ using namespace seacrane;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 namespace {
-
-/// Sorts a description to its kind.
-void add_load(SceneDescription& scene, const py::object& object) {
-  if (py::isinstance<LimitDescription>(object)) {
-    scene.limits.push_back(object.cast<LimitDescription>());
-    return;
-  }
-  bool known = false;
-  for_each_load_type([&]<class Load>() {
-    using Description = typename Load::Description;
-    if (!py::isinstance<Description>(object)) return;
-    known = true;
-    scene.loads_of<Load>().push_back(object.cast<Description>());
-  });
-  if (!known) {
-    throw std::invalid_argument("load " + py::repr(object).cast<std::string>() + " is of no known kind");
-  }
-}
 
 std::shared_ptr<Model> compile_scene(
     std::string name, double gravity, const std::string& orientation, double baumgarte, double length_scale,
@@ -60,7 +42,13 @@ std::shared_ptr<Model> compile_scene(
   scene.bodies = std::move(bodies);
   scene.joints = std::move(joints);
   scene.drivers = std::move(drivers);
-  for (const py::object& load : loads) add_load(scene, load);
+  for (const py::object& load : loads) {
+    if (py::isinstance<LimitDescription>(load)) {
+      scene.limits.push_back(load.cast<LimitDescription>());
+    } else {
+      add_load(scene.loads, load);
+    }
+  }
   scene.vessels = std::move(vessels);
   scene.wave_loads = std::move(wave_loads);
   for (const auto& [name, joint, coordinate] : coordinates) {

@@ -8,7 +8,9 @@
 #include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/actuator.hpp"
+#include "seacrane/elements/loads/flow_force.hpp"
+#include "seacrane/elements/loads/spring_damper.hpp"
 #include "seacrane/math/random.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -129,7 +131,7 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   JointDescription& link = join(scene, "distance", "link", "arm", "load", tip);
   link.second_frame = frame_on(scene, "load", tip + Vec3d(0.3, 0.0, -0.4), Mat3d::Identity());
   link.parameters["length"] = 0.5;
-  scene.loads_of<Actuator>().push_back(
+  scene.loads.of<Actuator>().push_back(
       {"drive", {"bearing", "angle"}, 20.0, 3.0, Curve::constant(1.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)});
   scene.drivers.push_back({"swing", {"shoulder", "angle"}, Curve::harmonic(0.0, -0.2, 0.2, 3.0, 0.0)});
   SpringDescription spring;
@@ -140,7 +142,7 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   spring.stiffness = 30.0;
   spring.damping = 0.5;
   spring.natural_length = 0.8;
-  scene.loads_of<SpringDamper>().push_back(spring);
+  scene.loads.of<SpringDamper>().push_back(spring);
   scene.coordinates = {{"bearing", "angle"}, {"guide", "displacement"}};
   return scene;
 }
@@ -268,7 +270,7 @@ inline SceneDescription at_sea(bool actual, double cutoff = 0.0) {
   wind.frontal_area = wind.lateral_area = wind.length = 1.0;
   wind.angles = {0.0, 1.5, 3.0, 4.5, 5.5};
   wind.coefficients.assign(5, Vec3d(0.2, 0.3, 0.1));
-  scene.loads_of<FlowForce>().push_back(wind);
+  scene.loads.of<FlowForce>().push_back(wind);
   return scene;
 }
 

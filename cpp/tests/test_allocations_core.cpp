@@ -6,6 +6,7 @@
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/energy.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/elements/loads/line.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -26,7 +27,7 @@ std::vector<SceneDescription> scenes() {
   Line::Description line = Line::example();
   line.bodies = {kGround, hoisted.bodies[0].name, hoisted.bodies[1].name};
   line.brake_capacity = 1e3;  // holds: a bound that is reached is an event, which allocates
-  hoisted.loads_of<Line>().push_back(line);
+  hoisted.loads.of<Line>().push_back(line);
   return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false), hoisted};
 }
 

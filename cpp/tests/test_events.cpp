@@ -5,6 +5,7 @@
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/elements/loads/point_force.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -128,7 +129,7 @@ TEST_CASE("a set of limits that leaves no rows of redundant ones is stepped") {
   scene.bodies.push_back(body_at("box", 3.0, Vec3d(0.5, 0, -2)));
   scene.joints.push_back({"weld", "weld", "box", "ball", {Vec3d(-0.5, 0, 0), Mat3d::Identity()}, {}});
   scene.joints.push_back({"rod", "distance", "box", "ball", {}, {}, {{"length", 0.5}}});
-  scene.loads_of<PointForce>().push_back({"lift", "ball", Vec3d::Zero(), Vec3d(0, 0, 120)});
+  scene.loads.of<PointForce>().push_back({"lift", "ball", Vec3d::Zero(), Vec3d(0, 0, 120)});
   const auto model = compile(scene);
   REQUIRE(model->redundant);
   for (const std::string formulation : {"redundant", "recursive"}) {

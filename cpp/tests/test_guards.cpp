@@ -6,6 +6,7 @@
 #include "multibody_scenes.hpp"
 #include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/non_finite.hpp"
+#include "seacrane/elements/loads/function_force.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -47,7 +48,7 @@ SceneDescription pushed(ForceFunction function) {
   SceneDescription scene;
   scene.bodies.push_back(body_at("box", 1.0, Vec3d::Zero()));
   scene.bodies.back().velocity = Vec3d(1.0, 0.0, 0.0);
-  scene.loads_of<FunctionForce>().push_back({"push", "box", function, {0.25}});
+  scene.loads.of<FunctionForce>().push_back({"push", "box", function, {0.25}});
   return scene;
 }
 

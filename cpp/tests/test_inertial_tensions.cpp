@@ -3,6 +3,7 @@
 #include "multibody_scenes.hpp"
 #include "seacrane/dynamics/energy.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/elements/loads/line.hpp"
 
 namespace seacrane::test {
 namespace {
@@ -31,8 +32,8 @@ LineDescription commanded_line() {
 
 /// A scene with two lines of quasi-static stretch over the same bodies, one on a winch: they feel each other.
 SceneDescription with_lines(SceneDescription scene) {
-  scene.loads_of<Line>().push_back(quasi_static_line("on winch"));
-  scene.loads_of<Line>().push_back(commanded_line());
+  scene.loads.of<Line>().push_back(quasi_static_line("on winch"));
+  scene.loads.of<Line>().push_back(commanded_line());
   return scene;
 }
 
@@ -84,7 +85,7 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
     const std::vector<double> y = shaken(system);
     std::vector<double> rate(y.size());
     const StateLayout& s = system.model().layout;
-    for (const Line& one : std::get<std::vector<Line>>(*system.model().loads)) {
+    for (const Line& one : system.model().loads.of<Line>()) {
       CAPTURE(one.name);
       // l0 and its rates by differences along the motion, and the strain's likewise.
       const auto motion_at = [&](double t) {
@@ -154,7 +155,7 @@ TEST_CASE("a quasi-static stretch is refused where it cannot be") {
   const auto message = [](const LineDescription& line) -> std::string {
     Random random(71);
     SceneDescription scene = pair("revolute", random);
-    scene.loads_of<Line>().push_back(line);
+    scene.loads.of<Line>().push_back(line);
     try {
       compile(scene);
     } catch (const SceneError& error) {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "seacrane/compile/compile.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/function_force.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -20,7 +20,7 @@ TEST_CASE("a stop asked for in the very last step of an advance is told") {
   const ForceFunction slow = [](double, const double*, const double*, double*) {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
   };
-  scene.loads_of<FunctionForce>().push_back({"slow", "bob", slow, {}});
+  scene.loads.of<FunctionForce>().push_back({"slow", "bob", slow, {}});
   const auto model = compile(scene);
   RunOptions options;
   options.integrator = "rk4";

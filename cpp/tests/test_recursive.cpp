@@ -2,6 +2,7 @@
 
 #include "multibody_scenes.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 
 namespace seacrane::test {
 namespace {

@@ -21,7 +21,7 @@ std::shared_ptr<const Model> bob_between_tables() {
     spring.first_point = {side, 0.3 * side, 0.1};
     spring.lengths = {0.5, 1.6, 2.1, 2.5, 5.0};
     spring.forces = {0.0, 4.0, 30.0, 36.0, 200.0};
-    scene.loads_of<SpringDamper>().push_back(spring);
+    scene.loads.of<SpringDamper>().push_back(spring);
   }
   return compile(scene);
 }

@@ -852,6 +852,8 @@ class HeaveCompensator:
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
@@ -957,6 +959,8 @@ class Actuator:
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
@@ -1017,6 +1021,8 @@ class PointForce:
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
@@ -1067,6 +1073,8 @@ class Spring:
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
@@ -1142,6 +1150,8 @@ class ForceTable:
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
@@ -1192,6 +1202,8 @@ class FunctionForce:
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = True
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
@@ -1234,6 +1246,8 @@ class FlowForce:
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
@@ -1314,6 +1328,8 @@ class Friction:
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
@@ -1364,6 +1380,8 @@ class SoftStop:
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = True
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
@@ -1424,6 +1442,8 @@ class Line:
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
@@ -1614,6 +1634,8 @@ class GasSpring:
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
@@ -1719,6 +1741,8 @@ class PendulumDamping:
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
@@ -1779,6 +1803,8 @@ class SpanDrag:
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
@@ -1854,6 +1880,8 @@ class HydraulicCylinder:
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
     STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
@@ -2164,6 +2192,8 @@ class Limit:
     What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = True
     STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...

@@ -10,7 +10,7 @@
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/check.hpp"
-#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 
 namespace seacrane {
 namespace {
@@ -121,19 +121,20 @@ void close(Model& m, MaximalSystem& system) {
 
 /// Rows like u . w = 0 also hold with an axis turned by 180 deg: that is another assembly.
 void check_branch(const Model& m, const Terms& terms) {
-  for_each_joint_type([&]<class Type>(std::size_t kind) {
-    if (!Type::parallel_axes) return;
-    for (const JointData& j : m.joints[kind]) {
+  for (const JointKind& kind : joint_kinds()) {
+    if (!kind.parallel_axes) continue;
+    for (const JointData& j : m.joints[kind.index]) {
       const Mat3d a = terms.bodies()[idx(j.first)].rotation * j.first_axes;
       const Mat3d b = terms.bodies()[idx(j.second)].rotation * j.second_axes;
       const bool flipped =
-          a.col(2).dot(b.col(2)) < 0.0 || (Type::aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
+          a.col(2).dot(b.col(2)) < 0.0 || (kind.aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
       if (flipped) {
         throw SceneError("joint '" + m.elements[idx(j.element)].name +
                          "': closes only with its axes turned by 180 deg; correct the axes of its frames");
       }
     }
-  });
+  }
+}
 }
 
 void report_moves(const Model& m, const std::vector<double>& before, AssemblyReport& out) {

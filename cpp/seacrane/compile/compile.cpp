@@ -13,7 +13,7 @@
 #include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/model/validate.hpp"
 
 namespace seacrane {
@@ -26,7 +26,7 @@ constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of
 constexpr double kBeyond = 1e-9;           // m or rad: a start beyond a bound
 constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
 
-class Compiler {
+class Compiler final : private LoadContext {
  public:
   Compiler(const SceneDescription& scene, MergePlan merge, std::vector<Limit> limits = {},
            ClosedSet closed = 0)
@@ -50,15 +50,15 @@ class Compiler {
     return std::move(model_);
   }
 
-  // What loads ask for while they are compiled.
-  Attachment attach(const std::string& body, const Vec3d& point) const {
+ private:
+  Attachment attach(const std::string& body, const Vec3d& point) const override {
     const Placement p = place(body);
     const Vec3d in_body = p.point(point);
     if (p.body == ground()) return {p.body, in_body, p.axes};
     return {p.body, in_body - model_.bodies[idx(p.body)].state_point, p.axes};
   }
 
-  CoordinateData coordinate(const CoordinateDescription& d) const {
+  CoordinateData coordinate(const CoordinateDescription& d) const override {
     static const std::map<std::string, CoordinateKind> kinds = {
         {"angle", CoordinateKind::angle}, {"displacement", CoordinateKind::displacement},
         {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
@@ -84,40 +84,28 @@ class Compiler {
     return j;
   }
 
-  /// The place of a state among those of all loads.
-  int state(LoadState state) {
+  int state(LoadState state) override {
     model_.load_states.push_back(std::move(state));
     return static_cast<int>(model_.load_states.size()) - 1;
   }
-  double mass(const std::string& body) const { return scene_.bodies[idx(index_.at(body))].mass; }
-  double gravity() const { return scene_.gravity; }
-  double length_scale() const { return kTranslationScale * scene_.length_scale; }
-
-  /// The heave compensator that an actuator, or the winch of a line, follows.
-  Followed followed(const std::string& kind, const std::string& name) const {
-    Followed out;
-    const auto& compiled = std::get<std::vector<HeaveCompensator>>(*model_.loads);
-    const auto& described = std::get<std::vector<HeaveCompensatorDescription>>(*scene_.loads);
-    for (std::size_t i = 0; i < described.size(); ++i) {
-      const HeaveCompensatorDescription& d = described[i];
-      if ((kind == Line::kind ? d.winch : d.actuator) == name) out = {d.ratio, compiled[i].signal};
-    }
-    return out;
-  }
-
-  /// A place among the inertial tensions.
-  int inertial_tension() { return model_.inertial_tensions++; }
-
-  /// The first of `count` slots of a zero-order-held input.
-  int input(const std::string& name, int count = 1) {
+  double mass(const std::string& body) const override { return scene_.bodies[idx(index_.at(body))].mass; }
+  double gravity() const override { return scene_.gravity; }
+  double length_scale() const override { return kTranslationScale * scene_.length_scale; }
+  int ground() const override { return static_cast<int>(model_.merge.carriers.size()); }
+  int inertial_tension() override { return model_.inertial_tensions++; }
+  int input(const std::string& name, int count) override {
     const int first = model_.slot_count;
     model_.inputs.push_back({name, first, count});
     model_.slot_count += count;
     return first;
   }
-
- private:
-  int ground() const { return static_cast<int>(model_.merge.carriers.size()); }
+  void lead(const std::string& as, const std::string& name, const Followed& signal) override {
+    led_[{as, name}] = signal;
+  }
+  Followed followed(const std::string& kind, const std::string& name) const override {
+    const auto found = led_.find({find_load_kind(kind)->follows_as, name});
+    return found == led_.end() ? Followed() : found->second;
+  }
 
   Placement place(const std::string& body) const {
     return body == kGround ? Placement{ground()} : model_.merge.places[idx(index_.at(body))];
@@ -262,7 +250,7 @@ class Compiler {
     for (std::size_t i = model_.limits.size(); i-- > 0;) {
       Limit& limit = model_.limits[i];
       const bool here = holds(model_.closed, static_cast<int>(i));
-      if (limit.kind == LimitKind::stop) {
+      if (limit.kind->of_coordinate) {
         limit.coordinate = coordinate(limit.described);
         limit.element = here ? --element : -1;
       } else {
@@ -273,12 +261,7 @@ class Compiler {
   }
 
   void loads() {
-    for_each_load_type([&]<class Load>() {
-      for (const auto& d : std::get<std::vector<typename Load::Description>>(*scene_.loads)) {
-        const Load load = Load::compile(d, *this);
-        if (acts(load)) std::get<std::vector<Load>>(*model_.loads).push_back(load);
-      }
-    });
+    for (const auto& list : scene_.loads.lists) list->compile(*this, model_.loads);
     check_quasi_static();
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
     for (const auto& d : scene_.points) model_.points.push_back(attach(d.body, d.point));
@@ -286,9 +269,10 @@ class Compiler {
 
   /// Impacts throw a stretch out of step with the tension, and the paper's masses have no response to loads.
   void check_quasi_static() const {
-    for (const Line& line : std::get<std::vector<Line>>(*model_.loads)) {
-      if (!line.quasi_static()) continue;
-      const std::string what = "line '" + line.d.name + "': its stretch is quasi-static, and ";
+    model_.loads.for_each([&](const LoadList& list, std::size_t i) {
+      if (list.inertial_place(i) < 0) return;
+      const std::string what =
+          std::string(list.kind.name) + " '" + list.names[i] + "': its stretch is quasi-static, and ";
       if (!model_.limits.empty()) {
         throw SceneError(what + "limit '" + model_.limits.front().name +
                          "' makes impacts, which shake the line; choose rung 'elastic'");
@@ -299,20 +283,7 @@ class Compiler {
                          "' has kinematics 'paper', whose mass is not symmetric; "
                          "choose 'yaw_following', or rung 'elastic'");
       }
-    }
-  }
-
-  /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
-  /// there its forces cancel and do no work. States go on all the same.
-  template <class Load>
-  bool acts(const Load& load) const {
-    if constexpr (HasStates<Load>) {
-      if (load.states.count > 0) return true;
-    }
-    const auto& bodies = load.bodies();
-    const auto& first = *bodies.begin();
-    if (bodies.size() == 1) return first != ground();
-    return std::any_of(bodies.begin(), bodies.end(), [&](int b) { return b != first; });
+    });
   }
 
   void vessels() {
@@ -427,7 +398,8 @@ class Compiler {
   Model model_;
   std::map<std::string, int> index_;  // of described bodies
   std::map<std::string, const JointDescription*> joint_;
-  std::map<std::string, int> element_;  // of described joints that hold something
+  std::map<std::string, int> element_;                           // of described joints that hold something
+  std::map<std::pair<std::string, std::string>, Followed> led_;  // by what it is led as, and its name
 };
 
 /// A scene with every body by itself and, of its limits, the rows of a set.
@@ -456,7 +428,7 @@ void check_start(const Model& model) {
   terms.read(0.0, model.initial_state.data());
   for (std::size_t i = 0; i < model.limits.size(); ++i) {
     const Limit& limit = model.limits[i];
-    if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
+    if (holds(model.closed, static_cast<int>(i)) || !limit.kind->closes_again) continue;
     const double gap = limit.side * evaluate_limit(limit, terms.bodies().data()).value;
     if (gap >= -kBeyond) continue;
     throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
@@ -30,9 +29,7 @@ class Finder {
   explicit Finder(const Model& model) : model_(model) {}
 
   std::vector<Kink> run() {
-    for_each_load_type([&]<class Load>() {
-      for (const Load& load : std::get<std::vector<Load>>(*model_.loads)) loads(load);
-    });
+    model_.loads.for_each([&](const LoadList& list, std::size_t i) { load(list, i); });
     for (const DriverData& driver : model_.drivers) {
       const LoadKinks found = driver_kinks(driver.curve);
       if (!found.empty()) add(found, of_driver(driver));
@@ -42,14 +39,11 @@ class Finder {
   }
 
  private:
-  template <class Load>
-  void loads(const Load& load) {
-    for (LoadKinks found : load.kinks()) {
+  void load(const LoadList& list, std::size_t i) {
+    for (LoadKinks found : list.kinks(i)) {
       std::erase_if(found, [](const LoadKink& kink) { return kink.jump.isZero(0.0); });
       if (found.empty()) continue;
-      if constexpr (requires { load.add_unit(0, input(), wrenches_.data()); }) {
-        add(found, of_load(load, static_cast<int>(found.front().jump.rows())));
-      }
+      add(found, of_load(list, i, static_cast<int>(found.front().jump.rows())));
     }
   }
 
@@ -71,13 +65,12 @@ class Finder {
   }
 
   /// Accelerations over the scales of the velocities, by state and component of a load.
-  template <class Load>
-  MatXd of_load(const Load& load, int components) {
+  MatXd of_load(const LoadList& list, std::size_t i, int components) {
     const LoadInput<double> in = input();
     MatXd out(6 * model_.body_count(), components);
     for (int k = 0; k < components; ++k) {
       for (Vec6d& wrench : wrenches_) wrench.setZero();
-      load.add_unit(k, in, wrenches_.data());
+      list.add_unit(i, k, in, wrenches_.data());
       out.col(k) = accelerate();
     }
     return out;

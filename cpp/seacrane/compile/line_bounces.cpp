@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/line.hpp"
 
 namespace seacrane {
 namespace {
@@ -24,16 +24,9 @@ struct Pull {
   const Line* line = nullptr;
 };
 
-/// The stiffness of a load with stiff states along its direction, when these follow its rate.
-double stiffness_of(const StiffSlopes& slopes) {
-  const Eigen::Index n = slopes.rows() - 1;
-  return std::abs(slopes.block(0, 1, 1, n).row(0).dot(slopes.block(1, 0, n, 1).col(0)));
-}
-
 class BounceFinder {
  public:
-  explicit BounceFinder(const Model& model)
-      : model_(model), lines_(std::get<std::vector<Line>>(*model.loads)) {}
+  explicit BounceFinder(const Model& model) : model_(model), lines_(model.loads.of<Line>()) {}
 
   std::vector<LineBounce> run() {
     if (lines_.empty() || model_.paper_kinematics) return {};
@@ -75,14 +68,12 @@ class BounceFinder {
     if (std::isfinite(yielding) && yielding > 0.0 && stiffness > 0.0) springs_.push_back(std::move(out));
   }
 
-  /// Actuators and cylinders hold what the lines hang on.
+  /// What else holds what the lines hang on.
   void add_others() {
-    for (const Actuator& one : std::get<std::vector<Actuator>>(*model_.loads)) {
-      add([&](Vec6d* w) { one.add_unit(0, input(), w); }, one.d.stiffness, nullptr);
-    }
-    for (const HydraulicCylinder& one : std::get<std::vector<HydraulicCylinder>>(*model_.loads)) {
-      add([&](Vec6d* w) { one.add_unit(0, input(), w); }, stiffness_of(one.stiff_slopes(input())), nullptr);
-    }
+    model_.loads.for_each([&](const LoadList& list, std::size_t i) {
+      const double stiffness = list.stiffness(i, input());
+      if (stiffness > 0.0) add([&](Vec6d* w) { list.add_unit(i, 0, input(), w); }, stiffness, nullptr);
+    });
   }
 
   static double yields(const Pull& one, const Pull& other) {
@@ -169,7 +160,9 @@ std::vector<LineBounce> find_line_bounces(const Model& model) { return BounceFin
 
 void hang_on_lines(Model& model, const std::vector<LineBounce>& bounces) {
   model.line_bounces = bounces;
-  for (Line& line : std::get<std::vector<Line>>(*model.loads)) {
+  std::vector<Line>* const lines = model.loads.find<Line>();
+  if (lines == nullptr) return;
+  for (Line& line : *lines) {
     const auto found = std::find_if(bounces.begin(), bounces.end(),
                                     [&](const LineBounce& one) { return one.line == line.d.name; });
     if (found != bounces.end() && !line.given_mass()) line.hang(found->mass);

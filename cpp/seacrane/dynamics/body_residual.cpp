@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/driver.hpp"
-#include "seacrane/elements/joints/registry.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 
 namespace seacrane {
 namespace {
@@ -102,25 +100,18 @@ void BodyResidual::differentiate_states(int first) {
   const LoadInput<Scalar> input = clear();
   const int last = std::min(first + kDirections, static_cast<int>(state_.size()));
   for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 1.0;
-  for_each_load_type([&]<class Load>() {
-    if constexpr (!std::is_same_v<Load, FunctionForce>) {
-      for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
-        if (!looks_at_states(load, first, last)) continue;
-        for (const int b : load.bodies()) wrench(b);
-        add_load(load, input);
-      }
-    }
+  model_->loads.for_each([&](const LoadList& list, std::size_t i) {
+    if (list.kind.by_differences || !list.looks_at_states(i, first, last)) return;
+    for (const int b : list.bodies[i]) wrench(b);
+    add_load(list, i, input);
   });
   for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 0.0;
 }
 
-template <class Load>
-void BodyResidual::add_load(const Load& load, const LoadInput<Scalar>& input) {
-  load.template apply<Scalar>(input, sum_);
-  if constexpr (std::is_same_v<Load, Line>) {
-    if (!load.quasi_static()) return;
-    inertial_[idx(load.place)] = load.inertial_tension(input, load.motion(input), held_.acceleration);
-  }
+void BodyResidual::add_load(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input) {
+  list.apply(i, input, sum_);
+  const int place = list.inertial_place(i);
+  if (place >= 0) inertial_[idx(place)] = list.inertial(i, input, held_.acceleration);
 }
 
 BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {
@@ -183,38 +174,36 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
   for (const Gravity& load : model_->gravity) {
     if (load.body == b) load.apply<Scalar>(input, sum_);
   }
-  for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
-      const auto& bodies = load.bodies();
-      if (std::find(bodies.begin(), bodies.end(), b) == bodies.end()) continue;
-      for (const int other : bodies) wrench(other);
-      if constexpr (std::is_same_v<Load, FunctionForce>) {
-        add_differences(load);
-      } else {
-        add_load(load, input);
-      }
+  model_->loads.for_each([&](const LoadList& list, std::size_t i) {
+    const std::vector<int>& bodies = list.bodies[i];
+    if (std::find(bodies.begin(), bodies.end(), b) == bodies.end()) return;
+    for (const int other : bodies) wrench(other);
+    if (list.kind.by_differences) {
+      add_differences(list, i);
+    } else {
+      add_load(list, i, input);
     }
   });
 }
 
-void BodyResidual::add_differences(const FunctionForce& load) {
-  const auto b = idx(load.body);
+void BodyResidual::add_differences(const LoadList& list, std::size_t i) {
+  const auto b = idx(list.bodies[i].front());
   LoadInput<double> input = terms_->load_input(t_, held_.memory);
   input.bodies = moved_.data();
   const auto at = [&](int direction, double step) {
     moved_[b] = moved(terms_->bodies()[b], direction, step);
     moved_wrench_[b] = BodyLoad<double>();
     LoadSum<double> out{moved_wrench_.data()};
-    load.apply<double>(input, out);
+    list.apply(i, input, out);
     return (Eigen::Matrix<double, 7, 1>() << moved_wrench_[b].force, moved_wrench_[b].moment, out.power)
         .finished();
   };
   const double power_here = at(0, 0.0)[6];
   for (int d = 0; d < kDirections; ++d) {
     const Eigen::Matrix<double, 7, 1> slope = (at(d, kStep) - at(d, -kStep)) / (2.0 * kStep);
-    for (int i = 0; i < 3; ++i) {
-      wrench_[b].force[i].slope[idx(d)] += slope[i];
-      wrench_[b].moment[i].slope[idx(d)] += slope[3 + i];
+    for (int k = 0; k < 3; ++k) {
+      wrench_[b].force[k].slope[idx(d)] += slope[k];
+      wrench_[b].moment[k].slope[idx(d)] += slope[3 + k];
     }
     sum_.power.slope[idx(d)] += slope[6];
     sum_.absolute_power.slope[idx(d)] += sign(power_here) * slope[6];
@@ -270,15 +259,14 @@ void BodyResidual::add_waves(int b) {
 
 void BodyResidual::add_rows(int b) {
   const Model& m = *model_;
-  for_each_joint_type([&]<class Type>(std::size_t kind) {
-    for (const JointData& joint : m.joints[kind]) {
+  for (const JointKind& kind : joint_kinds()) {
+    for (const JointData& joint : m.joints[kind.index]) {
       if ((joint.first != b && joint.second != b) || !counted_[idx(joint.element)]) continue;
       RowBlock<Scalar> block;
-      const JointGeometry<Scalar> g(joint, bodies_[idx(joint.first)], bodies_[idx(joint.second)]);
-      Type::template evaluate<Scalar>(g, joint, block);
+      kind.evaluate_slopes(joint, bodies_.data(), block);
       add_rows(block, m.elements[idx(joint.element)]);
     }
-  });
+  }
   for (const DriverData& driver : m.drivers) {
     const JointData& joint = driver.coordinate.joint;
     if ((joint.first != b && joint.second != b) || !counted_[idx(driver.element)]) continue;

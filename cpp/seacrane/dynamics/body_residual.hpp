@@ -8,7 +8,6 @@
 
 namespace seacrane {
 
-struct FunctionForce;
 class Terms;
 
 /// The residual of eq (9), element by element, with accelerations and multipliers held:
@@ -17,12 +16,12 @@ class Terms;
 ///
 /// and its slopes in the twelve directions of one body at a time (translation, rotation vector in inertial
 /// axes, velocity, angular velocity), by automatic differentiation: loads, rows and vessel are the code of
-/// the run with a Dual for a double. Only a function force, a C function, is differentiated by central
+/// the run with a Dual for a double. Only a load that says so, a C function, is differentiated by central
 /// differences. Allocates nothing after construction.
 class BodyResidual {
  public:
   static constexpr int kDirections = 12;
-  using Scalar = Dual<kDirections>;
+  using Scalar = LoadList::Slopes;
   using Slopes = Eigen::Matrix<double, 6, kDirections>;
 
   /// What does not change; by body, by row, by row, and the memory part of a state.
@@ -76,9 +75,8 @@ class BodyResidual {
   BodyLoad<Scalar>& wrench(int body);
   void add_inertia(int body);
   void add_loads(int body, const LoadInput<Scalar>& input);
-  template <class Load>
-  void add_load(const Load& load, const LoadInput<Scalar>& input);
-  void add_differences(const FunctionForce& load);
+  void add_load(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input);
+  void add_differences(const LoadList& list, std::size_t i);
   void add_hydrodynamics(int body, const LoadInput<Scalar>& input);
   void add_waves(int body);
   void add_rows(int body);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "seacrane/dynamics/terms.hpp"
+#include "seacrane/elements/driver.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 
 namespace seacrane {
 namespace {
@@ -37,13 +39,7 @@ void keep_largest(double value, double& largest) {
 
 void evaluate_constraints(const Model& model, double t, double curve_limit,
                           const BodyKinematics<double>* bodies, RowBlock<double>* blocks) {
-  for_each_joint_type([&]<class Type>(std::size_t kind) {
-    for (const JointData& joint : model.joints[kind]) {
-      RowBlock<double>& out = blocks[joint.element];
-      Type::template evaluate<double>(JointGeometry<double>(joint, bodies[joint.first], bodies[joint.second]),
-                                      joint, out);
-    }
-  });
+  for (const JointKind& kind : joint_kinds()) kind.evaluate(model.joints[kind.index], bodies, blocks);
   for (const DriverData& driver : model.drivers) {
     const JointData& joint = driver.coordinate.joint;
     evaluate_driver<double>(driver, driver.curve.at(t, curve_limit), bodies[joint.first],

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "seacrane/elements/driver.hpp"
-#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {

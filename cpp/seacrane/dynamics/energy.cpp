@@ -1,7 +1,5 @@
 #include "seacrane/dynamics/energy.hpp"
 
-#include "seacrane/elements/loads/registry.hpp"
-
 namespace seacrane {
 
 double kinetic_energy(const Terms& terms, const double* y) {
@@ -18,11 +16,7 @@ double mechanical_energy(const Terms& terms, double t, const double* y) {
   const LoadInput<double> input = terms.load_input(t, y + m.layout.memory);
   double sum = kinetic_energy(terms, y);
   for (const auto& load : m.gravity) sum += load.potential(input);
-  for_each_load_type([&]<class Load>() {
-    if constexpr (requires(const Load& load) { load.potential(input); }) {
-      for (const Load& load : std::get<std::vector<Load>>(*m.loads)) sum += load.potential(input);
-    }
-  });
+  for (const auto& list : m.loads.lists) list->add_potential(input, sum);
   for (const auto& vessel : m.vessels) sum += vessel.potential(terms.bodies()[idx(vessel.body)]);
   return sum;
 }

@@ -7,7 +7,6 @@
 
 namespace seacrane {
 
-struct Line;
 class Terms;
 
 /// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With
@@ -18,7 +17,7 @@ class Terms;
 class InertialTensions {
  public:
   explicit InertialTensions(const Model& model);
-  bool any() const { return !lines_.empty(); }
+  bool any() const { return !loads_.empty(); }
   Eigen::Index count() const { return tension_.size(); }
 
   // Call these in this order, right after an evaluation without the tensions.
@@ -49,7 +48,12 @@ class InertialTensions {
   double dot(Eigen::Index line, const Vec6d* acceleration) const;
 
   int bodies_;
-  std::vector<const Line*> lines_;
+  struct Tensioned {
+    const LoadList* list;
+    std::size_t at;
+    int place;  // among the tensions
+  };
+  std::vector<Tensioned> loads_;
   std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;

@@ -4,7 +4,6 @@
 
 #include "seacrane/dynamics/state_names.hpp"
 #include "seacrane/elements/check.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/integrate/error_norm.hpp"
 
 namespace seacrane {
@@ -64,15 +63,9 @@ std::string non_finite_load(Terms& terms, double t, const double* y) {
     }
   };
   for (const auto& load : m.gravity) check("gravity", [&](auto& sum) { load.apply<double>(input, sum); });
-  for_each_load_type([&]<class Load>() {
-    const auto& loads = std::get<std::vector<Load>>(*m.loads);
-    const auto& described = std::get<std::vector<typename Load::Description>>(*m.description.loads);
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      // A load that moves nothing is not compiled, and the others then stand at other places.
-      const bool same = loads.size() == described.size();
-      check(std::string(Load::kind) + " " + (same ? in_quotes(described[i].name) : "(one of several)"),
-            [&](auto& sum) { loads[i].template apply<double>(input, sum); });
-    }
+  m.loads.for_each([&](const LoadList& list, std::size_t i) {
+    check(std::string(list.kind.name) + " " + in_quotes(list.names[i]),
+          [&](auto& sum) { list.apply(i, input, sum); });
   });
   check("hydrodynamics",
         [&](auto& sum) { terms.apply_hydrodynamics(input, y + m.layout.memory, memory_rate.data(), sum); });

@@ -3,31 +3,17 @@
 #include <algorithm>
 
 #include "seacrane/dynamics/terms.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
-namespace {
-
-/// Calls f(load) for every load that declares stiff states, in the order of the model.
-template <class F>
-void for_each_stiff(const Model& model, F&& f) {
-  for_each_load_type([&]<class Load>() {
-    if constexpr (StiffLoad<Load>) {
-      for (const Load& load : std::get<std::vector<Load>>(*model.loads)) f(load);
-    }
-  });
-}
-
-}  // namespace
-
 StiffLoads::StiffLoads(Formulation& system)
     : system_(system),
       rate_(system.size()),
       power_(system.size()),
       response_(system.size()),
       unit_(idx(system.terms().model().body_count()) + 1, Vec6d::Zero()) {
-  for_each_stiff(system.terms().model(),
-                 [&](const auto& load) { rank_ += 1 + idx(load.stiff_states().count); });
+  system.terms().model().loads.for_each([&](const LoadList& list, std::size_t i) {
+    if (const int count = list.stiff_states(i).count) rank_ += 1 + idx(count);
+  });
 }
 
 void StiffLoads::linearise(double t, const double* y, double* in, double* out) {
@@ -38,13 +24,14 @@ void StiffLoads::linearise(double t, const double* y, double* in, double* out) {
   std::fill_n(out, rank_ * n, 0.0);
   system_.derivative(t, y, rate_.data());
   const LoadInput<double> input = terms.load_input(t, y + n - 2 - idx(layout.work - layout.memory));
-  for_each_stiff(terms.model(), [&](const auto& load) {
+  terms.model().loads.for_each([&](const LoadList& list, std::size_t place) {
+    const StateRange states = list.stiff_states(place);
+    if (states.count == 0) return;
     std::fill(unit_.begin(), unit_.end(), Vec6d::Zero());
-    load.add_unit(0, input, unit_.data());
+    list.add_unit(place, 0, input, unit_.data());
     unit_.back() = Vec6d::Zero();
     system_.load_direction(unit_, power_.data(), response_.data());
-    const StateRange states = load.stiff_states();
-    const StiffSlopes slopes = load.stiff_slopes(input);
+    const StiffSlopes slopes = list.stiff_slopes(place, input);
     const std::size_t own = first_state + idx(states.first);
     for (int j = 0; j <= states.count; ++j, in += n, out += n) {
       if (j == 0) {

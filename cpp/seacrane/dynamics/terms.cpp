@@ -6,7 +6,6 @@
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/paper_kinematics.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
@@ -132,7 +131,7 @@ void Terms::share_wave_knots(const Terms& other) {
 }
 
 void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
-  evaluate_wrenches(t, memory, memory_rate, *model_->loads);
+  evaluate_wrenches(t, memory, memory_rate, model_->loads);
 }
 
 void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate,
@@ -143,9 +142,7 @@ void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rat
   const LoadInput<double> input = load_input(t, memory);
   LoadSum<double> sum{wrench_.data(), memory_rate + first_load_state_};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
-  for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(loads)) load.template apply<double>(input, sum);
-  });
+  for (const auto& list : loads.lists) list->apply(input, sum);
   apply_hydrodynamics(input, memory, memory_rate, sum);
   apply_waves(t, memory, sum);
   power_ = {sum.power, sum.absolute_power};

@@ -1,18 +1,15 @@
 #include "seacrane/lanes/lane_system.hpp"
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
 
 std::string kept_out_by_loads(const Model& m) {
-  std::string out;
-  for_each_load_type([&]<class Load>() {
-    const bool here = !std::get<std::vector<Load>>(*m.loads).empty();
-    if (here && !TakesPacks<Load> && out.empty()) out = std::string("it has a ") + Load::kind;
-  });
-  return out;
+  for (const auto& list : m.loads.lists) {
+    if (!list->kind.packs) return std::string("it has a ") + list->kind.name;
+  }
+  return "";
 }
 
 std::string kept_out_by_waves(const WaveLoad& wave) {

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "seacrane/dynamics/inertia.hpp"
-#include "seacrane/dynamics/recursive/articulated.hpp"
 #include "seacrane/dynamics/recursive/tree_actuators.hpp"
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/recursive/turning_inertia.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/lanes/lane_system.hpp"
+#include "seacrane/lanes/packed_load.hpp"
 #include "seacrane/lanes/packed_table.hpp"
 #include "seacrane/math/pack.hpp"
 
@@ -46,6 +47,8 @@ class PackedSystem final : public LaneSystem {
     for (const BodyModel& body : model_->bodies) turning_.emplace_back(body.inertia);
     wrench_.resize(bodies + 1);
     for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
+    for (const auto& list : actuators_.others().lists) applied_.emplace_back(packed(*list), &*list);
+    for (const auto& one : actuators_.along()) along_.push_back(packed(*one.list));
   }
 
   std::size_t size() const override { return L * state_.size(); }
@@ -98,6 +101,16 @@ class PackedSystem final : public LaneSystem {
     std::optional<PackedTable<L, DriftLoad>> drift;
   };
 
+  static const PackedLoad<L>* packed(const LoadList& list) {
+    return [&]<class... Load>(std::type_identity<std::tuple<Load...>>) {
+      const PackedLoad<L>* out = nullptr;
+      for (const PackedLoad<L>* one : {&packed_load<L, Load>()...}) {
+        if (std::string(one->kind) == list.kind.name) out = one;
+      }
+      return out;
+    }(std::type_identity<LoadTypes>{});
+  }
+
   static Waves waves_of(const LaneModels& models, std::size_t load) {
     std::array<std::shared_ptr<const WaveTable>, L> force;
     std::array<std::shared_ptr<const DriftTable>, L> drift;
@@ -138,16 +151,14 @@ class PackedSystem final : public LaneSystem {
     const T* const states = state_.data() + loads_;
     const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
     for (const Gravity& load : model_->gravity) load.apply<T>(input, sum);
-    for_each_load_type([&]<class Load>() {
-      if constexpr (TakesPacks<Load>) {
-        for (const Load& load : std::get<std::vector<Load>>(actuators_.others())) {
-          load.template apply<T>(input, sum);
-        }
-      }
-    });
+    for (const auto& [kind, list] : applied_) kind->apply(*list, input, sum);
     std::fill(torque_.begin(), torque_.end(), T(0.0));
     actuators_.apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
-                        torque_.data(), sum);
+                        torque_.data(), sum,
+                        [&](std::size_t k, const LoadInput<T>& in, const T& value, const T& rate) {
+                          const TreeActuators::Along& one = actuators_.along()[k];
+                          return along_[k]->force(*one.list, one.at, in, value, rate);
+                        });
     for (std::size_t v = 0; v < frames_.size(); ++v) {
       const Vessel& vessel = model_->vessels[v];
       const auto own = idx(memory_ + vessel.memory_offset - model_->layout.memory);
@@ -187,6 +198,8 @@ class PackedSystem final : public LaneSystem {
   std::vector<TurningInertia> turning_;
   std::vector<BodyLoad<T>> wrench_;
   std::vector<Waves> waves_;
+  std::vector<std::pair<const PackedLoad<L>*, const LoadList*>> applied_;
+  std::vector<const PackedLoad<L>*> along_;  // by load of actuators_.along()
 };
 
 }  // namespace seacrane

@@ -11,7 +11,7 @@
 #include "seacrane/elements/driver.hpp"
 #include "seacrane/elements/joint.hpp"
 #include "seacrane/elements/limit.hpp"
-#include "seacrane/elements/loads/hidden.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
 #include "seacrane/elements/point.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
@@ -86,18 +86,12 @@ struct SceneDescription {
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<DriverDescription> drivers;
-  Hidden<LoadDescriptions> loads;
+  LoadDescriptions loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
   std::vector<RecordedCoordinate> coordinates;
   std::vector<PointDescription> points;
   std::vector<LimitDescription> limits;
-
-  /// Descriptions of one kind of load, such as loads_of<PointForce>(); with elements/loads/registry.hpp.
-  template <class Load>
-  std::vector<typename Load::Description>& loads_of() {
-    return std::get<std::vector<typename Load::Description>>(*loads);
-  }
 };
 
 }  // namespace seacrane

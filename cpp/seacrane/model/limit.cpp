@@ -18,6 +18,15 @@ constexpr double kTaut = 1e-6;     // relative to its length: a described wire t
 constexpr double kInwards = 1e-9;  // m/s
 constexpr double kTurn = std::numbers::pi;
 
+const LimitKind& kind_of(const Check& c, const LimitDescription& d) {
+  std::string known;
+  for (const LimitKind& kind : limit_kinds()) {
+    if (d.kind == kind.name) return kind;
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  c.fail("kind '" + d.kind + "' is unknown; choose one of " + known);
+}
+
 const JointDescription* find_joint(const SceneDescription& scene, const std::string& name) {
   const auto found = std::find_if(scene.joints.begin(), scene.joints.end(),
                                   [&](const JointDescription& j) { return j.name == name; });
@@ -51,7 +60,7 @@ void check_stop(const Check& c, const SceneDescription& scene, const LimitDescri
 }
 
 void check_joint_limit(const Check& c, const SceneDescription& scene, const LimitDescription& d,
-                       const char* kind) {
+                       const std::string& kind) {
   const JointDescription* joint = find_joint(scene, d.coordinate.joint);
   if (!joint) c.fail("there is no joint '" + d.coordinate.joint + "'; add it first");
   if (joint->kind != kind) {
@@ -93,6 +102,12 @@ bool stretched(const SceneDescription& scene, const JointDescription& joint) {
 
 }  // namespace
 
+const std::vector<LimitKind>& limit_kinds() {
+  static const std::vector<LimitKind> kinds = {
+      {"wire", Distance::kind, false, true}, {"stop", "", true, true}, {"seat", Weld::kind, false, false}};
+  return kinds;
+}
+
 std::vector<std::string> names_of(const std::vector<Limit>& limits, ClosedSet closed) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -118,7 +133,7 @@ ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string
 CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies) {
   const JointData& joint = limit.coordinate.joint;
   const BodyKinematics<double>&ka = bodies[joint.first], &kb = bodies[joint.second];
-  if (limit.kind == LimitKind::stop) {
+  if (limit.kind->of_coordinate) {
     CoordinateRow<double> row = evaluate_coordinate<double>(limit.coordinate, ka, kb);
     row.value -= limit.bound;
     return row;
@@ -140,20 +155,17 @@ void check_limits(const SceneDescription& scene, const SceneNames& names) {
   for (const LimitDescription& d : scene.limits) {
     const Check c("limit", d.name);
     check_fields(d, c);
-    if (d.kind == "stop") {
+    const LimitKind& kind = kind_of(c, d);
+    if (kind.of_coordinate) {
       names.coordinate(c, d.coordinate);
       check_stop(c, scene, d);
-    } else if (d.kind == "wire") {
-      check_joint_limit(c, scene, d, Distance::kind);
-    } else if (d.kind == "seat") {
-      check_joint_limit(c, scene, d, Weld::kind);
     } else {
-      c.fail("kind '" + d.kind + "' is unknown; choose wire, stop or seat");
+      check_joint_limit(c, scene, d, kind.joint);
     }
-    const std::string what = d.coordinate.joint + "." + (d.kind == "stop" ? d.coordinate.coordinate : "");
+    const std::string what = d.coordinate.joint + "." + (kind.of_coordinate ? d.coordinate.coordinate : "");
     const auto [other, fresh] = held.insert({what, d.name});
     if (!fresh) c.fail("limits what limit '" + other->second + "' limits already; remove one of them");
-    count += d.kind == "stop" ? (d.minimum > -kNoStop) + (d.maximum < kNoStop) : 1;
+    count += kind.of_coordinate ? (d.minimum > -kNoStop) + (d.maximum < kNoStop) : 1;
   }
   const Check c("scene", scene.name);
   if (count > kMostLimits) {
@@ -179,11 +191,14 @@ std::vector<Limit> list_limits(const SceneDescription& scene) {
     limit.described = d.coordinate;
     limit.restitution = d.restitution;
     limit.sticking_speed = d.sticking_speed;
-    if (d.kind != "stop") {
-      limit.kind = d.kind == "wire" ? LimitKind::wire : LimitKind::seat;
+    limit.kind = &kind_of(Check("limit", d.name), d);
+    if (!limit.kind->of_coordinate) {
       const JointDescription& joint = scene.joints[idx(limit.joint)];
-      if (limit.kind == LimitKind::seat) limit.reach = half_diagonal(scene, joint.second);
-      if (limit.kind == LimitKind::wire) limit.bound = length_of(scene.joints[idx(limit.joint)]);
+      if (limit.kind->closes_again) {
+        limit.bound = length_of(joint);
+      } else {
+        limit.reach = half_diagonal(scene, joint.second);
+      }
       limit.side = -1.0;
       out.push_back(limit);
       continue;
@@ -203,9 +218,8 @@ ClosedSet described_set(const SceneDescription& scene, const std::vector<Limit>&
   ClosedSet closed = 0;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const Limit& limit = limits[i];
-    const bool holds_here =
-        limit.kind == LimitKind::seat ||
-        (limit.kind == LimitKind::wire && stretched(scene, scene.joints[idx(limit.joint)]));
+    const bool holds_here = !limit.kind->closes_again ||
+                            (!limit.kind->of_coordinate && stretched(scene, scene.joints[idx(limit.joint)]));
     if (holds_here) closed |= bit_of(static_cast<int>(i));
   }
   return closed;
@@ -216,7 +230,7 @@ SceneDescription scene_of(const SceneDescription& scene, const std::vector<Limit
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const Limit& limit = limits[i];
     const bool here = holds(closed, static_cast<int>(i));
-    if (limit.kind != LimitKind::stop) {
+    if (!limit.kind->of_coordinate) {
       out.joints[idx(limit.joint)].open = !here;
     } else if (here) {
       out.drivers.push_back({limit.name, limit.described, Curve::constant(limit.bound)});

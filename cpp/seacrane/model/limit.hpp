@@ -11,7 +11,15 @@ namespace seacrane {
 
 inline constexpr int kMostLimits = 64;
 
-enum class LimitKind { wire, stop, seat };
+/// A kind of limit, and what the engine asks of it.
+struct LimitKind {
+  const char* name;
+  const char* joint;   // that it takes; empty: any, of which it bounds a coordinate
+  bool of_coordinate;  // where it holds, it is a driver at its bound; else its joint, which is open elsewhere
+  bool closes_again;   // has a gap and an impact; else it stays open once it lets go, and pushes over an area
+};
+/// All of them.
+const std::vector<LimitKind>& limit_kinds();
 
 /// Which limits hold, one bit each: the discrete part of the state.
 using ClosedSet = std::uint64_t;
@@ -21,7 +29,7 @@ constexpr bool holds(ClosedSet closed, int limit) { return (closed & bit_of(limi
 /// One bound. Open: side * gap >= 0; closed: side * multiplier >= 0 (wire and stop).
 struct Limit {
   std::string name;
-  LimitKind kind = LimitKind::stop;
+  const LimitKind* kind = nullptr;
   int joint = 0;                    // among the described joints
   CoordinateDescription described;  // of a stop
   CoordinateData coordinate;        // its data; of a wire or seat only the joint's

@@ -1,9 +1,9 @@
 #include "seacrane/model/model.hpp"
 
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/actuator.hpp"
 
 namespace seacrane {
 
-const std::vector<Actuator>& Model::actuators() const { return std::get<std::vector<Actuator>>(*loads); }
+const std::vector<Actuator>& Model::actuators() const { return loads.of<Actuator>(); }
 
 }  // namespace seacrane

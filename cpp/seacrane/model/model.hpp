@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seacrane/elements/loads/gravity.hpp"
-#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
@@ -86,7 +86,7 @@ struct Model {
   std::vector<ElementModel> elements;  // joints in the order described, then drivers
   BlockSchur schur;
   std::vector<Gravity> gravity;
-  Hidden<CompiledLoads> loads;
+  CompiledLoads loads;
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "seacrane/elements/joints/joint_kinds.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/limit.hpp"
 
 namespace seacrane {
@@ -135,23 +134,19 @@ void check_drives(const SceneDescription& scene, const SceneNames& names) {
   for (const auto& d : scene.coordinates) names.coordinate(Check("recorded coordinate", d.joint), d);
 }
 
-/// What follows a heave compensator must be there, and can follow one only.
+/// What is led must be there, and can follow one only.
 void check_followers(const SceneDescription& scene, const SceneNames& names) {
   std::map<std::string, std::string> led;
-  for (const auto& d : std::get<std::vector<HeaveCompensatorDescription>>(*scene.loads)) {
-    const Check c(HeaveCompensator::kind, d.name);
-    for (const auto& [what, kind, name] :
-         {std::tuple{"winch", Line::kind, d.winch}, std::tuple{"actuator", Actuator::kind, d.actuator}}) {
-      if (name.empty()) continue;
-      const auto owner = names.input_owners.find(name);
-      const auto is_a = [&](const char* one) {
-        return owner != names.input_owners.end() && owner->second == one;
-      };
-      if (!is_a(kind) && !(kind == Actuator::kind && is_a(HydraulicCylinder::kind))) {
-        c.fail("there is no " + std::string(what) + " '" + name + "'; add it first");
+  for (const auto& list : scene.loads.lists) {
+    for (const Lead& one : list->leads()) {
+      const Check c(list->kind.name, one.by);
+      const std::string what = one.as;
+      const auto owner = names.input_owners.find(one.name);
+      if (owner == names.input_owners.end() || find_load_kind(owner->second)->follows_as != what) {
+        c.fail("there is no " + what + " '" + one.name + "'; add it first");
       }
-      const auto [other, fresh] = led.insert({name, d.name});
-      if (!fresh) c.fail(std::string(what) + " '" + name + "' follows '" + other->second + "' already");
+      const auto [other, fresh] = led.insert({one.name, one.by});
+      if (!fresh) c.fail(what + " '" + one.name + "' follows '" + other->second + "' already");
     }
   }
 }
@@ -209,15 +204,10 @@ void validate(const SceneDescription& scene) {
   }
   for (const auto& j : scene.joints) names.joints[j.name] = {j.kind, check_joint(j, names).coordinates};
   check_drives(scene, names);
-  for_each_load_type([&]<class Load>() {
-    const auto& descriptions = std::get<std::vector<typename Load::Description>>(*scene.loads);
-    unique_names(Load::kind, descriptions);
-    for (const auto& d : descriptions) {
-      const Check c(Load::kind, d.name);
-      check_fields(d, c);
-      Load::check(d, c, names);
-    }
-  });
+  for (const auto& list : scene.loads.lists) {
+    unique_names(list->kind.name, list->names());
+    list->check(names);
+  }
   check_followers(scene, names);
   check_vessels(scene, names);
   check_points(scene, names);

@@ -42,7 +42,7 @@ std::pair<double, double> least_of_parabola(double y0, double ym, double y1) {
 /// Roll and yaw jump where pitch passes 90 deg.
 bool has_pole(const Limit& limit) {
   const CoordinateKind kind = limit.coordinate.kind;
-  return limit.kind == LimitKind::stop && (kind == CoordinateKind::roll || kind == CoordinateKind::yaw);
+  return limit.kind->of_coordinate && (kind == CoordinateKind::roll || kind == CoordinateKind::yaw);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ Contacts::Watched Contacts::gap(const Limit& limit, const Terms& terms) const {
 /// How far a limit that holds is open all the same: projection shares what rows that contradict each other
 /// leave. With the rows last evaluated.
 double Contacts::slack(const Limit& limit, const Stepper& at) {
-  if (limit.kind == LimitKind::seat) return 0.0;
+  if (!limit.kind->closes_again) return 0.0;
   return limit.side * at.system.terms().blocks()[idx(limit.element)].phi[0];
 }
 
@@ -101,7 +101,7 @@ void Contacts::check(Stepper& at, double t, const double* bodies) const {
     if (limit.element >= 0) {
       const auto& phi = at.system.terms().blocks()[idx(limit.element)].phi;
       misfit = phi.head(at.model->elements[idx(limit.element)].rows).cwiseAbs().maxCoeff();
-    } else if (limit.kind != LimitKind::seat) {
+    } else if (limit.kind->closes_again) {
       misfit = -gap(limit, at.system.terms()).value;
     }
     if (misfit <= kMisfit) continue;
@@ -140,7 +140,7 @@ void Contacts::watch(Stepper& at, double t, const double* bodies) {
     if (limit.element >= 0) {
       after_[i] = {limit_force(limit, at.system.terms(), at.system.multipliers().data()), 0.0,
                    slack(limit, at)};
-    } else if (limit.kind != LimitKind::seat) {
+    } else if (limit.kind->closes_again) {
       after_[i] = gap(limit, at.system.terms());
     } else {
       above_seat_[i] = offset_of_seat(limit, at.system.terms().bodies().data());
@@ -172,7 +172,7 @@ void Contacts::start(Stepper& at, double t, const double* bodies) {
 void Contacts::look_below_seats(Stepper& at, double t, bool stepped) {
   for (std::size_t i = 0; i < below_.size(); ++i) {
     const Limit& limit = at.model->limits[i];
-    if (limit.kind != LimitKind::seat || limit.element >= 0) continue;
+    if (limit.kind->closes_again || limit.element >= 0) continue;
     const bool below = above_seat_[i].z() < -kThrough, was = below_[i] != 0;
     below_[i] = below ? 1 : 0;
     if (!below || was || !watching_ || above_seat_[i].head<2>().norm() > limit.reach) continue;
@@ -230,7 +230,7 @@ Contacts::Dip Contacts::dip(Stepper& at, std::size_t i) const {
     const auto [s, least] = least_of_parabola(from.value, middle_[i], to.value);
     return least < kLikelyDip * std::min(from.value, to.value) ? Dip{s, false, 0.0} : Dip{};
   }
-  if (limit.kind == LimitKind::seat) return {};
+  if (!limit.kind->closes_again) return {};
   if (to.value < -kTouch) return {1.0, true, to.value};
   if (!(from.rate < 0.0 && to.rate > 0.0)) return {};
   const double h = at.integrator->time() - at.integrator->previous_time();

@@ -89,7 +89,7 @@ Contacts::Consistency Contacts::consistency(const Stepper& at, int i) const {
     const bool pulls = limit_force(limit, at.system.terms(), at.system.multipliers().data()) < 0.0;
     return pulls ? Consistency::changes : Consistency::holds;
   }
-  if (limit.kind == LimitKind::seat) return Consistency::holds;
+  if (!limit.kind->closes_again) return Consistency::holds;
   const Watched g = gap(limit, at.system.terms());
   if (g.value > kTouch || g.rate > kStill) return Consistency::holds;
   if (g.rate < -kStill) return Consistency::struck;
@@ -136,7 +136,7 @@ ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed)
   const int count = static_cast<int>(model_.limits.size());
   ClosedSet seats = 0;
   for (int i = 0; i < count; ++i) {
-    if (model_.limits[idx(i)].kind == LimitKind::seat) seats |= closed & bit_of(i);
+    if (!model_.limits[idx(i)].kind->closes_again) seats |= closed & bit_of(i);
   }
   for (;;) {
     const ClosedSet next = least_energy(t, bodies, closed, seats);
@@ -173,7 +173,7 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
   std::vector<int> near;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
-    if (limit.kind == LimitKind::seat) continue;
+    if (!limit.kind->closes_again) continue;
     const Watched g = gap(limit, system.terms());
     if (holds(closed, i) || (g.value <= kTouch && g.rate <= kStill)) near.push_back(i);
   }
@@ -259,7 +259,7 @@ ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, Clo
     int weakest = -1;
     for (int i = 0; i < count; ++i) {
       const Limit& limit = at.model->limits[idx(i)];
-      if (limit.element < 0 || limit.kind == LimitKind::seat) continue;
+      if (limit.element < 0 || !limit.kind->closes_again) continue;
       const double force = limit_force(limit, at.system.terms(), at.system.multipliers().data());
       most = std::max(most, force);
       if (weakest >= 0 && force >= least) continue;
@@ -302,7 +302,7 @@ Contacts::Struck Contacts::struck_with(Stepper& at, double t, const double* bodi
   Struck out;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
-    if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
+    if (limit.element >= 0 || !limit.kind->closes_again) continue;
     const Watched g = gap(limit, at.system.terms());
     const bool here = i == found ? g.rate <= kStill : g.value <= kTouch && g.rate < -kStill;
     if (!here) continue;

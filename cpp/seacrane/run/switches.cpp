@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "seacrane/elements/loads/registry.hpp"
-
 namespace seacrane {
 namespace {
 
@@ -21,30 +19,19 @@ constexpr double kShort = 0.5;
 /// Of a step: so near its start a crossing may be led across.
 constexpr double kNear = 1e-3;
 
-/// Calls f(load) for every load with sides, in the order of the model.
+/// Calls f(list, place) for every load with sides, in the order of the model.
 template <class F>
 void for_each_switch(const Model& model, F&& f) {
-  for_each_load_type([&]<class Load>() {
-    if constexpr (requires(const Load& load, const LoadInput<double>& in) { load.side(in); }) {
-      for (const Load& load : std::get<std::vector<Load>>(*model.loads)) {
-        if (load.has_sides()) f(load);
-      }
-    }
+  model.loads.for_each([&](const LoadList& list, std::size_t i) {
+    if (list.has_sides(i)) f(list, i);
   });
-}
-
-void append(std::vector<LimitReached>& out, double t, const std::string& name) {
-  if (!name.empty()) out.push_back({t, name});
-}
-void append(std::vector<LimitReached>& out, double t, const std::vector<std::string>& names) {
-  for (const std::string& name : names) append(out, t, name);
 }
 
 }  // namespace
 
 bool Switches::any(const Model& model) {
   bool found = false;
-  for_each_switch(model, [&](const auto&) { found = true; });
+  for_each_switch(model, [&](const LoadList&, std::size_t) { found = true; });
   return found;
 }
 
@@ -65,31 +52,27 @@ LoadInput<double> Switches::read(Stepper& at, double t, const double* y) {
 void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides) {
   const LoadInput<double> in = read(at, t, y);
   sides.clear();
-  for_each_switch(*at.model, [&](const auto& load) { sides.push_back(load.side(in)); });
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) { sides.push_back(list.side(i, in)); });
 }
 
 double Switches::across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to) {
   double out = 1.0;
-  std::size_t i = 0;
-  for_each_switch(*at.model, [&](const auto& one) {
-    if (i++ == load) out = one.across(in, from, to);
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    if (k++ == load) out = list.across(i, in, from, to);
   });
   return out;
 }
 
 void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides) const {
-  std::size_t i = 0;
-  for_each_switch(*at.model, [&](const auto& load) {
-    const int side = sides[i++];
-    if constexpr (requires { load.refused(side); }) {
-      const std::string why = load.refused(side);
-      if (why.empty()) return;
-      const std::string text = why + ", at t = " + to_text(t) + " s";
-      if constexpr (requires { load.slack(side); }) {
-        if (load.slack(side)) throw LineSlackError(text);
-      }
-      throw std::domain_error(text);
-    }
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const int side = sides[k++];
+    const std::string why = list.refused(i, side);
+    if (why.empty()) return;
+    const std::string text = why + ", at t = " + to_text(t) + " s";
+    if (list.slack(i, side)) throw LineSlackError(text);
+    throw std::domain_error(text);
   });
 }
 
@@ -106,7 +89,7 @@ void Switches::watch(Stepper& at, double t, const double* y) {
 
 void Switches::make_room(const Stepper& at) {
   std::size_t count = 0;
-  for_each_switch(*at.model, [&](const auto&) { ++count; });
+  for_each_switch(*at.model, [&](const LoadList&, std::size_t) { ++count; });
   for (std::vector<int>* sides : {&before_, &after_, &passed_}) sides->reserve(count);
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
@@ -121,13 +104,13 @@ void Switches::resume(Stepper& at, double t, const double* y) {
 }
 
 void Switches::note(const Stepper& at) {
-  std::size_t i = 0;
-  for_each_switch(*at.model, [&](const auto& load) {
-    const int from = before_[i], to = after_[i];
-    const double t = instants_[i++];
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const int from = before_[k], to = after_[k];
+    const double t = instants_[k++];
     if (from == to) return;
-    if constexpr (requires { load.reached(from, to); }) {
-      append(reached_, t, load.reached(from, to));
+    for (const std::string& name : list.reached(i, from, to)) {
+      if (!name.empty()) reached_.push_back({t, name});
     }
   });
 }

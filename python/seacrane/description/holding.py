@@ -8,10 +8,9 @@ from dataclasses import replace
 from seacrane import _core
 from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_driver
-from seacrane.description.loads import LOAD_KINDS, named, springs_of
+from seacrane.description.loads import named, springs_of
 from seacrane.description.roles import CraneRoles
 
-PASSIVE = ("limit", "friction", "soft stop")  # loads that name a joint and do not hold it where it is
 Drive = tuple[str, str, str]  # label, joint and coordinate
 
 
@@ -39,13 +38,12 @@ def _drives(scene: Description, roles: CraneRoles) -> Iterator[Drive]:
 
 
 def _acted_on(scene: Description, joint: str) -> bool:
-    passive = tuple(LOAD_KINDS[kind] for kind in PASSIVE)
     ends = {scene.joints[joint].first, scene.joints[joint].second}
     springs = [spring for _, spring in springs_of(scene.springs, scene.loads)]
     cylinders = [load for load in scene.loads.values() if isinstance(load, _core.HydraulicCylinder)]
     return (
         any(driver.joint == joint for driver in scene.drivers.values())
-        or any(joint in named(one, "joint") for one in scene.all_loads() if not isinstance(one, passive))
+        or any(joint in named(one, "joint") for one in scene.all_loads() if not type(one).PASSIVE)
         or any({one.first, one.second} == ends for one in (*springs, *cylinders))
     )
 

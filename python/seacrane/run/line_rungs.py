@@ -34,7 +34,6 @@ MOST_KINKS = 5000
 JUST, SLOPE = 1e-9, 1e-5  # s: before and after a kink, and over which slopes are taken there
 COMPILED = "a model that is compiled already, as by accuracy and in stages, has elastic lines"
 UNSMOOTH = "its winch has no lag, and so may jump"
-OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose frequency nobody knows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,7 +122,7 @@ def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool, controlled
     if scene.orientation != "quaternion":
         return f"the orientation is {scene.orientation!r}"
     for load in scene.all_loads():
-        if isinstance(load, OWN_PACE):
+        if type(load).OWN_PACE:  # it strikes, or nobody knows its frequency
             return f"{type(load).__name__} {load.name!r} may shake a line faster than anything known"
     return ""
 

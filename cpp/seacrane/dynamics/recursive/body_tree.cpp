@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -62,19 +63,14 @@ void make_slender(Strut& s, const TreeJoint& hinge) {
   s.slender = true;
 }
 
-template <class Type>
-constexpr bool has_branch = requires {
-  typename Type::Branch;
-};
-
 class TreeBuilder {
  public:
   explicit TreeBuilder(const Model& model) : model_(model), ground_(model.body_count()) {
-    for_each_joint_type([&]<class Type>(std::size_t kind) {
-      for (const JointData& joint : model.joints[kind]) {
-        if (Type::rows > 0) edges_.push_back({kind, joint, Type::rows, has_branch<Type>});
+    for (const JointKind& kind : joint_kinds()) {
+      for (const JointData& joint : model.joints[kind.index]) {
+        if (kind.rows > 0) edges_.push_back({kind.index, joint, kind.rows, kind.branch});
       }
-    });
+    }
     std::sort(edges_.begin(), edges_.end(),
               [](const Edge& a, const Edge& b) { return a.joint.element < b.joint.element; });
     for (std::size_t e = 0; e < edges_.size(); ++e) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "seacrane/dynamics/recursive/strut.hpp"
-#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -46,17 +45,6 @@ struct BodyTree {
 /// Joints with the most rows become branches first; a joint type without a branch is left to rows. Struts are
 /// found wherever their pattern occurs.
 BodyTree build_tree(const Model& model);
-
-/// Calls f.template operator()<Type>() for the joint type of a cluster with a joint.
-template <class F>
-void with_joint_type(std::size_t kind, F&& f) {
-  for_each_joint_type([&]<class Type>(std::size_t i) {
-    if constexpr (requires { typename Type::Branch; }) {
-      static_assert(Type::Branch::speeds < kMostSpeeds, "a joint that holds nothing is no branch");
-      if (i == kind) f.template operator()<Type>();
-    }
-  });
-}
 
 /// Calls f(place in the positions) for every quaternion.
 template <class F>

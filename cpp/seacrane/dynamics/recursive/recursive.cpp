@@ -127,7 +127,11 @@ void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot,
   terms_->evaluate_wrenches(t, memory, ydot + layout_.memory, actuators_.others());
   LoadSum<double> sum{nullptr};
   actuators_.apply<double>(terms_->load_input(t, memory), articulated_.kinematics(), y, y + layout_.speeds,
-                           torque_.data(), sum);
+                           torque_.data(), sum,
+                           [&](std::size_t k, const LoadInput<double>& in, double value, double rate) {
+                             const TreeActuators::Along& one = actuators_.along()[k];
+                             return one.list->force(one.at, in, value, rate);
+                           });
   terms_->add_power({sum.power, sum.absolute_power});
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
+
 namespace seacrane {
 RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
     : model_(&model),

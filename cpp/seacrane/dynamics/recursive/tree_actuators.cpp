@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/recursive/tree_actuators.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "seacrane/elements/joints/joint_kinds.hpp"
 
@@ -35,14 +34,19 @@ std::optional<Place> place_of(const CoordinateData& c, const BodyTree& tree) {
 
 }  // namespace
 
-TreeActuators::TreeActuators(const Model& model, const BodyTree& tree) : others_(*model.loads) {
-  auto& left = std::get<std::vector<Actuator>>(others_);
-  for (const Actuator& actuator : std::exchange(left, {})) {
-    if (const std::optional<Place> place = place_of(actuator.coordinate, tree)) {
-      actuated_.push_back({actuator, place->q, place->u, place->strut, place->sign});
-    } else {
-      left.push_back(actuator);
+TreeActuators::TreeActuators(const Model& model, const BodyTree& tree) {
+  for (const auto& list : model.loads.lists) {
+    Held<LoadList> left(list->empty());
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const CoordinateData* const along = list->coordinate(i);
+      const std::optional<Place> place = along ? place_of(*along, tree) : std::nullopt;
+      if (place) {
+        along_.push_back({&*list, i, place->q, place->u, place->strut, place->sign});
+      } else {
+        left->take(*list, i);
+      }
     }
+    if (left->size() > 0) others_.lists.push_back(std::move(left));
   }
 }
 

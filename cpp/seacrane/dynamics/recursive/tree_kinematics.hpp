@@ -34,18 +34,7 @@ class TreeKinematics {
 
   /// Rates of the positions for speeds u (which need not be those of place()) and the bodies' angular
   /// velocities that go with them.
-  void position_rates(const T* q, const T* u, const BodyKinematics<T>* bodies, T* q_rate) const {
-    for (const Cluster& c : tree_.clusters) {
-      if (c.kind == Cluster::floating) {
-        std::copy_n(u + c.u, 3, q_rate + c.q);
-        branch::turn<T>(q + c.q + 3, branch::vector(u + c.u + 3), q_rate + c.q + 3);
-      } else {
-        with_joint_type(c.kind, [&]<class Type>() {
-          Type::Branch::rates(bodies[c.parent], q + c.q, u + c.u, q_rate + c.q);
-        });
-      }
-    }
-  }
+  void position_rates(const T* q, const T* u, const BodyKinematics<T>* bodies, T* q_rate) const;
 
   const BodyTree& tree() const { return tree_; }
   /// Twists of a body per unit speed of its cluster, its parent at rest, at the last place().
@@ -68,17 +57,7 @@ class TreeKinematics {
     for (int i = 0; i < 6; ++i) column_[idx(c.members[0].column + i)] = Twist<T>::unit(i);
   }
 
-  void place_joint(const Cluster& c, const T* q, const T* u, BodyKinematics<T>* bodies) {
-    const BodyKinematics<T>& parent = bodies[c.parent];
-    BranchMotionOf<T> motion;
-    with_joint_type(c.kind, [&]<class Type>() {
-      Type::Branch::move(c.joint, parent, q, u, motion);
-      const Vec3d inwards = -c.joint.child_point;
-      const Vec3<T> lever = times<T>(motion.rotation, inwards);
-      place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
-    });
-    if (c.struts > 0) place_struts(c, motion, u[0], bodies);
-  }
+  void place_joint(const Cluster& c, const T* q, const T* u, BodyKinematics<T>* bodies);
 
   /// Both parts of a strut turn alike; the lower one is held at its end, the upper one moves with the arm.
   void place_struts(const Cluster& c, const BranchMotionOf<T>& hinge, const T& rate,

@@ -38,6 +38,7 @@ struct ActuatorDescription {
 /// reference, and its rate to the reference's.
 struct Actuator {
   static constexpr const char* kind = "actuator";
+  static constexpr const char* follows_as = "actuator";
   static constexpr bool packs = true;
   using Description = ActuatorDescription;
 

@@ -41,6 +41,7 @@ struct FrictionDescription {
 /// on. It does not stick: under a steady load F below `load` the coordinate creeps at speed atanh(F / load).
 struct Friction {
   static constexpr const char* kind = "friction";
+  static constexpr bool passive = true;  // holds no joint where it is
   using Description = FrictionDescription;
 
   Description d;

@@ -36,6 +36,8 @@ struct FunctionForceDescription {
 /// A user's C function called in every evaluation, see ForceFunction.
 struct FunctionForce {
   static constexpr const char* kind = "function force";
+  static constexpr bool by_differences = true;  // apply() knows doubles alone, and one body
+  static constexpr bool own_pace = true;        // of a frequency that nobody knows
   using Description = FunctionForceDescription;
 
   Description d;

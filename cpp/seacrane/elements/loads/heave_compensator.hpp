@@ -73,6 +73,13 @@ struct HeaveCompensator {
 
   static std::vector<LoadKinks> kinks() { return {}; }
 
+  /// What it leads: as what, and by its name.
+  static std::vector<std::pair<const char*, std::string>> leads(const Description& d) {
+    if (!d.winch.empty()) return {{"winch", d.winch}};
+    if (!d.actuator.empty()) return {{"actuator", d.actuator}};
+    return {};
+  }
+
   std::array<int, 1> bodies() const { return {signal.body}; }
 
   template <class T>

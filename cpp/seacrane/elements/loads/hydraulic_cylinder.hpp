@@ -31,6 +31,7 @@ namespace seacrane {
 /// load-holding valve the hose is at the atmosphere then, and the hole in series with that valve.
 struct HydraulicCylinder {
   static constexpr const char* kind = "hydraulic cylinder";
+  static constexpr const char* follows_as = "actuator";
   using Description = HydraulicCylinderDescription;
   /// Where power enters and is lost: pump and tank give positive, all others take, negative.
   static constexpr std::array<const char*, 9> kPowers = {

@@ -34,6 +34,7 @@ namespace seacrane {
 /// EA s^2 e'^2 l0.
 struct Line {
   static constexpr const char* kind = "line";
+  static constexpr const char* follows_as = "winch";
   using Description = LineDescription;
 
   /// What the line does at an instant.

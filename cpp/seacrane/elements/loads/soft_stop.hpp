@@ -33,6 +33,7 @@ struct SoftStopDescription {
 /// coordinate is beyond a bound by p; never a pull. Load and power are continuous where it is touched.
 struct SoftStop {
   static constexpr const char* kind = "soft stop";
+  static constexpr bool passive = true, own_pace = true;  // holds no joint where it is; strikes
   using Description = SoftStopDescription;
 
   Description d;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "seacrane/elements/joints/distance.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/actuator.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -37,12 +37,12 @@ std::vector<std::string> link_names(const Model& m) {
 std::vector<std::string> load_names(const Model& m) {
   std::vector<std::pair<std::string, std::string>> loads;
   std::map<std::string, int> uses;
-  for_each_load_type([&]<class Load>() {
-    for (const auto& d : std::get<std::vector<typename Load::Description>>(*m.description.loads)) {
-      loads.emplace_back(Load::kind, d.name);
-      ++uses[d.name];
+  for (const auto& list : m.description.loads.lists) {
+    for (const std::string& name : list->names()) {
+      loads.emplace_back(list->kind.name, name);
+      ++uses[name];
     }
-  });
+  }
   std::vector<std::string> out;
   for (const auto& [kind, name] : loads) out.push_back(uses[name] == 1 ? name : kind + (" " + name));
   return out;
@@ -64,9 +64,8 @@ const Axis body{"body", {}, [](const Model& m) { return names_of_all(m.bodies); 
 const Axis vessel{"vessel", {}, [](const Model& m) { return names_of_all(m.description.vessels); }, true};
 const Axis joint{"joint", {}, [](const Model& m) { return names_of_all(m.description.joints); }};
 const Axis joint_coordinate{"joint_coordinate", {}, coordinate_names};
-const Axis actuator{"actuator", {}, [](const Model& m) {
-                      return names_of_all(std::get<std::vector<Actuator::Description>>(*m.description.loads));
-                    }};
+const Axis actuator{
+    "actuator", {}, [](const Model& m) { return names_of_all(m.description.loads.of<Actuator>()); }};
 const Axis driver{"driver", {}, [](const Model& m) { return names_of_all(m.description.drivers); }};
 const Axis link{"link", {}, link_names};
 const Axis limit{"limit", {}, [](const Model& m) { return names_of_all(m.limits); }};

@@ -1,5 +1,6 @@
 #include "seacrane/dynamics/terms.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/gas_spring.hpp"
+#include "seacrane/elements/loads/heave_compensator.hpp"
 #include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
@@ -9,7 +10,7 @@ namespace {
 template <class Load>
 std::vector<std::string> names_of_kind(const Model& m) {
   std::vector<std::string> names;
-  for (const auto& d : std::get<std::vector<typename Load::Description>>(*m.description.loads)) {
+  for (const auto& d : m.description.loads.of<Load>()) {
     names.push_back(d.name);
   }
   return names;
@@ -26,7 +27,7 @@ double reference_of(const Heave& m) { return m.reference; }
 template <double (*read)(const Heave& motion)>
 void write_compensators(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const auto& one : std::get<std::vector<HeaveCompensator>>(*o.terms.model().loads)) {
+  for (const auto& one : o.terms.model().loads.of<HeaveCompensator>()) {
     *out++ = read(one.signal.motion(in));
   }
 }
@@ -39,7 +40,7 @@ double gas_pressure_of(const Gas& m) { return m.pressure; }
 template <double (*read)(const Gas& motion)>
 void write_gas_springs(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const auto& one : std::get<std::vector<GasSpring>>(*o.terms.model().loads)) {
+  for (const auto& one : o.terms.model().loads.of<GasSpring>()) {
     *out++ = read(one.motion(in));
   }
 }

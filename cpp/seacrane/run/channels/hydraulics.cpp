@@ -1,18 +1,17 @@
 #include "seacrane/dynamics/terms.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/hydraulic_cylinder.hpp"
 #include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {
 
-const Axis hydraulic_cylinder{
-    "hydraulic_cylinder", {}, [](const Model& m) {
-      std::vector<std::string> names;
-      for (const auto& d : std::get<std::vector<HydraulicCylinder::Description>>(*m.description.loads)) {
-        names.push_back(d.name);
-      }
-      return names;
-    }};
+const Axis hydraulic_cylinder{"hydraulic_cylinder", {}, [](const Model& m) {
+                                std::vector<std::string> names;
+                                for (const auto& d : m.description.loads.of<HydraulicCylinder>()) {
+                                  names.push_back(d.name);
+                                }
+                                return names;
+                              }};
 const Axis chamber{"chamber", {"full", "rod"}};
 const Axis hydraulic_power{"hydraulic_part",
                            {HydraulicCylinder::kPowers.begin(), HydraulicCylinder::kPowers.end()}};
@@ -23,7 +22,7 @@ using Hydraulics = HydraulicCylinder::Motion<double>;
 template <double* (*put)(const Hydraulics& motion, double* out)>
 void write_hydraulics(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const auto& one : std::get<std::vector<HydraulicCylinder>>(*o.terms.model().loads)) {
+  for (const auto& one : o.terms.model().loads.of<HydraulicCylinder>()) {
     out = put(one.motion(in), out);
   }
 }

@@ -1,5 +1,4 @@
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
@@ -10,14 +9,11 @@ template <class F>
 void for_each_load(const Output& o, F&& f) {
   const Model& model = o.system.model();
   const LoadInput<double> input = o.terms.load_input(o.time, o.state + model.layout.memory);
-  for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(*model.loads)) {
-      LoadSum<double> sum{o.one_load.data(), o.load_rates};
-      load.template apply<double>(input, sum);
-      const auto& bodies = load.bodies();
-      f(o.one_load[idx(*std::prev(bodies.end()))], *std::prev(bodies.end()));
-      for (const int body : bodies) o.one_load[idx(body)] = {};
-    }
+  model.loads.for_each([&](const LoadList& list, std::size_t i) {
+    LoadSum<double> sum{o.one_load.data(), o.load_rates};
+    list.apply(i, input, sum);
+    f(o.one_load[idx(list.bodies[i].back())], list.bodies[i].back());
+    for (const int body : list.bodies[i]) o.one_load[idx(body)] = {};
   });
 }
 

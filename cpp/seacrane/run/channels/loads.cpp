@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "seacrane/dynamics/terms.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/line.hpp"
 #include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
@@ -15,7 +15,7 @@ const Axis state_name{"state_name", {}, [](const Model& m) {
 
 const Axis line{"line", {}, [](const Model& m) {
                   std::vector<std::string> names;
-                  for (const auto& d : std::get<std::vector<Line::Description>>(*m.description.loads)) {
+                  for (const auto& d : m.description.loads.of<Line>()) {
                     names.push_back(d.name);
                   }
                   return names;
@@ -25,7 +25,7 @@ bool has_drum(const Line::Description& d) { return d.winch && d.drum_inertia > 0
 
 const Axis drum{"drum", {}, [](const Model& m) {
                   std::vector<std::string> names;
-                  for (const auto& d : std::get<std::vector<Line::Description>>(*m.description.loads)) {
+                  for (const auto& d : m.description.loads.of<Line>()) {
                     if (has_drum(d)) names.push_back(d.name);
                   }
                   return names;
@@ -40,14 +40,14 @@ void write_load_state(const Output& o, double* out) {
 template <double (*read)(const Line::Motion<double>& motion)>
 void write_lines(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const Line& one : std::get<std::vector<Line>>(*o.terms.model().loads)) *out++ = read(one.motion(in));
+  for (const Line& one : o.terms.model().loads.of<Line>()) *out++ = read(one.motion(in));
 }
 
 /// What `read` takes of the motor and the brake of each drum.
 template <double (*read)(const Drum& drum, const Drum::Drive& drive)>
 void write_drums(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const Line& one : std::get<std::vector<Line>>(*o.terms.model().loads)) {
+  for (const Line& one : o.terms.model().loads.of<Line>()) {
     if (one.winch && one.winch->drum) *out++ = read(*one.winch->drum, one.drive(in));
   }
 }

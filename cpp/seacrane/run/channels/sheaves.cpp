@@ -1,11 +1,11 @@
 #include "seacrane/dynamics/terms.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/line.hpp"
 #include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {
 
-const std::vector<Line>& lines_of(const Model& m) { return std::get<std::vector<Line>>(*m.loads); }
+const std::vector<Line>& lines_of(const Model& m) { return m.loads.of<Line>(); }
 
 /// "hoist 2" for point 2 of the line, at the end of section 2.
 std::string label(const Line& one, std::size_t i) { return one.d.name + " " + std::to_string(i); }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "description.hpp"
+#include "load_binding.hpp"
+
+template <class Load>
+const LoadBinding& load_binding() {
+  using Description = typename Load::Description;
+  static const LoadBinding out{
+      .bind = [](py::module_& m) -> py::object {
+        auto type = description::bind<Description>(m, Load::kind);
+        type.def_static("example", &Load::example,
+                        "One for checks, on bodies 'first', 'second' and 'third'.");
+        type.attr("STIFF") = seacrane::StiffLoad<Load>;
+        type.attr("OWN_PACE") = requires { requires Load::own_pace; };
+        type.attr("PASSIVE") = requires { requires Load::passive; };
+        return type;
+      },
+      .add =
+          [](seacrane::LoadDescriptions& loads, const py::object& object) {
+            const bool is_one = py::isinstance<Description>(object);
+            if (is_one) loads.of<Load>().push_back(object.cast<Description>());
+            return is_one;
+          },
+  };
+  return out;
+}

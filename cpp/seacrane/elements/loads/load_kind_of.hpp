@@ -1,0 +1,248 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "seacrane/elements/difference.hpp"
+#include "seacrane/elements/loads/heave_signal.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
+
+/// All that the engine asks of a load, made of its own members. Included by the object of each load alone.
+namespace seacrane {
+
+template <class Load>
+concept HasSides = requires(const Load& load, const LoadInput<double>& in) {
+  load.side(in);
+};
+template <class Load>
+concept HasUnit = requires(const Load& load, const LoadInput<double>& in, Vec6d* wrenches) {
+  load.add_unit(0, in, wrenches);
+};
+/// A load that, where it is quasi-static, has a tension that depends on accelerations.
+template <class Load>
+concept HasInertialTension = requires(const Load& load) {
+  load.quasi_static();
+  load.place;
+};
+/// A load that is a force of the value and the rate of a joint's coordinate.
+template <class Load>
+concept ActsAlong = requires(const Load& load, const LoadInput<double>& in) {
+  load.coordinate.joint;
+  load.force(in, 0.0, 0.0);
+};
+template <class Load>
+concept ByDifferences = requires {
+  requires Load::by_differences;
+};
+template <class Load>
+concept Follows = requires {
+  Load::follows_as;
+};
+template <class Load>
+concept Leads = requires(const typename Load::Description& d) {
+  Load::leads(d);
+};
+
+template <class Load>
+class LoadListOf final : public LoadsOf<Load> {
+ public:
+  using typename LoadList::Place;
+  using typename LoadList::Slopes;
+  using LoadsOf<Load>::items;
+
+  LoadListOf() : LoadsOf<Load>(load_kind<Load>()) {}
+  std::unique_ptr<LoadList> copy() const override { return std::make_unique<LoadListOf>(*this); }
+  std::unique_ptr<LoadList> empty() const override { return std::make_unique<LoadListOf>(); }
+  void take(const LoadList& other, Place i) override {
+    add(static_cast<const LoadListOf&>(other).items[i], other.names[i]);
+  }
+  void add(const Load& load, const std::string& name) {
+    const auto& on = load.bodies();
+    this->names.push_back(name);
+    this->bodies.emplace_back(on.begin(), on.end());
+    items.push_back(load);
+  }
+
+  void apply(const LoadInput<double>& in, LoadSum<double>& sum) const override {
+    for (const Load& load : items) load.template apply<double>(in, sum);
+  }
+  void apply(Place i, const LoadInput<double>& in, LoadSum<double>& sum) const override {
+    items[i].template apply<double>(in, sum);
+  }
+  void apply(Place i, const LoadInput<Slopes>& in, LoadSum<Slopes>& sum) const override {
+    if constexpr (!ByDifferences<Load>) items[i].template apply<Slopes>(in, sum);
+  }
+  void add_potential(const LoadInput<double>& in, double& sum) const override {
+    if constexpr (requires(const Load& load) { load.potential(in); }) {
+      for (const Load& load : items) sum += load.potential(in);
+    }
+  }
+  bool looks_at_states(Place i, int first, int last) const override {
+    return seacrane::looks_at_states(items[i], first, last);
+  }
+  void add_unit(Place i, int component, const LoadInput<double>& in, Vec6d* wrenches) const override {
+    if constexpr (HasUnit<Load>) items[i].add_unit(component, in, wrenches);
+  }
+  std::vector<LoadKinks> kinks(Place i) const override { return items[i].kinks(); }
+
+  bool has_sides(Place i) const override {
+    if constexpr (HasSides<Load>) return items[i].has_sides();
+    return false;
+  }
+  int side(Place i, const LoadInput<double>& in) const override {
+    if constexpr (HasSides<Load>) return items[i].side(in);
+    return 0;
+  }
+  double across(Place i, const LoadInput<double>& in, int from, int to) const override {
+    if constexpr (HasSides<Load>) return items[i].across(in, from, to);
+    return 1.0;
+  }
+  std::vector<std::string> reached(Place i, int from, int to) const override {
+    if constexpr (requires(const Load& load) {
+                    { load.reached(0, 0) } -> std::convertible_to<std::string>;
+                  }) {
+      return {items[i].reached(from, to)};
+    } else if constexpr (requires(const Load& load) { load.reached(0, 0); }) {
+      return items[i].reached(from, to);
+    }
+    return {};
+  }
+  std::string refused(Place i, int side) const override {
+    if constexpr (requires(const Load& load) { load.refused(0); }) return items[i].refused(side);
+    return "";
+  }
+  bool slack(Place i, int side) const override {
+    if constexpr (requires(const Load& load) { load.slack(0); }) return items[i].slack(side);
+    return false;
+  }
+
+  StateRange stiff_states(Place i) const override {
+    if constexpr (StiffLoad<Load>) return items[i].stiff_states();
+    return {};
+  }
+  StiffSlopes stiff_slopes(Place i, const LoadInput<double>& in) const override {
+    if constexpr (StiffLoad<Load>) return items[i].stiff_slopes(in);
+    return {};
+  }
+
+  int inertial_place(Place i) const override {
+    if constexpr (HasInertialTension<Load>) return items[i].quasi_static() ? items[i].place : -1;
+    return -1;
+  }
+  InertialTension inertial(Place i, const LoadInput<double>& in, const Vec6d* acceleration) const override {
+    if constexpr (HasInertialTension<Load>) {
+      const auto now = items[i].motion(in);
+      return {items[i].inertial_mass(now), now.power_per_inertial(),
+              items[i].inertial_tension(in, now, acceleration)};
+    }
+    return {};
+  }
+  Slopes inertial(Place i, const LoadInput<Slopes>& in, const Vec6d* acceleration) const override {
+    if constexpr (HasInertialTension<Load>) {
+      return items[i].inertial_tension(in, items[i].motion(in), acceleration);
+    }
+    return Slopes();
+  }
+  void add_path(Place i, const LoadInput<double>& in, Vec6d* wrenches) const override {
+    if constexpr (HasInertialTension<Load>) items[i].add_path(in, wrenches);
+  }
+
+  const CoordinateData* coordinate(Place i) const override {
+    if constexpr (ActsAlong<Load>) return &items[i].coordinate;
+    return nullptr;
+  }
+  double force(Place i, const LoadInput<double>& in, double value, double rate) const override {
+    if constexpr (ActsAlong<Load>) return items[i].template force<double>(in, value, rate);
+    return 0.0;
+  }
+  double stiffness(Place i, const LoadInput<double>& in) const override {
+    if constexpr (StiffLoad<Load>) {  // with states that follow its rate
+      const StiffSlopes slopes = items[i].stiff_slopes(in);
+      const Eigen::Index n = slopes.rows() - 1;
+      return std::abs(slopes.block(0, 1, 1, n).row(0).dot(slopes.block(1, 0, n, 1).col(0)));
+    } else if constexpr (ActsAlong<Load> && HasUnit<Load>) {
+      return items[i].d.stiffness;
+    }
+    return 0.0;
+  }
+};
+
+/// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
+/// there its forces cancel and do no work. States go on all the same.
+template <class Load>
+bool acts(const Load& load, int ground) {
+  if constexpr (HasStates<Load>) {
+    if (load.states.count > 0) return true;
+  }
+  const auto& bodies = load.bodies();
+  const auto& first = *bodies.begin();
+  if (bodies.size() == 1) return first != ground;
+  return std::any_of(bodies.begin(), bodies.end(), [&](int b) { return b != first; });
+}
+
+template <class Load>
+class DescribedLoadsOf final : public DescribedAs<Load> {
+ public:
+  using DescribedAs<Load>::items;
+
+  DescribedLoadsOf() : DescribedAs<Load>(load_kind<Load>()) {}
+  std::unique_ptr<DescribedLoads> copy() const override { return std::make_unique<DescribedLoadsOf>(*this); }
+  void add_example() override { items.push_back(Load::example()); }
+  std::vector<std::string> names() const override {
+    std::vector<std::string> out;
+    for (const auto& d : items) out.push_back(d.name);
+    return out;
+  }
+  void check(SceneNames& names) const override {
+    for (const auto& d : items) {
+      const Check c(Load::kind, d.name);
+      check_fields(d, c);
+      Load::check(d, c, names);
+    }
+  }
+  std::vector<Lead> leads() const override {
+    std::vector<Lead> out;
+    if constexpr (Leads<Load>) {
+      for (const auto& d : items) {
+        for (const auto& [as, name] : Load::leads(d)) out.push_back({d.name, as, name});
+      }
+    }
+    return out;
+  }
+  std::string difference(const DescribedLoads& other) const override {
+    return seacrane::difference(Load::kind, items, static_cast<const DescribedLoadsOf&>(other).items);
+  }
+  void compile(LoadContext& context, CompiledLoads& out) const override {
+    auto list = std::make_unique<LoadListOf<Load>>();
+    for (const auto& d : items) {
+      const Load load = Load::compile(d, context);
+      if (acts(load, context.ground())) list->add(load, d.name);
+      if constexpr (Leads<Load>) {
+        for (const auto& [as, name] : Load::leads(d)) context.lead(as, name, {d.ratio, load.signal});
+      }
+    }
+    if (list->size() > 0) out.lists.emplace_back(std::move(list));
+  }
+};
+
+template <class Load>
+const LoadKind& load_kind() {
+  static const LoadKind kind{
+      .name = Load::kind,
+      .follows_as =
+          [] {
+            if constexpr (Follows<Load>) return Load::follows_as;
+            return "";
+          }(),
+      .packs = TakesPacks<Load>,
+      .by_differences = ByDifferences<Load>,
+      .describe = []() -> std::unique_ptr<DescribedLoads> {
+        return std::make_unique<DescribedLoadsOf<Load>>();
+      },
+  };
+  return kind;
+}
+
+}  // namespace seacrane
