@@ -135,7 +135,6 @@ void check_branch(const Model& m, const Terms& terms) {
     }
   }
 }
-}
 
 void report_moves(const Model& m, const std::vector<double>& before, AssemblyReport& out) {
   const auto rotation = [&](const std::vector<double>& y, int b) {
