@@ -104,7 +104,7 @@ class MotionHistory:
         columns: Mapping[str, str] | None = None,
         **reading: Any,
     ) -> MotionHistory:
-        """Read the record of a motion sensor: a text file of columns with names and units, such as "roll [deg]".
+        """Read the record of a motion sensor: a text file of columns with units, such as "roll [deg]".
 
         Its first sample is at 0. A column of heading is taken as yaw: from its mean, against the compass.
 
@@ -115,8 +115,8 @@ class MotionHistory:
         zero : sequence of str
             Motions that the file does not hold, which are zero: ("surge", "sway").
         negated : sequence of str
-            Motions that the sensor counts with the other sign: positive here are heave up, roll that lifts the
-            port side, pitch that lowers the bow, and yaw to port.
+            Motions that the sensor counts with the other sign: positive here are heave up, roll that lifts
+            the port side, pitch that lowers the bow, and yaw to port.
         columns : mapping of str to str, optional
             What the file calls "time" and motions whose names it has not.
         **reading

@@ -66,7 +66,7 @@ def _require_units(series: MeasuredSeries) -> None:
         due = "m" if MOTIONS.index(name) < 3 else "rad"
         if unit != due:
             raise FileFormatError(
-                f"{series.source}: column {series.headers[name]!r} has a unit of {unit}, and {name} is in {due} "
-                f"or a unit of its kind; give the right column or unit: columns={{{name!r}: ...}}, "
+                f"{series.source}: column {series.headers[name]!r} is in {unit}, and {name} in {due} or a "
+                f"unit of its kind; give the right column or unit: columns={{{name!r}: ...}}, "
                 f"units={{{name!r}: ...}}"
             )

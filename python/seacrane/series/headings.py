@@ -12,9 +12,9 @@ from seacrane.description.dimensions import UNITS, unit_text
 
 G = 9.80665  # m/s2, standard: tonnes and kilograms of a load are its weight
 TIMES = frozenset(
-    "time t timestamp datetime date/time utc clock seconds".split()
-    + ["time stamp", "date time", "utc time", "gps time", "elapsed time"]
-)
+    ["time", "t", "timestamp", "time stamp", "datetime", "date time", "date/time", "utc", "utc time",
+     "gps time", "elapsed time", "clock", "seconds"]
+)  # fmt: skip
 LONGEST = 200  # characters of a cell of a header
 IN_BRACKETS = re.compile(r"([^\[\]()]*)[\[(]([^\[\]()]*)[\])]\s*")
 _WORDS = {
@@ -37,7 +37,7 @@ SPELLED: Mapping[str, tuple[float, str]] = MappingProxyType(
 
 @dataclass(frozen=True, kw_only=True)
 class Heading:
-    """A cell of a header: its place in the line, its text, its name in plain words, and its unit as written."""
+    """A cell of a header: its place in the line, its text, its name in plain words, its unit as written."""
 
     place: int
     text: str

@@ -96,20 +96,20 @@ class MeasuredSeries:
         filter_hz: float | None = None,
         interval: float | None = None,
     ) -> MeasuredSeries:
-        """Read a text file of columns (CSV, TSV): delimiter, header and units are found (`docs/given-ships.md`).
+        """Read a text file of columns (CSV, TSV); its delimiter, header and units are found.
 
         Parameters
         ----------
         path : path
         columns : sequence of str, or mapping of str to str
             Which columns to take, by the names in the header, or the names there by the names here, "time"
-            among them: ``{"time": "GPS clock", "hook load": "HL main [t]"}``; a tuple of names: the first that
-            is there. Default: all.
+            among them: ``{"time": "GPS clock", "hook load": "HL main [t]"}``; a tuple of names: the first
+            that is there. Default: all.
         units : mapping of str to str
             Of columns without a unit in the header, or of those whose unit there is wrong.
         after, before : float, optional
-            s of the file's own clock, from its first stamp where it has time stamps: what is earlier or later is
-            left out.
+            s of the file's own clock, from its first stamp where it has time stamps: what is earlier or later
+            is left out.
         maximum_gap : float
             s, the longest gap that is filled by a cubic spline; default 0: any gap is refused.
         drop_outliers : bool
@@ -153,7 +153,9 @@ class MeasuredSeries:
     def __getitem__(self, name: str) -> Array:
         """The column of a name; the error lists those that are there."""
         if name not in self.columns:
-            raise SceneError(f"measured series: no column {shown(name)}; it holds {listed(list(self.columns))}")
+            raise SceneError(
+                f"measured series: no column {shown(name)}; it holds {listed(list(self.columns))}"
+            )
         return self.columns[name]
 
     @property
@@ -162,11 +164,12 @@ class MeasuredSeries:
         return step_of(self.time)
 
     def filtered(self, filter_hz: float) -> MeasuredSeries:
-        """Without what is faster than a frequency, and without lag: amplitudes times 1 / (1 + (f / filter_hz)^8).
+        """Without what is faster than a frequency, Hz, and without lag.
 
-        A Butterworth filter of fourth order runs in both directions over an even grid. At `filter_hz` an
-        amplitude is halved, at half of it 0.4 % is lost. Ends are continued by their mirror image, turned about
-        the end point: the first and last period of `filter_hz` are less sure.
+        A Butterworth filter of fourth order runs in both directions over an even grid: amplitudes are
+        taken times 1 / (1 + (f / filter_hz)^8), half at `filter_hz` and 0.4 % less at half of it. Ends are
+        continued by their mirror image, turned about the end point: the first and last period of `filter_hz`
+        are less sure.
 
         Raises
         ------
@@ -196,8 +199,9 @@ class MeasuredSeries:
         fast = share_above(even._table(), even.interval, 0.5 / step) if step > even.interval else 0.0
         if fast > ALIASED:
             raise SceneError(
-                f"interval is {step:g} s, and {fast:.1%} of a column's variance is faster than {0.5 / step:.4g} "
-                f"Hz, which would turn into slow motion; give filter_hz={0.4 / step:.3g} or less with it"
+                f"interval is {step:g} s, and {fast:.1%} of a column's variance is faster than "
+                f"{0.5 / step:.4g} Hz, which would turn into slow motion; give filter_hz={0.4 / step:.3g} or "
+                "less with it"
             )
         time, values = on_grid(self.source, self.time, self._table(), step)
         return self._with(time, values, f"resampled to {step:g} s by cubic splines")

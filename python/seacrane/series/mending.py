@@ -61,8 +61,8 @@ def on_grid(what: str, time: Array, values: Array, step: float) -> tuple[Array, 
     count = np.floor((time[-1] - time[0]) / step * (1.0 + 1e-12)) + 1.0
     if not 2.0 <= count <= LARGEST:
         raise SceneError(
-            f"{what}: an interval of {step:.6g} s makes {count:.4g} samples of {time[-1] - time[0]:.6g} s; give "
-            f"one that makes 2 to {LARGEST:.0e}"
+            f"{what}: an interval of {step:.6g} s makes {count:.4g} samples of {time[-1] - time[0]:.6g} s; "
+            f"give one that makes 2 to {LARGEST:.0e}"
         )
     grid = np.minimum(time[0] + step * np.arange(int(count)), time[-1])
     return grid, np.asarray(CubicSpline(time, values)(grid))

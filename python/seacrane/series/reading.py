@@ -55,7 +55,9 @@ def read_series(
     times = [_time_unit(file, one, given.get("time")) for one in clocks]
     numbers, lines, start = file.columns([*clocks, *wanted.values()], len(clocks))
     if numbers.shape[0] < FEWEST:
-        raise FileFormatError(f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed")
+        raise FileFormatError(
+            f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed"
+        )
     clock = numbers[:, : len(clocks)] * times
     values = numbers[:, len(clocks) :] * [factor for factor, _ in scales.values()]
     rows = Rows(
@@ -100,7 +102,9 @@ def _wanted(
         rest = [one for one in file.headings if one not in clocks]
         doubled = next((one for i, one in enumerate(rest) if one.name in [o.name for o in rest[:i]]), None)
         if doubled is not None or not rest:
-            what = f"two columns are called {shown(doubled.name)}" if doubled else "there is no column but time"
+            what = (
+                f"two columns are called {shown(doubled.name)}" if doubled else "there is no column but time"
+            )
             raise FileFormatError(f"{file.path}: {what}; give columns= with the names as they are written")
         return {one.name: one for one in rest}
     found = {
@@ -133,7 +137,7 @@ def _unit(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float,
         has = "has no unit in its name" if words is None else f"has the unit {shown(words)}, which is unknown"
         raise file.refused(
             file.header, heading, f"{has}; write it as '{heading.name[:40]} [deg]' or give units="
-            f"{{{shown(heading.name)}: 'deg'}}, with one of {KINDS}, ..., or leave the column out by columns=",
+            f"{{{shown(heading.name)}: 'deg'}}, of {KINDS}, ..., or leave the column out by columns=",
         )  # fmt: skip
     return found
 
@@ -144,7 +148,9 @@ def _time_unit(file: SeriesFile, heading: Heading, given: str | None) -> float:
     found = (1.0, "s") if words.lower() in ("utc", "iso", "gmt") else unit_of_words(words)
     if found is None or found[1] != "s":
         raise file.refused(
-            file.header, heading, f"has the unit {shown(words)}; a time is in s, ms, min or h, or a time stamp"
+            file.header,
+            heading,
+            f"has the unit {shown(words)}; a time is in s, ms, min or h, or a time stamp",
         )
     return found[0]
 
@@ -160,5 +166,3 @@ def _kept(rows: Rows, after: float | None, before: float | None) -> Bools:
             f"{np.nanmin(rows.time):.6g} to {np.nanmax(rows.time):.6g} s; leave at least {FEWEST}"
         )
     return kept
-
-

@@ -64,9 +64,7 @@ def require_increasing(rows: Rows) -> None:
         )  # fmt: skip
 
 
-def warn_of_drift(
-    rows: Rows, headings: Sequence[Heading], others: Array, rate_hz: float | None
-) -> None:
+def warn_of_drift(rows: Rows, headings: Sequence[Heading], others: Array, rate_hz: float | None) -> None:
     """Against other clocks in the file, and against the number of samples at the nominal rate."""
     clocks = {f"column {shown(one.text)}": times for one, times in zip(headings, others.T, strict=True)}
     if rate_hz is not None:
@@ -84,9 +82,9 @@ def warn_of_drift(
         drift = drift_of(rows.time, times)
         if abs(drift) * duration > step_of(rows.time):
             warn_caller(
-                f"{rows.file.path}: its clock, column {shown(rows.clock.text)}, gains {drift * 1e6:+.0f} us in a "
-                f"second on {name}, {drift * duration:+.3g} s over the record; take the clock that is right by "
-                "columns={'time': ...}, or correct the times",
+                f"{rows.file.path}: its clock, column {shown(rows.clock.text)}, gains {drift * 1e6:+.0f} us "
+                f"in a second on {name}, {drift * duration:+.3g} s over the record; take the clock that is "
+                "right by columns={'time': ...}, or correct the times",
                 ClockDriftWarning,
             )
 
@@ -105,8 +103,8 @@ def mended(rows: Rows, longest: float, drop: bool) -> tuple[Array, tuple[str, ..
     row, length = max(gaps, key=lambda gap: gap[1])
     told = f"{len(gaps)} gaps filled by cubic splines, the longest {length:.4g} s"
     warn_caller(
-        f"{rows.file.path}: {told} before line {rows.lines[row]}; look at them, and cut the record where a gap "
-        "is longer than an eighth of a period",
+        f"{rows.file.path}: {told} before line {rows.lines[row]}; look at them, and cut the record where a "
+        "gap is longer than an eighth of a period",
         FilledGapWarning,
     )
     return values, (told,)
@@ -135,11 +133,13 @@ def _outlying(rows: Rows, values: Array, missing: Bools, drop: bool) -> Bools:
     if found.any():
         places = np.argwhere(found).tolist()
         named = [
-            f"line {rows.lines[row]}, column {shown(rows.headings[column].text)}: {rows.values[row, column]:.5g}"
-            for row, column in places[:MOST_NAMED]
+            f"line {rows.lines[row]}, column {shown(rows.headings[at].text)}: {rows.values[row, at]:.5g}"
+            for row, at in places[:MOST_NAMED]
         ]
         more = f", and {len(places) - MOST_NAMED} more" if len(places) > MOST_NAMED else ""
-        then = "they are dropped" if drop else "drop_outliers=True drops them; maximum_gap= fills what is left"
+        then = (
+            "they are dropped" if drop else "drop_outliers=True drops them; maximum_gap= fills what is left"
+        )
         warn_caller(
             f"{rows.file.path}: {len(places)} outliers in SI units, {'; '.join(named)}{more}: {then}",
             OutlierWarning,
@@ -177,7 +177,7 @@ def _missing_rows(rows: Rows, values: Array, longest: float) -> list[tuple[int, 
     found = []
     for gap in breaks_of(rows.time, values):
         what = (
-            "the clock jumps, since the values go on as if one sample had passed: correct the times from here on"
+            "the clock jumps: the values go on as if one sample had passed; correct the times from here on"
             if gap.jump
             else "samples are missing"
         )

@@ -21,7 +21,9 @@ Array = NDArray[np.float64]
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "nodata"])
 COMMENTS = ("#", "%", "//")
 DELIMITERS = "\t;,"
-OTHERS = frozenset("rate velocity speed vel acc accel acceleration std max min mean".split())
+OTHERS = frozenset(
+    ["rate", "velocity", "speed", "vel", "acc", "accel", "acceleration", "std", "max", "min", "mean"]
+)
 STAMP = " and no time stamp of ISO 8601 like the first one, as 2026-03-01T12:00:00.100"
 MOST_ABOVE = 100  # lines that may stand above the header
 LARGEST = 1e15  # of any number: a clock of milliseconds since 1970 has 2e12
@@ -125,8 +127,8 @@ class SeriesFile:
             if len(cells) != len(self.headings):
                 raise FileFormatError(
                     f"{self.path}, line {line + 1}: has {len(cells)} cells, and the header "
-                    f"{len(self.headings)} ({listed([one.text for one in self.headings])}); complete the line "
-                    "or delete it"
+                    f"{len(self.headings)} ({listed([one.text for one in self.headings])}); complete the "
+                    "line or delete it"
                 )
             row = _plain_row([cells[one.place] for one in wanted])
             numbers.extend(row or self._row(line + 1, cells, wanted, clocks, stamps))

@@ -28,8 +28,8 @@ def compare(
 ) -> Comparison:
     """Compare a channel of a run with a measured series.
 
-    The record is moved in time to where its correlation with the run is largest, and compared there at its own
-    samples, with the cubic spline through the outputs of the run. Differences are run minus record.
+    The record is moved in time to where its correlation with the run is largest, and compared there at its
+    own samples, with the cubic spline through the outputs of the run. Differences are run minus record.
 
     Parameters
     ----------
@@ -41,8 +41,8 @@ def compare(
     column : str, optional
         Of the series; it needs no name where there is only one.
     maximum_shift : float, optional
-        s by which the record may be earlier or later than the run; default a quarter of the shorter of both; 0:
-        both have the same clock.
+        s by which the record may be earlier or later than the run; default a quarter of the shorter of both;
+        0: both have the same clock.
 
     Returns
     -------
@@ -94,7 +94,9 @@ def _beside(
 
 def _column_of(series: MeasuredSeries, column: str | None) -> str:
     if column is None and len(series.columns) > 1:
-        raise SceneError(f"compare: the series has several columns; give column=, {listed(list(series.columns))}")
+        raise SceneError(
+            f"compare: the series has several columns; give column=, {listed(list(series.columns))}"
+        )
     name = next(iter(series.columns)) if column is None else column
     series[name]
     return name
@@ -104,7 +106,7 @@ def _unit_of(pick: Pick, name: str, series: MeasuredSeries) -> str:
     unit = unit_of(pick.channel, pick.names.values())
     if " or " not in unit and unit not in ("SI", series.units[name]):
         raise SceneError(
-            f"compare: {pick} is in {unit}, and column {shown(name)} in {series.units[name]}; compare like with "
-            "like"
+            f"compare: {pick} is in {unit}, and column {shown(name)} in {series.units[name]}; give channel= "
+            "and column= of one unit"
         )
     return series.units[name]

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
+SEGMENTS = 7  # of the spectra: records are short
+NAMES = ("mean (bias)", "standard deviation", "largest", "smallest")
 HIGHEST = 0.999  # of the variance that a picture of spectra shows
 
 
@@ -97,7 +99,7 @@ class Comparison:
         step = step_of(self.time)
         grid = np.arange(self.time[0], self.time[-1] + 0.5 * step, step)
         even = [np.interp(grid, self.time, values) for values in (self.run, self.record)]
-        first, second = (spectrum_estimate(values, dt=step) for values in even)
+        first, second = (spectrum_estimate(values, dt=step, segments=SEGMENTS) for values in even)
         return first, second
 
     def plot(self) -> Figure:
@@ -156,7 +158,9 @@ class Comparison:
         return Path(path)
 
     def __str__(self) -> str:
-        return "\n".join([self._caption(), text_table(self._head(), self._rows(), right=(1, 2, 3, 4)), self.source])
+        return "\n".join(
+            [self._caption(), text_table(self._head(), self._rows(), right=(1, 2, 3, 4)), self.source]
+        )
 
     __repr__ = __str__
 
@@ -166,8 +170,8 @@ class Comparison:
     def _caption(self) -> str:
         later = "later" if self.shift >= 0.0 else "earlier"
         return (
-            f"{self.channel} against {self.column}: {self.time.size} samples, the record {abs(self.shift):.4g} s "
-            f"{later} than the run, correlation {self.correlation:.4f}"
+            f"{self.channel} against {self.column}: {self.time.size} samples, the record "
+            f"{abs(self.shift):.4g} s {later} than the run, correlation {self.correlation:.4f}"
         )
 
     def _head(self) -> list[str]:
@@ -182,8 +186,11 @@ class Comparison:
             told = [f"{factor * one:.5g}" for one in both] or ["", ""]
             return [name, *told, f"{factor * difference:+.4g}", share]
 
-        pairs = {"mean (bias)": np.mean, "standard deviation": np.std, "largest": np.max, "smallest": np.min}
-        found = {name: (float(of(self.run)), float(of(self.record))) for name, of in pairs.items()}
-        rows = [row(name, run - record, run, record) for name, (run, record) in found.items()]
+        found = zip(NAMES, _figures(self.run), _figures(self.record), strict=True)
+        rows = [row(name, run - record, run, record) for name, run, record in found]
         unsigned = row("RMS of the difference", self.rms), row("the same without bias", self.scatter)
         return [*rows, *([cell.removeprefix("+") for cell in one] for one in unsigned)]
+
+
+def _figures(values: Array) -> tuple[float, float, float, float]:
+    return float(values.mean()), float(values.std()), float(values.max()), float(values.min())

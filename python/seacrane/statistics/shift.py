@@ -81,8 +81,8 @@ def _correlations(
     if not kept.any():
         raise SceneError(
             f"compare: the run begins at {start:.6g} s and the record at {begin:.6g} s, and within shifts of "
-            f"{most:.4g} s they do not overlap by half of the shorter; give a larger maximum_shift, or a record "
-            "whose times begin elsewhere: dataclasses.replace(record, time=record.time - ...)"
+            f"{most:.4g} s they do not overlap by half of the shorter; give a larger maximum_shift, or a "
+            "record whose times begin elsewhere: dataclasses.replace(record, time=record.time - ...)"
         )
     return shifts[kept], found[kept]
 
@@ -102,8 +102,8 @@ def _warn_of_doubt(shifts: Array, found: Array, best: int) -> None:
     else:
         return
     warn_caller(
-        f"compare: a shift of {shifts[best]:+.4g} s is not sure: {words}. Give maximum_shift, 0 where both have "
-        "the same clock",
+        f"compare: a shift of {shifts[best]:+.4g} s is not sure: {words}. Give maximum_shift, 0 where both "
+        "have the same clock",
         UncertainShiftWarning,
     )
 
