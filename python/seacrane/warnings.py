@@ -492,7 +492,8 @@ class FilledGapWarning(SeriesWarning):
     """Values were missing in a measured series, and `maximum_gap` let cubic splines fill them.
 
     The message names how many gaps, the longest and its line. A spline over an eighth of a period is right
-    to a thousandth, over half a period it is a guess: cut the record there by `after` and `before`.
+    to some thousandths of the amplitude, over a quarter to some hundredths, over half a period it is a
+    guess: cut the record there by `after` and `before`.
     """
 
 

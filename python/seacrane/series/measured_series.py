@@ -16,7 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
-from seacrane.series.clock import step_of
+from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
 from seacrane.series.reading import Columns, read_series
 
@@ -147,6 +147,8 @@ class MeasuredSeries:
             time=read.time, columns=read.columns, units=read.units, source=Path(path).name, done=read.done,
             headers=read.headers,
         )  # fmt: skip
+        if np.diff(found.time).max() > BROKEN * found.interval:  # a gap that was accepted
+            found = found._even()
         found = found if filter_hz is None else found.filtered(filter_hz)
         return found if interval is None else found.resampled(interval)
 
@@ -166,8 +168,8 @@ class MeasuredSeries:
     def filtered(self, filter_hz: float) -> MeasuredSeries:
         """Without what is faster than a frequency, Hz, and without lag.
 
-        A Butterworth filter of fourth order runs in both directions over an even grid: amplitudes are
-        taken times 1 / (1 + (f / filter_hz)^8), half at `filter_hz` and 0.4 % less at half of it. Ends are
+        A Butterworth filter of fourth order runs in both directions over an even grid. Amplitudes are taken
+        times about 1 / (1 + (f / filter_hz)^8): half at `filter_hz`, 0.4 % less at half of it. Ends are
         continued by their mirror image, turned about the end point: the first and last period of `filter_hz`
         are less sure.
 

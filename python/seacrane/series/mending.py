@@ -12,8 +12,9 @@ Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 WINDOW = 1.0  # s around a sample whose median it is compared with
 FEWEST = 5  # samples in it
+AROUND = 20.0  # s around it whose spread counts, where it is larger than that of the whole: a decay
 FAR = 5.0  # times the distance within which 95 % of all samples are
-SHARE = 0.5  # of the standard deviation that an outlier is away at least
+SHARE = 0.5  # of the standard deviation, by the median, that an outlier is away at least
 ORDER = 4  # of the Butterworth filter, which runs in both directions
 EVEN = 1e-3  # of a step by which times may be uneven
 LARGEST = 10_000_000  # samples of a grid
@@ -26,9 +27,12 @@ def outliers(time: Array, values: Array) -> Places:
 
     size = max(FEWEST, 2 * round(0.5 * WINDOW / step_of(time)) + 1)
     away = np.abs(values - median_filter(values, size=size, mode="nearest"))
-    spread = 1.4826 * float(np.median(np.abs(values - np.median(values)))) or float(values.std())
-    limit = max(FAR * float(np.quantile(away, 0.95)), SHARE * spread)
-    return np.flatnonzero(away > limit) if limit > 0.0 else np.empty(0, dtype=np.intp)
+    level = np.abs(values - np.median(values))
+    whole = 1.4826 * float(np.median(level)) or float(values.std())
+    wide = 2 * round(0.5 * AROUND / step_of(time)) + 1
+    spread = np.maximum(whole, 1.4826 * median_filter(level, size=wide, mode="nearest"))
+    limit = np.maximum(FAR * float(np.quantile(away, 0.95)), SHARE * spread)
+    return np.flatnonzero((away > limit) & (limit > 0.0))
 
 
 def filled(time: Array, values: Array, missing: NDArray[np.bool_]) -> Array:
@@ -78,7 +82,8 @@ def share_above(values: Array, step: float, frequency: float) -> float:
 
 
 def low_passed(values: Array, step: float, frequency: float) -> Array:
-    """Butterworth of fourth order in both directions: amplitudes times 1 / (1 + (f / frequency)^8), no lag.
+    """Butterworth of fourth order in both directions, no lag. Amplitudes are taken times
+    1 / (1 + (tan(pi f step) / tan(pi frequency step))^8).
 
     values (n, columns) on an even grid. Beyond its ends the record is continued by its mirror image turned
     about the end point, over three periods of `frequency`.
