@@ -186,7 +186,7 @@ REFUSED = {
     "a cell too many": (lambda rows: rows[48].append("1"), r"line 50: has 5 cells, and the header 4"),
     "lines that are gone": (
         lambda rows: rows.__delitem__(slice(300, 312)),
-        r"line 302, column 'time \[s\]': 1.3 s after the line above .*: samples are missing; maximum_gap=1.301",
+        r"line 302, column 'time \[s\]': 1.3 s after the line above .*: samples are missing; maximum_gap=1.3",
     ),
     "a roll of 40 rad": (
         put(50, 2, f"{np.degrees(40.0):.6f}"),

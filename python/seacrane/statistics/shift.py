@@ -88,17 +88,19 @@ def _correlations(
 
 
 def _warn_of_doubt(shifts: Array, found: Array, best: int) -> None:
-    top = float(found[best])
+    top = _vertex(found, best)
     inner = np.flatnonzero((found[1:-1] >= found[:-2]) & (found[1:-1] > found[2:])) + 1
-    rest = np.array([at for at in inner.tolist() if at != best], dtype=int)
-    second = int(rest[found[rest].argmax()]) if rest.size else best
     left = AS_GOOD[0] * (1.0 - top**2) + AS_GOOD[1]
+    good = [at for at in inner.tolist() if at != best and 1.0 - max(0.0, _vertex(found, at)) ** 2 <= left]
     if top < LEAST_CORRELATION:
         words = f"the correlation is {top:.3f} at best: these may not be the same curves, or of other sign"
     elif best in (0, found.size - 1) and found.size > 1:
         words = f"the correlation still grows at {shifts[best]:+.4g} s, the longest shift that was looked at"
-    elif second != best and 1.0 - max(0.0, float(found[second])) ** 2 <= left:
-        words = f"{shifts[second]:+.4g} s is as good: correlation {found[second]:.4f} against {top:.4f}"
+    elif good:
+        other = min(good, key=lambda at: abs(at - best))
+        words = (
+            f"{shifts[other]:+.4g} s is as good: correlation {_vertex(found, other):.4f} against {top:.4f}"
+        )
     else:
         return
     warn_caller(
@@ -106,6 +108,15 @@ def _warn_of_doubt(shifts: Array, found: Array, best: int) -> None:
         "have the same clock",
         UncertainShiftWarning,
     )
+
+
+def _vertex(found: Array, at: int) -> float:
+    """Top of the parabola through a value and its two neighbours, where it has two."""
+    if not 0 < at < found.size - 1:
+        return float(found[at])
+    before, top, after = found[at - 1 : at + 2].tolist()
+    bend = 2.0 * top - before - after
+    return float(top + (after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else float(top)
 
 
 def _between(time: Array, run: Array, times: Array, record: Array, near: float, step: float) -> float:
