@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
@@ -37,7 +37,7 @@ def recorded_motion(
         raise SceneError(f"columns names {listed(unknown)}; give names for time and for {', '.join(MOTIONS)}")
     usual = {name: ("yaw", *COMPASS) if name == "yaw" else name for name in MOTIONS if name not in still}
     series = MeasuredSeries.load(path, columns={**usual, **(columns or {})}, **reading)
-    _require_units(series)
+    _require_units(path, series)
     motion = np.zeros((series.time.size, 6))
     told = [series.told]
     for name, values in series.columns.items():
@@ -61,12 +61,12 @@ def _motions(what: str, names: Sequence[str]) -> list[str]:
     return found
 
 
-def _require_units(series: MeasuredSeries) -> None:
+def _require_units(path: str | PathLike[str], series: MeasuredSeries) -> None:
     for name, unit in series.units.items():
         due = "m" if MOTIONS.index(name) < 3 else "rad"
         if unit != due:
             raise FileFormatError(
-                f"{series.source}: column {series.headers[name]!r} is in {unit}, and {name} in {due} or a "
+                f"{fspath(path)}: column {series.headers[name]!r} is in {unit}, and {name} in {due} or a "
                 f"unit of its kind; give the right column or unit: columns={{{name!r}: ...}}, "
                 f"units={{{name!r}: ...}}"
             )

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 FEWEST = 8
+MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -242,7 +243,8 @@ class MeasuredSeries:
         if is_even(self.time):
             return self
         step = self.interval
-        time, values = on_grid(self.source, self.time, self._table(), step)
+        most = MOST_FILLED * self.time.size
+        time, values = on_grid(self.source, self.time, self._table(), step, most=most)
         return self._with(time, values, f"put on even times of {step:.6g} s by cubic splines")
 
     def _with(self, time: Array, values: Array, words: str) -> MeasuredSeries:

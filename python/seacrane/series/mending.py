@@ -52,8 +52,10 @@ def is_even(time: Array) -> bool:
     return bool(np.abs(time - grid).max() <= EVEN * step)
 
 
-def on_grid(what: str, time: Array, values: Array, step: float) -> tuple[Array, Array]:
-    """Times every `step` (s) from the first on, and the cubic splines (n, columns) there.
+def on_grid(
+    what: str, time: Array, values: Array, step: float, *, most: int = LARGEST
+) -> tuple[Array, Array]:
+    """Times every `step` (s) from the first on, `most` at most, and the cubic splines (n, columns) there.
 
     Raises
     ------
@@ -63,10 +65,10 @@ def on_grid(what: str, time: Array, values: Array, step: float) -> tuple[Array, 
     from scipy.interpolate import CubicSpline
 
     count = np.floor((time[-1] - time[0]) / step * (1.0 + 1e-12)) + 1.0
-    if not 2.0 <= count <= LARGEST:
+    if not 2.0 <= count <= most:
         raise SceneError(
             f"{what}: an interval of {step:.6g} s makes {count:.4g} samples of {time[-1] - time[0]:.6g} s; "
-            f"give one that makes 2 to {LARGEST:.0e}"
+            f"2 to {most} are allowed: give another interval, or cut the record at its gaps"
         )
     grid = np.minimum(time[0] + step * np.arange(int(count)), time[-1])
     return grid, np.asarray(CubicSpline(time, values)(grid))

@@ -23,6 +23,7 @@ Bools = NDArray[np.bool_]
 FEWEST = 8
 MOST_NAMED = 5  # outliers that a warning lists
 POSSIBLE = {"roll": (0.5 * np.pi, "rad"), "pitch": (0.5 * np.pi, "rad"), "heave": (100.0, "m")}
+SHORTEST = 1e-9  # s between two times that differ
 ROUNDING = 1e-9  # of a gap
 
 
@@ -53,10 +54,10 @@ def require_increasing(rows: Rows) -> None:
     if missing.size:
         raise rows.refused(int(missing[0]), rows.clock, "has no time; give it, or delete the line")
     steps = np.diff(time)
-    wrong = np.flatnonzero(steps <= 0.0)
+    wrong = np.flatnonzero(steps < SHORTEST)
     if wrong.size:
         at = int(wrong[0])
-        what = "repeats" if steps[at] == 0.0 else f"is {-steps[at]:.4g} s before"
+        what = "repeats" if steps[at] >= 0.0 else f"is {-steps[at]:.4g} s before"
         raise rows.refused(
             at + 1, rows.clock, f"{time[at + 1]:.10g} s {what} the time of the line above it, and so do "
             f"{wrong.size - 1} more lines; a clock that was set back, or stamps that are too coarse: correct "
