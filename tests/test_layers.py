@@ -24,6 +24,7 @@ FLOORS = """
     hydro.hull
     hydro
     description
+    series
     validity
     crane
     analysis

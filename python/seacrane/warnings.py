@@ -327,7 +327,7 @@ class NoisyMotionWarning(SceneWarning):
 
     No ship moves so: it is noise of the measurement (5 mm at 10 Hz are 2 m/s2), or a time in another unit,
     or a model's time. Lines and cylinders feel it as a load. Filter the record below 0.5 Hz, in both
-    directions so that its phase stays.
+    directions so that its phase stays: `MotionHistory.load(path, filter_hz=0.5)` does.
     """
 
 
@@ -481,6 +481,45 @@ class LineRungWarning(SceneWarning):
 
     A second run was made from the same start with elastic lines: its result is that of `rung="elastic"`, and
     the first one was lost time. Give the line that rung (`docs/lines.md`).
+    """
+
+
+class SeriesWarning(SeacraneWarning):
+    """Of measured series, and of runs that are compared with them."""
+
+
+class FilledGapWarning(SeriesWarning):
+    """Values were missing in a measured series, and `maximum_gap` let cubic splines fill them.
+
+    The message names how many gaps, the longest and its line. A spline over an eighth of a period is right
+    to some thousandths of the amplitude, over a quarter to some hundredths, over half a period it is a
+    guess: cut the record there by `after` and `before`.
+    """
+
+
+class OutlierWarning(SeriesWarning):
+    """Single samples of a measured series, or a few in a row, are far from those around them: beyond half a
+    standard deviation, and five times the distance within which 95 % of all samples are.
+
+    The message names the first five by line and column. A ship does not jump; a wire may snap. Look at them.
+    `drop_outliers=True` takes them for missing values.
+    """
+
+
+class ClockDriftWarning(SeriesWarning):
+    """The clock of a measured series gains or loses more than a sample over the record, on a second clock in
+    its file or on the number of its samples at the rate that was given as `rate_hz`.
+
+    Phases and shifts are wrong by as much. Take the clock that is right, or correct the times.
+    """
+
+
+class UncertainShiftWarning(SeriesWarning):
+    """`compare` found a shift in time that the two curves do not tell for sure: their correlation there is
+    below 0.5, or it still grows at the longest shift that was looked at, or another shift is as good.
+
+    The message says which. Curves of one period fit again after each. Give a smaller `maximum_shift`, or 0
+    where both have the same clock.
     """
 
 

@@ -161,6 +161,36 @@ def orcaflex_seeds(hull: HydroDatabase) -> None:
     put("orcaflex-text", "model", text_of(short(document)).encode())
 
 
+def series_seeds() -> None:
+    """Records of loggers: decimal commas under a line of units, and time stamps with a second clock."""
+    time = np.arange(60) * 0.1
+    columns = [time, np.sin(time), 0.1 * np.cos(time), 2.0 * np.sin(time), np.cos(time), 359.5 + np.sin(time)]
+    rows = [[f"{value:.4f}" for value in row] for row in zip(*columns, strict=True)]
+    head = "Time (s);Surge_m;Heave [m];Roll (deg);Pitch [deg];Heading [deg]"
+    comma = "\n".join(";".join(row).replace(".", ",") for row in rows)
+    put("series", "commas", f"Logger 7\n{head}\n{comma}\n".encode())
+    bare = "time\theave\troll\ns\tcm\tdeg\n# begins\n"
+    some = [[row[0], row[2], row[3]] for row in rows]
+    put("series", "units-below", (bare + "\n".join("\t".join(row) for row in some)).encode("utf-16"))
+    some[20][1], some[30][2], some[40][1] = "", "90", "NaN"
+    del some[50:52]
+    put("series", "gaps", ("time_s heave_m roll_deg\n" + "\n".join(" ".join(r) for r in some[:20])).encode())
+    put("series", "mended", ("time_s,heave_m,roll_deg\n" + "\n".join(",".join(r) for r in some)).encode())
+    stamps = [f"2026-03-01T12:00:{float(row[0]):06.3f}Z,{float(row[0]) * 1.1:.3f}," for row in rows]
+    lines = [stamp + ",".join(row[1:]) for stamp, row in zip(stamps, rows, strict=True)]
+    named = "utc,clock [s]," + ",".join(head.split(";")[1:])
+    put("motion-record", "stamps", (named + "\n" + "\n".join(lines) + "\n").encode("latin-1"))
+    late = [[f"{float(row[0]) + 3.0 * (i > 30):.2f}", *row[1:]] for i, row in enumerate(rows)]
+    put("motion-record", "jump", (head + "\n" + "\n".join(";".join(row) for row in late)).encode())
+    degrees = head.replace("Heave [m]", "Heave [deg]")
+    put("motion-record", "units", (degrees + "\n" + "\n".join(";".join(row) for row in rows)).encode())
+    put(
+        "motion-record",
+        "radians",
+        (head.replace("deg", "rad") + "\n" + "\n".join(map(";".join, rows))).encode(),
+    )
+
+
 def short(value: Any) -> Any:
     """The same document with numbers of five digits, infinity as a word."""
     if isinstance(value, dict):
@@ -369,6 +399,7 @@ def main() -> None:
     wamit_seeds()
     orcaflex_seeds(hull)
     hull_seeds()
+    series_seeds()
     put("crane", "shipped", DEFAULT_PATH.read_bytes())
     put("lift", "every-table", EVERY_TABLE.encode())
     put("lift", "case3", DEFAULT_PATH.with_name("lifts").joinpath("case3.toml").read_bytes())

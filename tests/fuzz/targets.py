@@ -16,7 +16,7 @@ import numpy as np
 from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
-from seacrane import Lift, Scene, sea
+from seacrane import Lift, MotionHistory, Scene, sea
 from seacrane.crane import JointedCrane, KnuckleBoomCrane
 from seacrane.crane.jointed_file import load as load_jointed
 from seacrane.crane.urdf import read_urdf
@@ -30,6 +30,7 @@ from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.state import load_state
 from seacrane.lift.study_file import StudyFile
 from seacrane.result import Result
+from seacrane.statistics import MeasuredSeries
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen
@@ -220,6 +221,20 @@ def _measured(path: Path) -> Any:
     return [waves.band_passed(), components.amplitude, components.phase]
 
 
+def _series(path: Path) -> Any:
+    """Columns of any kind, mended, filtered and resampled where that is possible."""
+    found = MeasuredSeries.load(path, maximum_gap=1.0, drop_outliers=True)
+    with contextlib.suppress(SceneError):
+        found = found.filtered(0.3).resampled(1.0)
+    return [found.time, *found.columns.values()]
+
+
+def _motion_record(path: Path) -> Any:
+    """Six motions of a file without one of them."""
+    history = MotionHistory.load(path, zero=["sway"], rate_hz=10.0)
+    return [history.time, history.motion]
+
+
 def _state(path: Path) -> Any:
     """A state file as it is, then with its checksum made right, so that damage reaches the reader."""
     content = path.read_bytes()
@@ -256,6 +271,8 @@ _VERES = tuple(
 _WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
 _NEMOH = ("hydro/readers/nemoh.py",)
 _LIFT = tuple(f"lift/{name}.py" for name in ("document", "text_lines", "check_keys", "curve_text"))
+_SERIES = tuple(f"series/{name}.py" for name in ("series_file", "headings", "reading", "rows", "clock"))
+_RECORDED = (*_SERIES, "series/mending.py", "scene/recorded_motion.py")
 _SHAPE = (FileFormatError, ValueError)
 
 
@@ -300,6 +317,11 @@ _ALL = [
     Target(
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
         refusals=(SceneError,),
+    ),
+    Target("series", "series", "mru.csv", _series, _RECORDED, refusals=(FileFormatError, SceneError)),
+    Target(
+        "motion-record", "series", "mru.csv", _motion_record, _RECORDED,
+        refusals=(FileFormatError, SceneError),
     ),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py",

@@ -16,7 +16,7 @@ from seacrane.inputs.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
 # older files lack them
-_NEWER = ("memory_error", "free_surface", "slack_tanks")  # not in files of older versions
+_NEWER = ("memory_error", "free_surface", "slack_tanks", "record")  # not in files of older versions
 _GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", *_NEWER))
 _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 
@@ -143,7 +143,7 @@ def provenance_from_node(node: Node, scene: Description) -> None:
         for key, count in (("omega", 2), ("size", 3), ("free_surface", 3), ("slack_tanks", 2)):
             row = _optional(entry, key)
             known[key] = None if row is None else tuple(row.array((count,)).tolist())
-        for key in ("database", "memory", "motion"):
+        for key in ("database", "memory", "motion", "record"):
             text = _optional(entry, key)
             known[key] = None if text is None else text.text()
         for key in ("ramp", "duration", "memory_error"):

@@ -23,6 +23,8 @@ class VesselProvenance:
         What a memory fitted by motion changes of any motion: `MotionError.worst`.
     motion : str or None
         Of a vessel whose motion is given: "raos", "history" or "rest"; None for one that floats.
+    record : str or None
+        Where a measured motion comes from and what was done to it.
     ramp, duration : float or None
         Of that motion: s over which it grows from rest, and s at which it ends.
     size : (float, float, float) or None
@@ -44,6 +46,7 @@ class VesselProvenance:
     memory_error: float | None = None
     free_surface: tuple[float, float, float] | None = None
     slack_tanks: tuple[float, float] | None = None
+    record: str | None = None
 
     @property
     def taken(self) -> tuple[float, float, float]:

@@ -147,7 +147,9 @@ def _given_vessel_keys() -> tuple[Key, ...]:
     """Of `add_given_vessel`, whose motion is one of four keys."""
     motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
     history = keys_of(
-        MotionHistory, more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions}
+        MotionHistory,
+        more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions},
+        without=("record",),
     )
     keys = keys_of(
         given_vessel.add_given_vessel,

@@ -108,6 +108,7 @@ def origin_settings(scene: Description) -> dict[str, Any]:
         band = None if known.omega is None else list(known.omega)
         values: dict[str, Any] = {"database": known.database, "database_omega": band, "memory": known.memory}
         values |= {"memory_error": known.memory_error, "given_motion": known.motion}
+        values |= {"given_record": known.record}
         for key, value in {**values, "kinematics": vessel.kinematics}.items():
             found.setdefault(key, {})[vessel.body] = value
     hulls = {} if scene.waves is None else scene.waves.hulls

@@ -110,6 +110,7 @@ def add_given_vessel(
         ramp=None if kind == "rest" else grown,
         duration=None if kind == "rest" else lasting,
         size=outline,
+        record=motion.record or None if isinstance(motion, MotionHistory) else None,
     )
     return added
 

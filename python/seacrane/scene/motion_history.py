@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -13,8 +15,9 @@ from seacrane.description.curves import spline_curve
 from seacrane.description.sum_of_cosines import ramp_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import rows_of, vector_of
+from seacrane.inputs.checked import rows_of, text_of, vector_of
 from seacrane.inputs.frames import MOTIONS
+from seacrane.scene.recorded_motion import recorded_motion
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
 Array = NDArray[np.float64]
@@ -39,6 +42,8 @@ class MotionHistory:
         s, increasing, from 0 or earlier on; at least 6.
     motion : array_like, shape (n, 6)
         Surge, sway, heave (m, from rest, along the ship's axes at rest) and roll, pitch, yaw (rad).
+    record : str
+        Where they come from and what was done to them, as `load` tells it; results hold it as `given_record`.
 
     Raises
     ------
@@ -57,6 +62,7 @@ class MotionHistory:
 
     time: Any
     motion: Any
+    record: str = ""
 
     def __post_init__(self) -> None:
         time = np.array(vector_of("motion history: time", self.time))
@@ -83,9 +89,61 @@ class MotionHistory:
         for key, array in (("time", time), ("motion", motion)):
             array.setflags(write=False)
             object.__setattr__(self, key, array)
+        text_of("motion history: record", self.record)
         self._warn_of_degrees()
         self._warn_of_heave()
         self._warn_of_noise()
+
+    @classmethod
+    def load(
+        cls,
+        path: str | PathLike[str],
+        *,
+        zero: Sequence[str] = (),
+        negated: Sequence[str] = (),
+        columns: Mapping[str, str] | None = None,
+        **reading: Any,
+    ) -> MotionHistory:
+        """Read the record of a motion sensor: a text file of columns with units, such as "roll [deg]".
+
+        Its first sample is at 0. A column of heading is taken as yaw: from its mean, against the compass.
+
+        Parameters
+        ----------
+        path : path
+            CSV, TSV and the like (`docs/given-ships.md`).
+        zero : sequence of str
+            Motions that the file does not hold, which are zero: ("surge", "sway").
+        negated : sequence of str
+            Motions that the sensor counts with the other sign: positive here are heave up, roll that lifts
+            the port side, pitch that lowers the bow, and yaw to port.
+        columns : mapping of str to str, optional
+            What the file calls "time" and motions whose names it has not.
+        **reading
+            Other keywords of `MeasuredSeries.load`, such as ``filter_hz=0.5, interval=0.25``.
+
+        Returns
+        -------
+        MotionHistory
+            `record` says what was done.
+
+        Raises
+        ------
+        FileFormatError
+            For what cannot be read, with line and column.
+        SceneError
+            For a keyword that makes no sense, or what no history may hold.
+        OSError
+            If the file cannot be opened.
+
+        Warns
+        -----
+        FilledGapWarning, OutlierWarning, ClockDriftWarning, and those of a history
+        """
+        time, motion, told = recorded_motion(
+            path, zero=zero, negated=negated, columns=columns, reading=reading
+        )
+        return cls(time=time, motion=motion, record=told)
 
     def _warn_of_degrees(self) -> None:
         largest = np.abs(self.motion[:, 3:5]).max(axis=0)
@@ -128,8 +186,8 @@ class MotionHistory:
             warn_caller(
                 f"motion history: {MOTIONS[worst]} is shaken by {np.sqrt(fast[worst]):.3g} {unit} (rms) at "
                 "periods below 1.5 s, which no ship has: noise of the measurement, which lines and cylinders "
-                "feel as loads, or a time in another unit. Filter the record below 0.5 Hz, or smooth it, "
-                "before it is given",
+                "feel as loads, or a time in another unit. Filter the record below 0.5 Hz: "
+                "MotionHistory.load(path, filter_hz=0.5) does",
                 NoisyMotionWarning,
             )
 

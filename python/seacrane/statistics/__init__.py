@@ -1,4 +1,4 @@
-"""Statistics of records and of the maxima of seeds: what is exceeded, and how sure that is."""
+"""Statistics of records and of the maxima of seeds, how sure they are, and runs beside what was measured."""
 
 from seacrane.lazy import face
 

@@ -1,4 +1,4 @@
-"""Statistics of records and of the maxima of seeds: what is exceeded, and how sure that is."""
+"""Statistics of records and of the maxima of seeds, how sure they are, and runs beside what was measured."""
 
 from seacrane.statistics.of_results import extremes as extremes
 from seacrane.statistics.estimate import Maximum as Maximum
@@ -15,3 +15,6 @@ from seacrane.statistics.control_variate import controlled_mean as controlled_me
 from seacrane.statistics.control_variate import ControlledMean as ControlledMean
 from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
 from seacrane.statistics.spectrum import SpectrumEstimate as SpectrumEstimate
+from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
+from seacrane.statistics.compare import compare as compare
+from seacrane.statistics.comparison import Comparison as Comparison

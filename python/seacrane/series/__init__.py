@@ -1,0 +1,1 @@
+"""Measured series: their files, their clock, what is mended in them, and the values themselves."""

@@ -1,0 +1,261 @@
+"""A measured series: columns over time in SI units, and what was done to them since they were read."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.checked import positive_of, text_of, vector_of
+from seacrane.inputs.shown import listed, shown
+from seacrane.series.clock import BROKEN, step_of
+from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
+from seacrane.series.reading import Columns, read_series
+
+if TYPE_CHECKING:
+    import pandas
+
+Array = NDArray[np.float64]
+FEWEST = 8
+MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class MeasuredSeries:
+    """Columns over time, from a logger or from arrays; immutable, SI units and radians.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, increasing; at least 8.
+    columns : mapping of str to ndarray, shape (n,)
+        By name.
+    units : mapping of str to str
+        The SI unit of each column.
+    source : str
+        Where they come from, such as the name of a file.
+    done : tuple of str
+        What was done to them since, in words, in its order.
+    headers : mapping of str to str
+        What columns are called in their file.
+
+    Raises
+    ------
+    SceneError
+        For columns of another length, values that are not finite, or times that do not increase.
+    """
+
+    time: Array
+    columns: Mapping[str, Array]
+    units: Mapping[str, str]
+    source: str = "arrays"
+    done: tuple[str, ...] = ()
+    headers: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        time = _checked("measured series: time", self.time)
+        if time.size < FEWEST:
+            raise SceneError(f"measured series: time has {time.size} samples; give at least {FEWEST}")
+        if np.any(np.diff(time) <= 0.0):
+            at = int(np.argmax(np.diff(time) <= 0.0))
+            raise SceneError(
+                f"measured series: time is {time[at + 1]:.6g} s after {time[at]:.6g} s; times must increase"
+            )
+        if not isinstance(self.columns, Mapping) or not self.columns:
+            raise SceneError("measured series: columns is empty, or no mapping; give {name: values}")
+        columns = {name: _checked(f"measured series: {name}", one) for name, one in self.columns.items()}
+        for name, values in columns.items():
+            if values.size != time.size:
+                raise SceneError(
+                    f"measured series: {name} has {values.size} values and time {time.size}; give as many"
+                )
+        units = {name: text_of(f"measured series: unit of {name}", self.units.get(name)) for name in columns}
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, "columns", MappingProxyType(columns))
+        object.__setattr__(self, "units", MappingProxyType(units))
+
+    @classmethod
+    def load(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        columns: Columns | None = None,
+        units: Mapping[str, str] | None = None,
+        after: float | None = None,
+        before: float | None = None,
+        maximum_gap: float = 0.0,
+        drop_outliers: bool = False,
+        rate_hz: float | None = None,
+        filter_hz: float | None = None,
+        interval: float | None = None,
+    ) -> MeasuredSeries:
+        """Read a text file of columns (CSV, TSV); its delimiter, header and units are found.
+
+        Parameters
+        ----------
+        path : path
+        columns : sequence of str, or mapping of str to str
+            Which columns to take, by the names in the header, or the names there by the names here, "time"
+            among them: ``{"time": "GPS clock", "hook load": "HL main [t]"}``; a tuple of names: the first
+            that is there. Default: all.
+        units : mapping of str to str
+            Of columns without a unit in the header, or of those whose unit there is wrong.
+        after, before : float, optional
+            s of the file's own clock, from its first stamp where it has time stamps: what is earlier or later
+            is left out.
+        maximum_gap : float
+            s, the longest gap that is filled by a cubic spline; default 0: any gap is refused.
+        drop_outliers : bool
+            Take outliers for missing values, which `maximum_gap` lets be filled.
+        rate_hz : float, optional
+            At which the logger says that it samples: the clock is then compared with it.
+        filter_hz : float, optional
+            Low-pass filter, as `filtered` does it, Hz.
+        interval : float, optional
+            s between two values, as `resampled` does it. Default: as in the file.
+
+        Returns
+        -------
+        MeasuredSeries
+            `done` says what was filled, filtered and resampled.
+
+        Raises
+        ------
+        FileFormatError
+            For what cannot be read: it names the file, the line and the column.
+        SceneError
+            For a keyword that makes no sense, or a name that the file does not hold.
+        OSError
+            If the file cannot be opened.
+
+        Warns
+        -----
+        FilledGapWarning, OutlierWarning, ClockDriftWarning
+        """
+        read = read_series(
+            Path(path), columns=columns, units=units, after=after, before=before, maximum_gap=maximum_gap,
+            drop_outliers=drop_outliers, rate_hz=rate_hz,
+        )  # fmt: skip
+        found = cls(
+            time=read.time, columns=read.columns, units=read.units, source=Path(path).name, done=read.done,
+            headers=read.headers,
+        )  # fmt: skip
+        if np.diff(found.time).max() > BROKEN * found.interval:  # a gap that was accepted
+            found = found._even()
+        found = found if filter_hz is None else found.filtered(filter_hz)
+        return found if interval is None else found.resampled(interval)
+
+    def __getitem__(self, name: str) -> Array:
+        """The column of a name; the error lists those that are there."""
+        if name not in self.columns:
+            raise SceneError(
+                f"measured series: no column {shown(name)}; it holds {listed(list(self.columns))}"
+            )
+        return self.columns[name]
+
+    @property
+    def interval(self) -> float:
+        """s between two samples; of an uneven series the mean of all steps that are no gap."""
+        return step_of(self.time)
+
+    def filtered(self, filter_hz: float) -> MeasuredSeries:
+        """Without what is faster than a frequency, Hz, and without lag.
+
+        A Butterworth filter of fourth order runs in both directions over an even grid. Amplitudes are taken
+        times about 1 / (1 + (f / filter_hz)^8): half at `filter_hz`, 0.4 % less at half of it. Ends are
+        continued by their mirror image, turned about the end point: the first and last period of `filter_hz`
+        are less sure.
+
+        Raises
+        ------
+        SceneError
+            For a frequency that is not between zero and half the sampling rate.
+        """
+        highest = 0.5 / self.interval
+        if not 0.0 < (frequency := positive_of("filter_hz", filter_hz, "Hz")) < highest:
+            raise SceneError(
+                f"filter_hz is {frequency:g}, and the series has a sample each {self.interval:.4g} s, which "
+                f"hold up to {highest:.4g} Hz; give less, or leave it out"
+            )
+        even = self._even()
+        values = low_passed(even._table(), even.interval, frequency)
+        words = f"low-pass at {frequency:g} Hz, Butterworth of order 4 in both directions"
+        return even._with(even.time, values, words)
+
+    def resampled(self, interval: float) -> MeasuredSeries:
+        """At even times, `interval` (s) apart from the first on, by cubic splines.
+
+        Raises
+        ------
+        SceneError
+            Where more than 1 % of a column's variance is faster than the new times can hold: filter it first.
+        """
+        step, even = positive_of("interval", interval, "s"), self._even()
+        fast = share_above(even._table(), even.interval, 0.5 / step) if step > even.interval else 0.0
+        if fast > ALIASED:
+            raise SceneError(
+                f"interval is {step:g} s, and {fast:.1%} of a column's variance is faster than "
+                f"{0.5 / step:.4g} Hz, which would turn into slow motion; give filter_hz={0.4 / step:.3g} or "
+                "less with it"
+            )
+        time, values = on_grid(self.source, self.time, self._table(), step)
+        return self._with(time, values, f"resampled to {step:g} s by cubic splines")
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A table of the columns by time (s); `attrs["units"]` holds the unit of each."""
+        import pandas
+
+        table = pandas.DataFrame(dict(self.columns), index=pandas.Index(self.time, name="time"))
+        table.attrs["units"] = dict(self.units)
+        return table
+
+    def to_csv(self, path: str | os.PathLike[str]) -> Path:
+        """Write comma-separated values that `load` reads: the unit of each column is in its name."""
+        table = self.to_dataframe().rename(columns={n: f"{n} [{u}]" for n, u in self.units.items()})
+        with atomic_write(Path(path)) as draft:
+            table.to_csv(draft, index_label="time [s]")
+        return Path(path)
+
+    @property
+    def told(self) -> str:
+        """In one line, for the notes of what is made of it."""
+        return "; ".join([self.source, *self.done, f"{self.time.size} samples of {self.interval:.4g} s"])
+
+    def __repr__(self) -> str:
+        """Its columns with their ranges, and what was done to it."""
+        rows = [f"  {n} [{self.units[n]}]: {v.min():.5g} to {v.max():.5g}" for n, v in self.columns.items()]
+        size = f"{self.time.size} samples from {self.time[0]:.6g} to {self.time[-1]:.6g} s"
+        return "\n".join([f"{self.source}: {size}", *rows, *(f"  {one}" for one in self.done)])
+
+    def _table(self) -> Array:
+        """Shape (n, columns)."""
+        return np.stack(list(self.columns.values()), axis=1)
+
+    def _even(self) -> MeasuredSeries:
+        if is_even(self.time):
+            return self
+        step = self.interval
+        most = MOST_FILLED * self.time.size
+        time, values = on_grid(self.source, self.time, self._table(), step, most=most)
+        return self._with(time, values, f"put on even times of {step:.6g} s by cubic splines")
+
+    def _with(self, time: Array, values: Array, words: str) -> MeasuredSeries:
+        columns = dict(zip(self.columns, values.T, strict=True))
+        return replace(self, time=time, columns=columns, done=(*self.done, words))
+
+
+def _checked(what: str, values: Any) -> Array:
+    array = np.array(vector_of(what, values))
+    if not np.isfinite(array).all():
+        at = int(np.argmin(np.isfinite(array)))
+        raise SceneError(f"{what}[{at}] is {array[at]}; give finite numbers: leave such samples out")
+    array.setflags(write=False)
+    return array

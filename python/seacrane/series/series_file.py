@@ -1,0 +1,231 @@
+"""A text file of columns, as loggers and spreadsheets write it, whose errors name line and column."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.inputs.looks_like import looks_like
+from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.whole_file import read_whole
+from seacrane.series.headings import LONGEST, Heading, heading_of, is_line_of_units, plain_words
+
+Array = NDArray[np.float64]
+MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "nodata"])
+COMMENTS = ("#", "%", "//")
+DELIMITERS = "\t;,"
+OTHERS = frozenset(
+    ["rate", "velocity", "speed", "vel", "acc", "accel", "acceleration", "std", "max", "min", "mean"]
+)
+STAMP = " and no time stamp of ISO 8601 like the first one, as 2026-03-01T12:00:00.100"
+MOST_ABOVE = 100  # lines that may stand above the header
+LARGEST = 1e15  # of any number: a clock of milliseconds since 1970 has 2e12
+BYTE_ORDERS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16", b"\xef\xbb\xbf": "utf-8-sig"}
+
+
+class SeriesFile:
+    """The header of a file, and its columns as numbers when they are asked for.
+
+    The header is the first line with a column of time and another one. Its delimiter is a tab, a semicolon, a
+    comma or blanks; where it is no comma, numbers may have one. A second line may hold the units.
+    """
+
+    def __init__(self, path: Path, *, time: str | None = None) -> None:
+        self.path = path
+        self._lines = _lines_of(path)
+        self._time = None if time is None else plain_words(time)
+        at = next((i for i in range(min(MOST_ABOVE, len(self._lines))) if self._is_header(i)), None)
+        if at is None:
+            first = next((line for line in self._lines if line.strip()), "")
+            raise FileFormatError(
+                f"{path}: no line names columns, with one of time, as in 'time [s];roll [deg]'; it begins "
+                f"with {shown(first)}: write such a line above the numbers, or give columns={{'time': ...}}"
+            )
+        self.delimiter = _delimiter_of(self._lines[at])
+        self.headings = self._headings(at)
+        self.header = at + 1
+        self._first = at + 1
+        self._take_units()
+
+    def _headings(self, at: int) -> tuple[Heading, ...]:
+        cells = _cells_of_header(self._lines[at], self.delimiter)
+        if any(len(cell) > LONGEST for cell in cells):
+            raise FileFormatError(f"{self.path}, line {at + 1}: a name has more than {LONGEST} characters")
+        return tuple(heading_of(place, cell) for place, cell in enumerate(cells))
+
+    def _is_header(self, at: int) -> bool:
+        cells = _cells_of_header(self._lines[at], _delimiter_of(self._lines[at]))
+        found = [heading_of(0, cell) for cell in cells if len(cell) <= LONGEST]
+        if self._time is not None:
+            return any(self.is_named_clock(one) for one in found)
+        return len(cells) > 1 and any(one.is_time for one in found)
+
+    def _take_units(self) -> None:
+        at = next((i for i in range(self._first, len(self._lines)) if self._lines[i].strip()), None)
+        if at is None:
+            return
+        cells = self._lines[at].split(self.delimiter)
+        if len(cells) == len(self.headings) and is_line_of_units(cells):
+            self.headings = tuple(
+                replace(one, unit=one.unit or cell.strip().strip("\"'") or None)
+                for one, cell in zip(self.headings, cells, strict=True)
+            )
+            self._first = at + 1
+
+    def refused(self, line: int, heading: Heading, words: str) -> FileFormatError:
+        """An error at a line and a column."""
+        return FileFormatError(f"{self.path}, line {line}, column {shown(heading.text)}: {words}")
+
+    def is_named_clock(self, heading: Heading) -> bool:
+        """Whether it is the column of time that was named."""
+        return self._time is not None and self._time in (plain_words(heading.text), heading.name)
+
+    def clocks(self) -> list[Heading]:
+        """The columns of time, first the one that was named."""
+        times = [one for one in self.headings if one.is_time or self.is_named_clock(one)]
+        return sorted(times, key=lambda one: not self.is_named_clock(one))
+
+    def find(self, asked: str) -> Heading | None:
+        """The column of a name, with or without its unit; else the only one with all its words."""
+        words = plain_words(asked)
+        exact = [one for one in self.headings if plain_words(one.text) == words]
+        named = [one for one in self.headings if one.name == words]
+        near = [one for one in self.headings if _is_about(one, set(words.split()))]
+        return next((group[0] for group in (exact, named, near) if len(group) == 1), None)
+
+    def columns(self, wanted: Sequence[Heading], clocks: int) -> tuple[Array, NDArray[np.intp], str]:
+        """Numbers of columns, as they are written; missing ones are NaN.
+
+        Parameters
+        ----------
+        wanted : sequence of Heading
+            Columns of time first.
+        clocks : int
+            How many of them may hold time stamps.
+
+        Returns
+        -------
+        ndarray (n, columns), ndarray (n,), str
+            Time stamps are in s from the first; the line of each row; and that first stamp, or "".
+        """
+        numbers, lines = array("d"), array("q")
+        stamps: dict[int, datetime] = {}
+        for line in range(self._first, len(self._lines)):
+            text = self._lines[line]
+            if not text.strip() or text.lstrip().startswith(COMMENTS):
+                continue
+            cells = text.split(self.delimiter)
+            if len(cells) == len(self.headings) + 1 and not cells[-1].strip():
+                cells.pop()
+            if len(cells) != len(self.headings):
+                raise FileFormatError(
+                    f"{self.path}, line {line + 1}: has {len(cells)} cells, and the header "
+                    f"{len(self.headings)} ({listed([one.text for one in self.headings])}); complete the "
+                    "line or delete it"
+                )
+            row = _plain_row([cells[one.place] for one in wanted])
+            numbers.extend(row or self._row(line + 1, cells, wanted, clocks, stamps))
+            lines.append(line + 1)
+        rows = np.array(numbers, dtype=float).reshape(-1, len(wanted))
+        first = next((one.isoformat(sep=" ") for one in stamps.values()), "")
+        return rows, np.array(lines, dtype=np.intp), first
+
+    def _row(
+        self,
+        line: int,
+        cells: Sequence[str],
+        wanted: Sequence[Heading],
+        clocks: int,
+        stamps: dict[int, datetime],
+    ) -> list[float]:
+        found = []
+        for i, one in enumerate(wanted):
+            value = _number(cells[one.place], comma=self.delimiter != ",")
+            if value is None and i < clocks:
+                value = _stamp(cells[one.place], one, stamps)
+            if value is None and 0 < i < clocks:
+                value = float("nan")  # a second clock need not be one
+            if value is None or abs(value) > LARGEST:
+                kind = f"number of up to {LARGEST:g}" + (STAMP if i == 0 else "")
+                raise self.refused(
+                    line, one, f"{shown(cells[one.place])} is no {kind}; correct it, or leave the cell empty "
+                    "where the value is missing",
+                )  # fmt: skip
+            found.append(value)
+        return found
+
+
+def _lines_of(path: Path) -> list[str]:
+    data = read_whole(path, fix="cut the record into several files")
+    kind = BYTE_ORDERS.get(data[:3]) or BYTE_ORDERS.get(data[:2]) or "utf-8"
+    try:
+        text = data.decode(kind)
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if "\0" in text or not text.strip():
+        raise FileFormatError(f"{path}: is {looks_like(path, data)}; give a text file of columns (CSV, TSV)")
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+def _delimiter_of(line: str) -> str | None:
+    """None stands for blanks."""
+    return next((one for one in DELIMITERS if one in line), None)
+
+
+def _cells_of_header(line: str, delimiter: str | None) -> list[str]:
+    text = line.strip()
+    for sign in COMMENTS:
+        text = text.removeprefix(sign)
+    if delimiter is not None:
+        return text.split(delimiter)
+    cells: list[str] = []
+    for word in text.split():
+        if cells and word[0] in "[(":  # its unit, apart
+            cells[-1] += f" {word}"
+        else:
+            cells.append(word)
+    return cells
+
+
+def _plain_row(cells: Sequence[str]) -> list[float]:
+    """Numbers without anything to look at twice, or an empty list: the quick way for nearly all rows."""
+    try:
+        row = [float(cell) for cell in cells]
+    except ValueError:
+        return []
+    plain = all(-LARGEST <= value <= LARGEST for value in row) and not any("_" in cell for cell in cells)
+    return row if plain else []
+
+
+def _stamp(cell: str, one: Heading, stamps: dict[int, datetime]) -> float | None:
+    """s since the first stamp of a column; None for another text, or where one of both has no time zone."""
+    try:
+        stamp = datetime.fromisoformat(cell.strip().strip("\"'"))
+        return (stamp - stamps.setdefault(one.place, stamp)).total_seconds()
+    except (ValueError, TypeError, OverflowError):
+        return None
+
+
+def _is_about(heading: Heading, words: set[str]) -> bool:
+    has = set(heading.name.split())
+    return words <= has and not (has - words) & OTHERS
+
+
+def _number(cell: str, *, comma: bool) -> float | None:
+    """A number, NaN where it is missing, or None for another text."""
+    text = cell.strip().strip("\"'")
+    if text.lower() in MISSING:
+        return float("nan")
+    if comma:
+        text = text.replace(",", ".")
+    try:
+        return None if "_" in text else float(text)
+    except ValueError:
+        return None

@@ -1,0 +1,196 @@
+"""A run beside a record: what differs, in numbers, spectra and pictures."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.inputs.atomic import atomic_write
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.panel import Line, Panel, Sheet, draw
+from seacrane.plotting.text import text_table
+from seacrane.result.units import read_as
+from seacrane.series.clock import step_of
+from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+SEGMENTS = 7  # of the spectra: records are short
+NAMES = ("mean (bias)", "standard deviation", "largest", "smallest")
+HIGHEST = 0.999  # of the variance that a picture of spectra shows
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Comparison:
+    """A run and a record at the same times. Made by `compare`; prints as a table, in kN and deg.
+
+    Attributes
+    ----------
+    channel, column : str
+        Of the run, and of the record.
+    unit : str
+        SI, of all values.
+    source : str
+        Where the record comes from and what was done to it.
+    shift : float
+        s by which the record is later than the run; it was moved back by that.
+    correlation : float
+        Of both, there.
+    time : ndarray, shape (n,)
+        Of the run, s; these are the record's samples.
+    run, record : ndarray, shape (n,)
+    """
+
+    channel: str
+    column: str
+    unit: str
+    source: str
+    shift: float
+    correlation: float
+    time: Array
+    run: Array
+    record: Array
+
+    def __post_init__(self) -> None:
+        for values in (self.time, self.run, self.record):
+            values.setflags(write=False)
+
+    @property
+    def difference(self) -> Array:
+        """Run minus record, shape (n,)."""
+        return np.asarray(self.run - self.record)
+
+    @property
+    def bias(self) -> float:
+        """Mean of run minus record."""
+        return float(self.difference.mean())
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the difference, with the bias in it."""
+        return float(np.sqrt(np.mean(self.difference**2)))
+
+    @property
+    def scatter(self) -> float:
+        """Standard deviation of the difference: what is left of `rms` without the bias."""
+        return float(self.difference.std())
+
+    @property
+    def gain(self) -> float:
+        """Standard deviation of the run over that of the record."""
+        return float(self.run.std() / self.record.std())
+
+    def spectra(self) -> tuple[SpectrumEstimate, SpectrumEstimate]:
+        """Of the run and of the record, by Welch's method.
+
+        Raises
+        ------
+        SceneError
+            For fewer than 64 samples, or a curve that does not vary.
+        """
+        step = step_of(self.time)
+        grid = np.arange(self.time[0], self.time[-1] + 0.5 * step, step)
+        even = [np.interp(grid, self.time, values) for values in (self.run, self.record)]
+        first, second = (spectrum_estimate(values, dt=step, segments=SEGMENTS) for values in even)
+        return first, second
+
+    def plot(self) -> Figure:
+        """Both curves over time, and their difference."""
+        factor, unit = read_as(self.unit)
+        both = (
+            Line(label="run", values=factor * self.run),
+            Line(label="record, moved", values=factor * self.record, colour=1),
+        )
+        left = (Line(label="", values=factor * self.difference, colour=6),)
+        return draw(
+            Sheet(
+                title=self._caption(), caption=self.source, abscissa=self.time,
+                panels=(
+                    Panel(quantity=self.channel, unit=unit, lines=both),
+                    Panel(quantity="run minus record", unit=unit, lines=left),
+                ),
+            ),
+            note=self.source,
+        )  # fmt: skip
+
+    def plot_spectra(self) -> Figure:
+        """Spectra of both, up to where 99.9 % of the variance is; raises as `spectra`."""
+        factor, unit = read_as(self.unit)
+        run, record = self.spectra()
+        share = np.cumsum(run.density + record.density)
+        shown = slice(0, int(np.searchsorted(share, HIGHEST * share[-1])) + 2)
+        lines = tuple(
+            Line(label=name, values=factor**2 * one.density[shown], colour=i)
+            for i, (name, one) in enumerate((("run", run), ("record", record)))
+        )
+        return draw(
+            Sheet(
+                title=self._caption(), caption=self.source, abscissa=run.omega[shown],
+                abscissa_name="omega", abscissa_unit="rad/s",
+                panels=(Panel(quantity="spectrum", unit=f"({unit})2 s/rad", lines=lines),),
+            ),
+            note=self.source,
+        )  # fmt: skip
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Columns run, record and difference by the time of the run (s), SI; `attrs` hold unit and shift."""
+        import pandas
+
+        columns = {"run": self.run, "record": self.record, "difference": self.difference}
+        table = pandas.DataFrame(columns, index=pandas.Index(self.time, name="time"))
+        table.attrs |= {"units": dict.fromkeys(columns, self.unit), "shift": self.shift}
+        return table
+
+    def to_csv(self, path: str | os.PathLike[str]) -> Path:
+        """Write the table as comma-separated values, the unit in the name of each column."""
+        table = self.to_dataframe()
+        named = table.rename(columns={name: f"{name} [{self.unit}]" for name in table.columns})
+        with atomic_write(Path(path)) as draft:
+            named.to_csv(draft, index_label="time [s]")
+        return Path(path)
+
+    def __str__(self) -> str:
+        return "\n".join(
+            [self._caption(), text_table(self._head(), self._rows(), right=(1, 2, 3, 4)), self.source]
+        )
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return notebook_table(self._head(), self._rows(), caption=f"{self._caption()} {self.source}")
+
+    def _caption(self) -> str:
+        later = "later" if self.shift >= 0.0 else "earlier"
+        return (
+            f"{self.channel} against {self.column}: {self.time.size} samples, the record "
+            f"{abs(self.shift):.4g} s {later} than the run, correlation {self.correlation:.4f}"
+        )
+
+    def _head(self) -> list[str]:
+        unit = read_as(self.unit)[1]
+        return ["", f"run [{unit}]", f"record [{unit}]", f"run - record [{unit}]", "% of the record's range"]
+
+    def _rows(self) -> list[list[str]]:
+        factor, extent = read_as(self.unit)[0], float(np.ptp(self.record))
+
+        def row(name: str, difference: float, *both: float) -> list[str]:
+            share = f"{100.0 * difference / extent:+.2f}" if extent > 0.0 else ""
+            told = [f"{factor * one:.5g}" for one in both] or ["", ""]
+            return [name, *told, f"{factor * difference:+.4g}", share]
+
+        found = zip(NAMES, _figures(self.run), _figures(self.record), strict=True)
+        rows = [row(name, run - record, run, record) for name, run, record in found]
+        unsigned = row("RMS of the difference", self.rms), row("the same without bias", self.scatter)
+        return [*rows, *([cell.removeprefix("+") for cell in one] for one in unsigned)]
+
+
+def _figures(values: Array) -> tuple[float, float, float, float]:
+    return float(values.mean()), float(values.std()), float(values.max()), float(values.min())

@@ -1,0 +1,210 @@
+"""A run beside a record: the shift, bias and noise of made-up records are found; a measured roll decay."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+import pytest
+
+from seacrane import MotionHistory, Result, Scene, SceneError, simulate
+from seacrane.statistics import MeasuredSeries, compare
+from seacrane.warnings import UncertainShiftWarning
+
+# Ships that are led start where they are led to.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
+Array = np.ndarray
+Curve = Callable[[Array], Array]
+END = 200.0
+RANDOM = np.random.default_rng(11)
+OMEGA, PHASE = np.linspace(0.4, 1.1, 50), RANDOM.uniform(0.0, 2.0 * np.pi, 50)
+SIZE = 0.1
+
+
+def heave(time: Array) -> Array:
+    return np.asarray(SIZE * np.cos(np.outer(time, OMEGA) + PHASE).sum(axis=1))
+
+
+def led(motion: Curve, *, dt_out: float = 0.25) -> Result:
+    """A ship that heaves as it is told."""
+    time = np.arange(0.0, END + 1.0, 0.2)
+    six = np.zeros((time.size, 6))
+    six[:, 2] = motion(time)
+    scene = Scene(name="led")
+    scene.add_given_vessel(MotionHistory(time=time, motion=six), ramp=0.0)
+    return simulate(scene, t_end=END, dt_out=dt_out)
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return led(heave)
+
+
+def record(values: Curve, time: Array, unit: str = "m", name: str = "heave") -> MeasuredSeries:
+    return MeasuredSeries(time=time, columns={name: values(time)}, units={name: unit})
+
+
+@pytest.mark.parametrize("late", [0.0, 0.037, 1.234, -4.5])
+def test_the_shift_of_a_record_is_found_between_samples(result: Result, late: float) -> None:
+    """Without noise: to the error of the splines through run and record."""
+    time = np.arange(10.0, 180.0, 0.2)
+    found = compare(result, record(lambda t: heave(t - late), time))
+    assert found.shift == pytest.approx(late, abs=2e-4)
+    assert found.rms < 2e-4
+    assert found.correlation == pytest.approx(1.0, abs=1e-6)
+
+
+def test_bias_and_noise_are_found_with_their_scatter(result: Result) -> None:
+    """By many records: sigma of the shift is noise / (sqrt(n) rms rate), of the bias noise / sqrt(n)."""
+    time, noise, bias, late = np.arange(10.0, 180.0, 0.5), 0.05, 0.3, 0.8
+    rate = np.sqrt(0.5 * np.sum((SIZE * OMEGA) ** 2))
+    expected = noise / (np.sqrt(time.size) * rate)
+    shifts, biases, scatters = [], [], []
+    for seed in range(30):
+        random = np.random.default_rng(seed)
+        made = record(lambda t: heave(t - late) + bias + random.normal(0.0, noise, t.size), time)  # noqa: B023
+        found = compare(result, made)
+        shifts.append(found.shift - late)
+        biases.append(found.bias + bias)
+        scatters.append(found.scatter)
+    assert np.std(shifts) == pytest.approx(expected, rel=0.35)
+    assert abs(np.mean(shifts)) < 3.0 * expected / np.sqrt(30)
+    assert abs(np.mean(biases)) < 3.0 * noise / np.sqrt(30 * time.size) + 2e-4
+    assert np.mean(scatters) == pytest.approx(noise, rel=0.02)
+    assert found.rms == pytest.approx(np.hypot(found.bias, found.scatter), rel=1e-12)
+
+
+def test_differences_are_run_minus_record_and_signed(result: Result) -> None:
+    made = record(lambda t: 0.5 * heave(t) - 2.0, np.arange(0.0, END, 0.2))
+    found = compare(result, made, maximum_shift=0.0)
+    np.testing.assert_allclose(found.difference, 0.5 * heave(found.time) + 2.0, atol=2e-4)
+    assert (found.shift, found.gain) == (0.0, pytest.approx(2.0, rel=1e-3))
+    assert found.bias > 0.0
+    assert "mean (bias)" in str(found) and "+2" in str(found)
+
+
+def test_clocks_of_other_origin(result: Result) -> None:
+    """A record that begins at 7000 s of its clock is found where the longest shift allows it."""
+    made = record(lambda t: heave(t - 6990.0), np.arange(7000.0, 7120.0, 0.2))
+    with pytest.raises(SceneError, match=r"the record at 7000 s, and within shifts of 29.9.* give a larger"):
+        compare(result, made)
+    assert compare(result, made, maximum_shift=7100.0).shift == pytest.approx(6990.0, abs=2e-4)
+
+
+def test_a_shift_that_is_not_sure_is_told(result: Result) -> None:
+    time = np.arange(0.0, END, 0.2)
+    with pytest.warns(UncertainShiftWarning, match="the correlation is 0.*, or of other sign"):
+        compare(result, record(lambda t: np.random.default_rng(2).normal(size=t.size), time))
+    with pytest.warns(UncertainShiftWarning, match=r"still grows at [+]1 s, the longest"):
+        compare(result, record(lambda t: heave(t - 1.6), time), maximum_shift=1.0)
+    periodic = led(lambda t: np.cos(0.8 * t))
+    with pytest.warns(UncertainShiftWarning, match=r"[+-]7.8 s is as good"):
+        compare(periodic, record(lambda t: np.cos(0.8 * t), time))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = compare(periodic, record(lambda t: np.cos(0.8 * (t - 1.0)), time), maximum_shift=3.0)
+    assert found.shift == pytest.approx(1.0, abs=1e-4)
+
+
+def test_which_curve_is_said_by_the_one_text(result: Result) -> None:
+    made = record(heave, np.arange(0.0, END, 0.2), name="motion of the ship")
+    whole = compare(result, made, channel="vessel_motion[heave]")
+    late = compare(result, made, channel="vessel_motion[heave, after=60]")
+    assert whole.time[0] == pytest.approx(0.0, abs=0.3)
+    assert late.time[0] == pytest.approx(60.0, abs=0.2)
+    assert (late.channel, late.column) == ("vessel_motion[motion=heave, after=60]", "motion of the ship")
+
+
+@pytest.mark.parametrize(
+    ("unit", "given", "words"),
+    [
+        ("m", {"channel": "hook_load"}, "hook_load' is not in this result"),
+        ("m", {"channel": "position"}, "holds several curves"),
+        ("rad", {}, r"is in m, and column 'heave' in rad"),
+        ("m", {"column": "sway"}, "no column 'sway'"),
+        ("m", {"maximum_shift": -1.0}, "maximum_shift"),
+        ("m", {"channel": "heave[after=199.5]"}, "has 3 outputs|does not exist"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(
+    result: Result, unit: str, given: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(SceneError, match=words):
+        compare(result, record(heave, np.arange(0.0, END, 0.2), unit=unit), **given)
+
+
+def test_other_objects_and_still_curves_are_refused(result: Result) -> None:
+    time = np.arange(0.0, END, 0.2)
+    still = record(np.ones_like, time)
+    with pytest.raises(
+        SceneError, match="one of both does not vary, which tells no shift; give maximum_shift=0"
+    ):
+        compare(result, still)
+    assert compare(result, still, maximum_shift=0.0).bias == pytest.approx(heave(time).mean() - 1.0, abs=1e-3)
+    with pytest.raises(SceneError, match="give a Result and a MeasuredSeries"):
+        compare(result, {"heave": heave(time)})  # type: ignore[arg-type]
+    two = MeasuredSeries(time=time, columns={"a": time, "b": time}, units={"a": "m", "b": "m"})
+    with pytest.raises(SceneError, match="several columns; give column=, a, b"):
+        compare(result, two, channel="heave")
+
+
+def test_spectra_tables_and_pictures(result: Result, tmp_path: Path) -> None:
+    late = record(lambda t: 2.0 * heave(t - 0.5), np.arange(0.0, END, 0.2))
+    found = compare(result, late)
+    run, measured = found.spectra()
+    assert measured.std / run.std == pytest.approx(2.0, rel=1e-3)
+    assert run.std == pytest.approx(found.run.std(), rel=0.1)
+    table = pandas.read_csv(found.to_csv(tmp_path / "compared.csv"), index_col=0)
+    assert list(table.columns) == ["run [m]", "record [m]", "difference [m]"]
+    np.testing.assert_allclose(table["difference [m]"], found.difference, rtol=1e-12, atol=1e-15)
+    assert found.to_dataframe().attrs == {
+        "units": dict.fromkeys(("run", "record", "difference"), "m"), "shift": found.shift,
+    }  # fmt: skip
+    over_time, over_omega = found.plot(), found.plot_spectra()
+    upper, lower = over_time.axes
+    np.testing.assert_array_equal(upper.lines[1].get_ydata(), found.record)
+    np.testing.assert_array_equal(lower.lines[0].get_ydata(), found.difference)
+    assert over_omega.axes[0].lines[0].get_xdata()[-1] < 2.0
+    assert "<table" in found._repr_html_()
+
+
+def decay(inertia: float, stiffness: float, linear: float, quadratic: float, start: float) -> Scene:
+    """A body that rolls, from an angle (rad)."""
+    half = 0.5 * start
+    scene = Scene(name="decay", gravity=0.0)
+    turned = (float(np.cos(half)), float(np.sin(half)), 0.0, 0.0)
+    scene.add_body(name="hull", mass=1e3, inertia=[inertia, inertia, inertia], quaternion=turned)
+    restoring, damping = np.zeros((6, 6)), np.zeros((6, 6))
+    restoring[3, 3], damping[3, 3] = stiffness, linear
+    scene.add_vessel(
+        body="hull", added_mass=np.zeros((6, 6)), linear_damping=damping, restoring=restoring,
+        quadratic_damping=[0, 0, 0, quadratic, 0, 0],
+    )  # fmt: skip
+    return scene
+
+
+def test_the_roll_decay_of_a_tanker_model(shared: Path) -> None:
+    """SSPA's test of KVLCC2 beside an equation of its published period and damping.
+
+    Damping ratio 0.0034 + 0.0238 a: linear b1 / (2 I w), quadratic 4 / (3 pi) b2 / I times the amplitude.
+    """
+    path = shared / "measured" / "kvlcc2_roll_decay" / "roll.csv"
+    if not path.is_file():
+        pytest.skip(f"no {path}")
+    measured = MeasuredSeries.load(path, before=100.0)
+    assert (list(measured.columns), measured.units["roll"]) == (["roll"], "rad")
+    omega, inertia = 2.0 * np.pi / 2.547, 100.0
+    linear, quadratic = 2.0 * 0.0034 * omega * inertia, 0.0238 * 0.75 * np.pi * inertia
+    model = decay(inertia, omega**2 * inertia, linear, quadratic, float(measured["roll"][0]))
+    result = simulate(model, t_end=100.0, dt_out=0.05)
+    found = compare(result, measured, maximum_shift=1.0)
+    assert abs(found.shift) < 0.1
+    assert found.correlation > 0.99
+    assert found.rms / np.ptp(found.record) < 0.02
+    without = decay(inertia, omega**2 * inertia, linear, 0.0, float(measured["roll"][0]))
+    undamped = compare(simulate(without, t_end=100.0, dt_out=0.05), measured, maximum_shift=1.0)
+    assert undamped.gain > 1.2 * found.gain
