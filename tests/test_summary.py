@@ -70,18 +70,32 @@ def test_a_saved_result_tells_the_same(swinging: Result, tmp_path: Path) -> None
     assert summary(Result.load(tmp_path / "swing.nc")) == summary(swinging)
 
 
-def test_no_static_load_is_made_up() -> None:
-    """A bar on two links is statically indeterminate in its tensions: no weight is noted for either."""
+def bar(*rods: tuple[str, float]) -> Scene:
     scene = Scene(name="bar")
     scene.add_body(name="bar", mass=1e4, inertia=1e4 * np.eye(3), position=(0.0, 0.0, -5.0))
-    for name, x in (("left", -1.0), ("right", 1.0)):
+    for name, x in rods:
         scene.add_joint(
             name=name, kind="distance", first="ground", second="bar", point=(x, 0.0, 0.0),
             second_point=(x, 0.0, -5.0), length=5.0,
         )  # fmt: skip
-    told = summary(simulate(scene, t_end=0.5))
+    return scene
+
+
+def test_what_two_rods_share_has_the_static_load_of_the_scene_at_rest() -> None:
+    """A bar of 10 t, its rods at -1 and 3 m of its centre: 3/4 and 1/4 of its weight."""
+    told = summary(simulate(bar(("left", -1.0), ("right", 3.0)), t_end=0.5))
+    assert told["tension left"].static == pytest.approx(7.5e3 * G, rel=1e-9)
+    assert told["tension right"].static == pytest.approx(2.5e3 * G, rel=1e-9)
+    assert told["tension left"].static_known and told["tension left"].factor == pytest.approx(1.0, rel=1e-6)
+
+
+def test_no_static_load_is_made_up() -> None:
+    """A bar on three rods in a row is statically indeterminate: how they share it is not known."""
+    with pytest.warns(UserWarning, match="redundant"):
+        result = simulate(bar(("left", -1.0), ("middle", 0.0), ("right", 1.0)), t_end=0.5)
+    told = summary(result)
     row = told["tension left"]
-    assert not row.static_known and row.factor is None and row.mean == pytest.approx(5e3 * G, rel=1e-6)
+    assert not row.static_known and row.factor is None and row.mean == pytest.approx(1e4 / 3 * G, rel=1e-6)
     assert "* at the first output" in str(told)
 
 
