@@ -89,6 +89,29 @@ def test_what_two_rods_share_has_the_static_load_of_the_scene_at_rest() -> None:
     assert told["tension left"].static_known and told["tension left"].factor == pytest.approx(1.0, rel=1e-6)
 
 
+def test_block_slings_and_taglines_have_their_factors_by_themselves() -> None:
+    """With constant-tension taglines nothing hangs alone: static loads are those of the scene at rest."""
+    scene = Scene(name="rigged")
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), EA=3e7, block_mass=1e3, slings={"angle_deg": 60, "EA": 5e7})
+    x, y, z = scene.bodies["load"].position
+    for name, side in (("port", 15.0), ("starboard", -15.0)):
+        scene.add_line(
+            name, "ground", "load", EA=1e6, first_point=(x, y + side, z), second_point=(0, side / 7.5, 0)
+        )
+        scene.add_winch(name, tension=5e3, tension_gain=1e-4, maximum_rate=1.0)
+    rested = simulate(scene, 2.0, start="rest")
+    told = summary(rested)
+    load = told["hook load"]
+    assert load.static_known and load.static == pytest.approx(21e3 * G, rel=2e-3)
+    assert load.factor == pytest.approx(1.0, rel=1e-3)
+    for name in ("line tension hoist sling 1", "line tension port"):
+        assert told[name].static_known and told[name].factor == pytest.approx(1.0, rel=1e-2), name
+    assert told["hook load"].static == pytest.approx(
+        summary(rested, static=statics(scene))["hook load"].static
+    )
+
+
 def test_no_static_load_is_made_up() -> None:
     """A bar on three rods in a row is statically indeterminate: how they share it is not known."""
     with pytest.warns(UserWarning, match="redundant"):

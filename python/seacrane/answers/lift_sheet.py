@@ -221,7 +221,13 @@ class _Sheet:
                            source=self._source("center_of_gravity"))  # fmt: skip
         for one, label in zip(self._hung, self._labels, strict=True):
             yield from self._of_hook(one, label)
-        for i, sling in enumerate(self._slings()):
+        slings = self._slings()
+        if len(factors.skew_load) not in (1, len(slings)):
+            raise SceneError(
+                f"lift factors of {factors.name!r}: skew_load has {len(factors.skew_load)} numbers, and it "
+                f"hangs on {len(slings)} slings; give one for all, or one for each"
+            )
+        for i, sling in enumerate(slings):
             yield from self._of_sling(i, sling)
         if factors.alpha != 1.0:
             yield from self._of_sea()
