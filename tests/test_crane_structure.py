@@ -61,6 +61,15 @@ def test_a_rod_and_a_rigid_wire_are_as_stiff_as_the_crane() -> None:
     assert statics(hung(rung="rigid", EA=None))["hook stiffness"] == pytest.approx(STIFFNESS, rel=0.02)
 
 
+def test_a_slack_line_has_no_stiffness_to_tell() -> None:
+    scene = Scene()
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), EA=EA, on="ground", slack=0.3)
+    told = statics(scene)
+    assert np.isnan(told["hook stiffness"])
+    assert str(told).split("hook stiffness")[1].split()[:2] == ["-", "mm/kN"]
+
+
 def test_a_heavier_load_sags_by_what_the_stiffness_tells() -> None:
     """Two rest states of their own against the slope at one: 1 t more sags by dW / k."""
     heights = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, POSE, ReducedCoordinates, Terms
@@ -21,7 +21,7 @@ RIGID = 1e-12  # m/N: less is none
 
 @one_thread
 def hook_stiffness(
-    scene: Description, model: _core.Model, state: _core.State, *, body: str, point: Array
+    scene: Description, model: _core.Model, state: _core.State, *, body: str, point: ArrayLike
 ) -> float:
     """Vertical force over sag of a point of a body (its coordinates, m) at rest, N/m; infinite if rigid.
 
@@ -79,7 +79,7 @@ def _held_free(scene: Description, names: list[str], basis: Array) -> Array:
     return vt[rank:].T
 
 
-def _vertical(scene: Description, model: _core.Model, values: Array, k: int, point: Array) -> Array:
+def _vertical(scene: Description, model: _core.Model, values: Array, k: int, point: ArrayLike) -> Array:
     """A unit force upwards at a point of the k-th body, (6 n,), moments about the state points."""
     body = scene.bodies[model.bodies[k]]
     at = model.pose_index(k)

@@ -183,8 +183,9 @@ def lift_sheet(subject: Result | Description, *, load: str | None = None) -> Lif
 
 
 def _load_of(scene: Description, load: str | None) -> str:
-    known = list(scene.lift_factors) or [one.load for one in hung_loads(scene) if one.crane is not None]
-    known = list(dict.fromkeys(known))
+    hung = hung_loads(scene)
+    on_cranes = [one.load for one in hung if one.crane is not None]
+    known = list(dict.fromkeys(list(scene.lift_factors) or on_cranes or [one.load for one in hung]))
     if load is None and len(known) == 1:
         return known[0]
     if load not in scene.bodies:

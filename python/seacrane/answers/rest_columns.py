@@ -22,7 +22,8 @@ from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.roles import CraneRoles
-from seacrane.description.suspension import hung_loads, names_of_suspensions
+from seacrane.description.rungs import RIGID
+from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, heel_and_trim
 from seacrane.one_thread import one_thread
 from seacrane.run.hook_loads import hook_loads
@@ -76,9 +77,11 @@ class AtRest:
         """Of a crane's tip, m."""
         return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
-    def stiffness(self, body: str, point: Any) -> float:
-        """Vertical force over sag of a point of a body (its coordinates, m), N/m, the vessels held."""
-        return hook_stiffness(self.scene, self.model, self.state, body=body, point=point)
+    def stiffness(self, hoist: Suspension) -> float:
+        """Vertical force over sag of its lower end, N/m, the vessels held; NaN of a line that is slack."""
+        body, point = hoist.lower
+        found = hook_stiffness(self.scene, self.model, self.state, body=body, point=point)
+        return found if np.isfinite(found) or hoist.rung in (ROD, RIGID) else np.nan
 
     def height(self, body: str, point: Any) -> float:
         """Of a point of a body (its coordinates, m) above z = 0, m."""
@@ -168,7 +171,7 @@ def _hoists(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         pull = at_rest.channels["line_tension"][lines.index(top)] if top in lines else carried[top]
         found[f"hoist tension{label}"] = ("N", float(pull))
         if one.crane is not None:
-            found[f"{HOOK_STIFFNESS}{label}"] = ("N/m", at_rest.stiffness(*one.suspension.lower))
+            found[f"{HOOK_STIFFNESS}{label}"] = ("N/m", at_rest.stiffness(one.suspension))
     return found
 
 

@@ -137,7 +137,9 @@ class Statics(Tabular):
 
 
 def _shown(value: float) -> str:
-    """With four digits; zero where it is so up to rounding."""
+    """With four digits; zero where it is so up to rounding, a dash where it is not known."""
+    if np.isnan(value):
+        return "-"
     return f"{0.0 if abs(value) < NOTHING else value:.4g}"
 
 
@@ -183,7 +185,8 @@ def statics(
         reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
         tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), hoist tension (N), hook
         stiffness (N/m: vertical force over sag of the hook, of rope and crane in series, vessels and drives
-        held; infinite on a rod and a rigid wire), cylinder forces (N, positive pushes), slew torque (N m).
+        held; infinite on a rod and a rigid wire, NaN of a slack line), cylinder forces (N, positive pushes),
+        slew torque (N m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
         that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free
         surfaces; GM spread is the largest less the smallest GM over the fits of the database's tanks.

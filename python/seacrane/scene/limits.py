@@ -139,8 +139,8 @@ def _require_above(scene: Description, joint: _core.Joint) -> None:
         which = "below" if height <= -half else "inside"
         raise SceneError(
             f"seat on joint {joint.name!r}: body {body.name!r} is described {which} {joint.first!r}, its "
-            f"centre {-height:.4g} m below the plane that it stands on; raise it by {half - height:.4g} m, or "
-            "turn the joint's axis away from the support"
+            f"centre {-height:.4g} m below the plane that it stands on; raise it by {half - height:.4g} m, "
+            "or turn the joint's axis away from the support"
         )
 
 
