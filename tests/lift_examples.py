@@ -418,6 +418,18 @@ channel = "vessel_motion"
 maximum_deg = 90
 names = { motion = "roll" }
 
+[lift_factors]
+load = "box"
+weight_contingency = 1.1
+center_of_gravity_m = [0.1, 0, 0]
+skew_load = [1.25]
+dynamic_factor = 1.3
+sling_safety_factor = 3
+shackle_safety_factor = 4
+shackle_breaking_load_N = 1e5
+alpha = 0.7
+sources = { alpha = "the project's own" }
+
 [[record]]
 joint = "pin"
 name = "angle of the arm"
@@ -549,6 +561,11 @@ def every_table() -> Scene:
     scene.add_limit_state(channel="link_tension", maximum=8e4, minimum=1e3)
     scene.add_limit_state(name="luffing", channel="stroke", maximum=2.5, names={"cylinder": "aft luff"})
     scene.add_limit_state(channel="vessel_motion", maximum=np.radians(90), names={"motion": "roll"})
+    scene.add_lift_factors(
+        "box", weight_contingency=1.1, center_of_gravity=(0.1, 0, 0), skew_load=1.25, dynamic_factor=1.3,
+        sling_safety_factor=3, shackle_safety_factor=4, shackle_breaking_load=1e5, alpha=0.7,
+        sources={"alpha": "the project's own"},
+    )  # fmt: skip
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
     scene.add_point(name="edge", body="hull", point=(1, 2, 3))

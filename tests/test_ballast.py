@@ -83,6 +83,25 @@ def test_trim_by_water_in_closed_form() -> None:
     assert rest(scene)[2] == pytest.approx(sum(ballast.changes.values()) * G / C33, abs=1e-6)
 
 
+def test_two_wing_tanks_correct_a_heel_and_leave_the_trim_as_it_comes() -> None:
+    """A load at (x, y): water takes its moment about x, across 2 y of the tanks; C55 theta = x W is left."""
+    scene = barge()
+    scene.add_body("box", mass=LOAD, inertia=LOAD * np.eye(3), position=(10.0, 3.0, 0.0))
+    scene.add_joint("lashed", kind="weld", first="hull", second="box", point=(10.0, 3.0, 0.0))
+    ballast = scene.add_ballast(trim_deg=None, tanks=pair(y=8.0, capacity=1e6, content=5e5))
+    assert ballast.changes["starboard"] - ballast.changes["port"] == pytest.approx(LOAD * 3.0 / 8.0, rel=1e-3)
+    heel, trim, _ = rest(scene)
+    assert heel == pytest.approx(0.0, abs=1e-6) and np.radians(trim) == pytest.approx(ballast.trim, rel=1e-6)
+    assert ballast.trim == pytest.approx(10.0 * LOAD * G / C55, rel=1e-2)
+
+
+def test_one_force_may_leave_the_trim_too() -> None:
+    scene = crane_ship()
+    free = scene.add_ballast(trim_deg=None)
+    assert rest(scene)[0] == pytest.approx(0.0, abs=1e-6)
+    assert rest(scene)[1] == pytest.approx(np.degrees(free.trim), abs=1e-6)
+
+
 def test_runs_start_from_its_equilibrium() -> None:
     scene = hanging(barge(), y=3.0)
     scene.add_ballast(heel_deg=1.0)
@@ -113,10 +132,12 @@ def test_what_makes_no_ballast_is_refused() -> None:
         Scene().add_ballast()
     with pytest.raises(SceneError, match=r"vessel 'hull' carries no body.*give tanks"):
         barge().add_ballast()
-    with pytest.raises(SceneError, match="no contents of tanks 'fore', 'aft' make both"):
+    with pytest.raises(SceneError, match=r"no contents of tanks 'fore', 'aft' make them.*trim_deg=None"):
         on_deck(barge(), y=3.0, z=0.0).add_ballast(tanks=ends())
     with pytest.raises(SceneError, match="heel_deg is 40; give an angle within 20 deg"):
         on_deck(barge(), y=3.0, z=0.0).add_ballast(heel_deg=40.0)
+    with pytest.raises(SceneError, match="heel_deg and trim_deg are None; ask for one"):
+        on_deck(barge(), y=3.0, z=0.0).add_ballast(heel_deg=None, trim_deg=None)
     with pytest.raises(SceneError, match=r"tanks are \{\}; give at least one Tank"):
         barge().add_ballast(tanks={})
     with pytest.raises(SceneError, match="content is 5 kg; give one from 0 to its capacity of 4 kg"):

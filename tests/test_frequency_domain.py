@@ -27,6 +27,7 @@ from seacrane.analysis import LinearModel, response_summed
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap
+from seacrane.statistics import gaussian_maximum
 
 Array = NDArray[np.float64]
 OMEGA = np.array([0.35, 0.45, 0.6, 0.8, 1.0, 1.3, 1.8])
@@ -166,6 +167,15 @@ def test_most_probable_largest_value_in_simulated_storms() -> None:
     cycles = 1800.0 / statistics.mean_period[2]
     expected = statistics.std[2] * np.sqrt(2.0 * np.log(cycles))
     assert statistics.most_probable_largest[2] == pytest.approx(expected)
+    m1 = np.trapezoid(statistics.omega * statistics.spectrum[:, 2], statistics.omega)
+    m0, m2 = statistics.moments[2, :2]
+    assert statistics.bandwidth[2] == pytest.approx(np.sqrt(1.0 - m1**2 / (m0 * m2)), rel=1e-3)
+    clumped = gaussian_maximum(
+        std=statistics.std[2], rate=1.0 / statistics.mean_period[2], exposure=1800.0,
+        bandwidth=statistics.bandwidth[2],
+    )  # fmt: skip
+    assert statistics.most_probable_clumped[2] == pytest.approx(clumped.mpm.value, rel=1e-9)
+    assert 0.9 * expected < statistics.most_probable_clumped[2] < expected
     rng = np.random.default_rng(3)
     omega = np.arange(1, 800) * 2.0 * np.pi / 1800.0
     density = np.interp(omega, statistics.omega, statistics.spectrum[:, 2], left=0.0, right=0.0)

@@ -217,3 +217,24 @@ def test_one_load_a_crane_and_tonnes_are_named() -> None:
         Scene().add_hoist(**BOX, EA=3e7)
     with pytest.warns(MassUnitWarning):
         hoisted(mass=20.0, size=(4, 4, 3), EA=3e7)
+
+
+@pytest.mark.parametrize(
+    ("height", "words"), [(-0.5, "inside 'barge', its centre 0.5 m"), (-9.0, "below 'barge'")]
+)
+def test_a_load_described_inside_or_below_its_deck_is_named(height: float, words: str) -> None:
+    """Height of its centre over the deck, along the deck's normal: the barge lies heeled."""
+    scene = Scene()
+    half = np.radians(10.0) / 2.0
+    heeled = (np.cos(half), np.sin(half), 0.0, 0.0)
+    normal = np.array([0.0, -np.sin(2.0 * half), np.cos(2.0 * half)])
+    deck = np.array([3.0, 1.0, 5.0])
+    scene.add_body("barge", mass=1e6, size=(40, 20, 4), position=(0, 0, 3), quaternion=heeled)
+    for name, over in (("good", 1.5), ("bad", height)):
+        scene.add_body(name, mass=2e4, size=(4, 4, 3), position=deck + over * normal, quaternion=heeled)
+        scene.add_joint(f"{name} seat", kind="weld", first="barge", second=name, point=deck, axis=normal)
+    scene.add_seat("good seat")
+    with pytest.raises(SceneError, match=words) as told:
+        scene.add_seat("bad seat")
+    assert f"raise it by {1.5 - height:.4g} m" in str(told.value)
+    assert "bad seat" not in scene.loads

@@ -73,6 +73,17 @@ def test_every_kind_of_bound() -> None:
     assert states_of(None, 100.0, [-20.0, -80.0]) == 0.0
 
 
+def test_one_word_asks_for_a_slack_margin_of_a_tenth() -> None:
+    scene = pendulum()
+    scene.add_limit_state("slack")
+    scene.add_limit_state("slack[rope]", minimum=0.5, name="tighter")
+    margin, tighter = simulate(scene, t_end=5.0, dt_out=0.02).utilisation
+    assert (margin.limit, margin.channel, margin.kept) == (0.1, "slack_margin", True)
+    assert margin.utilisation == pytest.approx(0.1 / np.cos(0.3), rel=1e-3), "least tension: W cos(0.3)"
+    assert tighter.utilisation == pytest.approx(0.5 / np.cos(0.3), rel=1e-3)
+    assert lift('channel = "slack[hoist]"').limit_states["slack margin hoist"].minimum == 0.1
+
+
 def test_of_a_name_left_open_the_worst_counts(swinging: Result) -> None:
     scene = pendulum()
     scene.add_limit_state(channel="position", names={"body": "load"}, maximum=1.0, minimum=-10.0)

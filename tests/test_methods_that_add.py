@@ -71,6 +71,7 @@ def everything() -> None:
     ship.add_function_force("wash", body="vessel", address=1)
     ship.add_mesh("vessel", vertices=np.eye(3), faces=[[0, 1, 2]])
     ship.add_limit_state("hook_load", maximum=3e5)
+    ship.add_lift_factors("payload", weight_contingency=1.05)
     ship.add_gas_spring(
         "soft", first="vessel", second="payload", area=0.05, force=2e4, stiffness=3e3, length=40.0
     )

@@ -209,7 +209,10 @@ def test_a_table_tells_what_it_rests_on(tested: AllowableHs, slack: AllowableHs)
     text = str(tested)
     assert "f: by the linear model (4 cells), t: by runs (0 cells)" in text
     assert "alpha factor 1 (source: none" in text
-    assert "A: heave: motion to either side, most probable maximum in 900 s <= 0.8 m" in text
+    assert (
+        "A: heave: motion to either side, most probable maximum in 900 s <= 0.8 m; linear: clumped, Vanmarcke"
+        in text
+    )
     assert ">3.00 f" in text and "Af" in text
     assert "At" in str(slack) or ">" in str(slack)
     assert "<table" in tested._repr_html_()
@@ -375,6 +378,9 @@ def test_the_gaussian_level_of_either_side_is_that_of_many_records() -> None:
     level = gaussian_level(replace(HEAVE, exposure=600.0), moments)
     assert level == pytest.approx(largest, rel=0.03)
     assert gaussian_level(PITCH, moments) == 2.0
+    rayleigh = gaussian_level(replace(HEAVE, exposure=600.0, maxima="rayleigh"), moments)
+    crests = 2.0 * 600.0 * np.sqrt(moments[2] / moments[0]) / (2.0 * np.pi)
+    assert rayleigh == pytest.approx(np.sqrt(2.0 * np.log(crests)), rel=1e-12) and rayleigh > level
 
 
 def test_a_minimum_is_a_maximum_upside_down(database: HydroDatabase) -> None:
@@ -468,6 +474,7 @@ def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
         ({"maximum": -1.0}, "motion=True bounds a distance"),
         ({"statistic": "P95"}, "statistic is 'P95'; choose from significant, mpm, mean, p90"),
         ({"exposure": 0.0}, "exposure is 0.0 s"),
+        ({"maxima": "rice"}, "maxima is 'rice'; choose from clumped, rayleigh"),
         ({"names": "heave"}, "names is 'heave'"),
         ({"motion": 1}, "motion is 1; give True or False"),
     ],

@@ -82,6 +82,7 @@ def test_a_broad_band_agrees_with_its_closed_forms() -> None:
     assert found.significant == pytest.approx(2.0, rel=0.05)
     mean = sc.statistics.gaussian_maximum(std=1.0, rate=rate, bandwidth=width).mean.value
     assert runs.max(axis=1).mean() == pytest.approx(mean, abs=3.0 * 0.33 / np.sqrt(60))
+    assert "Rayleigh, sqrt(2 ln N)" in str(found) and "clumped, Vanmarcke" in str(found)
 
 
 def test_crests_of_a_narrow_band_are_rayleighs() -> None:

@@ -70,18 +70,55 @@ def test_a_saved_result_tells_the_same(swinging: Result, tmp_path: Path) -> None
     assert summary(Result.load(tmp_path / "swing.nc")) == summary(swinging)
 
 
-def test_no_static_load_is_made_up() -> None:
-    """A bar on two links is statically indeterminate in its tensions: no weight is noted for either."""
+def bar(*rods: tuple[str, float]) -> Scene:
     scene = Scene(name="bar")
     scene.add_body(name="bar", mass=1e4, inertia=1e4 * np.eye(3), position=(0.0, 0.0, -5.0))
-    for name, x in (("left", -1.0), ("right", 1.0)):
+    for name, x in rods:
         scene.add_joint(
             name=name, kind="distance", first="ground", second="bar", point=(x, 0.0, 0.0),
             second_point=(x, 0.0, -5.0), length=5.0,
         )  # fmt: skip
-    told = summary(simulate(scene, t_end=0.5))
+    return scene
+
+
+def test_what_two_rods_share_has_the_static_load_of_the_scene_at_rest() -> None:
+    """A bar of 10 t, its rods at -1 and 3 m of its centre: 3/4 and 1/4 of its weight."""
+    told = summary(simulate(bar(("left", -1.0), ("right", 3.0)), t_end=0.5))
+    assert told["tension left"].static == pytest.approx(7.5e3 * G, rel=1e-9)
+    assert told["tension right"].static == pytest.approx(2.5e3 * G, rel=1e-9)
+    assert told["tension left"].static_known and told["tension left"].factor == pytest.approx(1.0, rel=1e-6)
+
+
+def test_block_slings_and_taglines_have_their_factors_by_themselves() -> None:
+    """With constant-tension taglines nothing hangs alone: static loads are those of the scene at rest."""
+    scene = Scene(name="rigged")
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), EA=3e7, block_mass=1e3, slings={"angle_deg": 60, "EA": 5e7})
+    x, y, z = scene.bodies["load"].position
+    for name, side in (("port", 15.0), ("starboard", -15.0)):
+        scene.add_line(
+            name, "ground", "load", EA=1e6, first_point=(x, y + side, z), second_point=(0, side / 7.5, 0)
+        )
+        scene.add_winch(name, tension=5e3, tension_gain=1e-4, maximum_rate=1.0)
+    rested = simulate(scene, 2.0, start="rest")
+    told = summary(rested)
+    load = told["hook load"]
+    assert load.static_known and load.static == pytest.approx(21e3 * G, rel=2e-3)
+    assert load.factor == pytest.approx(1.0, rel=1e-3)
+    for name in ("line tension hoist sling 1", "line tension port"):
+        assert told[name].static_known and told[name].factor == pytest.approx(1.0, rel=1e-2), name
+    assert told["hook load"].static == pytest.approx(
+        summary(rested, static=statics(scene))["hook load"].static
+    )
+
+
+def test_no_static_load_is_made_up() -> None:
+    """A bar on three rods in a row is statically indeterminate: how they share it is not known."""
+    with pytest.warns(UserWarning, match="redundant"):
+        result = simulate(bar(("left", -1.0), ("middle", 0.0), ("right", 1.0)), t_end=0.5)
+    told = summary(result)
     row = told["tension left"]
-    assert not row.static_known and row.factor is None and row.mean == pytest.approx(5e3 * G, rel=1e-6)
+    assert not row.static_known and row.factor is None and row.mean == pytest.approx(1e4 / 3 * G, rel=1e-6)
     assert "* at the first output" in str(told)
 
 

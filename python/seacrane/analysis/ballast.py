@@ -22,7 +22,7 @@ from seacrane.description.outline import ship_size
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.frames import heel_and_trim, rotation_matrix
 from seacrane.plotting.text import text_table
 from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
@@ -85,8 +85,8 @@ def add_ballast(
     scene: Description,
     *,
     body: str | None = None,
-    heel_deg: float = 0.0,
-    trim_deg: float = 0.0,
+    heel_deg: float | None = 0.0,
+    trim_deg: float | None = 0.0,
     tanks: Mapping[str, Tank] | None = None,
     name: str = "ballast",
 ) -> Ballast:
@@ -101,8 +101,9 @@ def add_ballast(
     ----------
     body : str, optional
         Of the vessel; default: the only one.
-    heel_deg, trim_deg : float
-        deg; a positive heel lifts port, a positive trim lowers the bow.
+    heel_deg, trim_deg : float or None
+        deg; a positive heel lifts port, a positive trim lowers the bow. None ("left" in lift files): as it
+        comes, as with two wing tanks, which make no trim; the answer tells it.
     tanks : mapping of str to Tank, optional
     name : str
         Of the point force; with tanks, of one for each as "<name> <tank>".
@@ -125,17 +126,17 @@ def add_ballast(
         Where the weights on the vessel outweigh its restoring.
     """
     vessel = _vessel(scene, body)
-    target = np.radians([_angle("heel_deg", heel_deg), _angle("trim_deg", trim_deg)])
+    target = _target({"heel_deg": heel_deg, "trim_deg": trim_deg})
     name = name_of("ballast", name)
-    kind = _Force(scene, vessel) if tanks is None else _Tanks(scene, vessel, target, tanks_of(tanks))
-    found = _fitted(scene, vessel, target, kind)
+    kind = _Force(scene, vessel, target) if tanks is None else _Tanks(scene, vessel, target, tanks_of(tanks))
+    found, attitude = _fitted(scene, vessel, target, kind)
     forces = tuple(
         add_point_force(
             scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
         for key, (point, force) in kind.forces(found).items()
     )
-    told = kind.told(found, target)
+    told = kind.told(found, np.array([target.get(motion, attitude[motion]) for motion in ATTITUDE]))
     places: dict[str, Any] = {"the force": told.center}
     if tanks is not None:
         places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
@@ -184,10 +185,27 @@ def _angle(key: str, value: Any) -> float:
     return angle
 
 
+def _target(given: Mapping[str, Any]) -> dict[str, float]:
+    """rad, by the motions that are asked for."""
+    asked = zip(ATTITUDE, given.items(), strict=True)
+    found = {
+        motion: float(np.radians(_angle(key, value))) for motion, (key, value) in asked if value is not None
+    }
+    if not found:
+        raise SceneError("ballast: heel_deg and trim_deg are None; ask for one of them")
+    return found
+
+
+def _asked(target: Mapping[str, float]) -> list[int]:
+    return [ATTITUDE.index(motion) for motion in target]
+
+
 class _Force:
     """One upward force: the unknowns are its place, x and y."""
 
-    def __init__(self, scene: Description, vessel: _core.VesselHydrodynamics) -> None:
+    def __init__(
+        self, scene: Description, vessel: _core.VesselHydrodynamics, target: Mapping[str, float]
+    ) -> None:
         self.body = vessel.body
         self.weight, center = weight_of(scene)
         if self.weight == 0.0:
@@ -196,10 +214,11 @@ class _Force:
             )
         hull = scene.bodies[vessel.body]
         self.first = _turn(hull).T @ (center - hull.position)
-        self.moments = self.weight * np.array([[0.0, 1.0], [-1.0, 0.0]])
+        self.moments = self.weight * np.array([[0.0, 1.0], [-1.0, 0.0]])[_asked(target)]
 
     def solve(self, needed: Array) -> Array:
-        return np.asarray(np.linalg.solve(self.moments, needed), dtype=np.float64)
+        left = needed - self.moments @ self.start()
+        return np.asarray(self.start() + np.linalg.pinv(self.moments) @ left, dtype=np.float64)
 
     def start(self) -> Array:
         return np.asarray(self.first[:2])
@@ -221,11 +240,13 @@ class _Tanks:
         self,
         scene: Description,
         vessel: _core.VesselHydrodynamics,
-        target: Array,
+        target: Mapping[str, float],
         tanks: Mapping[str, Tank],
     ) -> None:
         self.body, self.tanks, self.gravity = vessel.body, tanks, scene.gravity
-        self.moments = np.array([self._moments(vessel, target, one) for one in tanks.values()]).T
+        turned = np.array([target.get(motion, 0.0) for motion in ATTITUDE])
+        of_each = np.array([self._moments(vessel, turned, one) for one in tanks.values()])
+        self.moments = of_each.T[_asked(target)]
 
     def _moments(self, vessel: _core.VesselHydrodynamics, target: Array, tank: Tank) -> Array:
         """About the roll and the pitch axis, of 1 kg: its weight, and the hull that it sinks deeper."""
@@ -257,44 +278,50 @@ class _Tanks:
 
 
 def _fitted(
-    scene: Description, vessel: _core.VesselHydrodynamics, target: Array, kind: _Force | _Tanks
-) -> Array:
-    """The unknowns with which no moment is left at the target, by a chord method from rest to rest.
+    scene: Description,
+    vessel: _core.VesselHydrodynamics,
+    target: Mapping[str, float],
+    kind: _Force | _Tanks,
+) -> tuple[Array, dict[str, float]]:
+    """The unknowns with which no moment is left at the target, and roll and pitch there, by a chord method.
 
-    Each begins at the one before: a load that may rest in two ways stays in one.
+    Each rest begins at the one before: a load that may rest in two ways stays in one.
     """
-    restoring = np.diag(vessel.restoring)[3:5]
+    restoring = np.diag(vessel.restoring)[3:5][_asked(target)]
     found, rest = kind.start(), None
     for _ in range(MOST_ROUNDS):
-        left, rest = _moments_left(scene, vessel, target, kind.forces(found), rest)
+        left, rest, attitude = _moments_left(scene, vessel, target, kind.forces(found), rest)
         if np.all(np.abs(left) <= EXACT * restoring):
-            return found
+            return found, attitude
         found = kind.solve(kind.moments @ found + left)
-    raise SceneError(
-        f"ballast: {left[0]:.3g} and {left[1]:.3g} N m about roll and pitch are left at the heel and trim "
-        "asked for; ask for smaller angles"
+    moments = " and ".join(
+        f"{size:.3g} N m about {motion}" for size, motion in zip(left, target, strict=True)
     )
+    raise SceneError(f"ballast: {moments} are left at the heel and trim asked for; ask for smaller angles")
 
 
 def _moments_left(
     scene: Description,
     vessel: _core.VesselHydrodynamics,
-    target: Array,
+    target: Mapping[str, float],
     forces: Mapping[str, tuple[Any, float]],
     near: _core.State | None,
-) -> tuple[Array, _core.State]:
-    """What a drive in roll and one in pitch still carry at rest at the target, N m; and that rest."""
+) -> tuple[Array, _core.State, dict[str, float]]:
+    """What drives in these motions still carry at rest at the target, N m; that rest; its attitude."""
     out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
     for i, (point, force) in enumerate(forces.values()):
         add_point_force(
             out, name=f"trial ballast {i}", body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
-    angles = {motion: ("", "angle") for motion in ATTITUDE}
-    path, times = path_through(angles, [dict(zip(ATTITUDE, target.tolist(), strict=True))])
+    angles = {motion: ("", "angle") for motion in target}
+    path, times = path_through(angles, [target])
     hold_vessel(out, vessel.body, path)
     state = next(rest_states(out, times=times.tolist())) if near is None else rest_from(out, near)
-    names = [f"{vessel.body}.motion.{motion}" for motion in ATTITUDE]
-    return drive_loads(compile_scene(held(out, time=state.time)), names, state), state
+    model = compile_scene(held(out, time=state.time))
+    names = [f"{vessel.body}.motion.{motion}" for motion in target]
+    at = model.pose_index(list(model.bodies).index(vessel.body))
+    attitude = dict(zip(ATTITUDE, heel_and_trim(np.asarray(state.values)[at + 3 : at + 7]), strict=True))
+    return drive_loads(model, names, state), state, attitude
 
 
 def _places(scene: Description) -> dict[str, tuple[str, str]]:

@@ -22,6 +22,7 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
+from seacrane.sea.crossings import level_crossed
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
 
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+NARROWEST = 1e-6  # bandwidth
 UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
 BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
 GRID = 1500  # frequencies over the band of the database
@@ -60,6 +62,8 @@ class ResponseStatistics:
         s, of the extremes.
     wave_energy_share : float
         Share of the sea's energy within the band of the database; the rest is left out.
+    bandwidth : ndarray, shape (6,)
+        Vanmarcke's sqrt(1 - m1^2 / (m0 m2)); zero for what does not move.
     moments : ndarray, shape (6, 3)
         m0, m2, m4; at forward speed by the frequency of encounter.
     headings : ndarray, shape (q,)
@@ -74,6 +78,7 @@ class ResponseStatistics:
     std: Array
     duration: float
     wave_energy_share: float
+    bandwidth: Array
     moments: Array
     headings: Array
     heading_share: Array
@@ -99,12 +104,22 @@ class ResponseStatistics:
 
     @property
     def most_probable_largest(self) -> Array:
-        """Most probable largest amplitude in `duration`: sqrt(2 m0 ln N), N = duration / mean period.
+        """Rayleigh's most probable largest amplitude in `duration`: sqrt(2 m0 ln N), N = duration / period.
 
-        Rayleigh distributed amplitudes (narrow band); zero for less than one cycle.
+        Every crest by itself; zero for less than one cycle. `most_probable_clumped` is the smaller one.
         """
         cycles = np.maximum(self.duration / self.mean_period, 1.0)
         return np.asarray(self.std * np.sqrt(2.0 * np.log(cycles)))
+
+    @property
+    def most_probable_clumped(self) -> Array:
+        """The same with crests in Vanmarcke's clumps, by the bandwidth."""
+        cycles = np.maximum(self.duration / self.mean_period, 1.0)
+        levels = [
+            level_crossed(1.0, cycles=float(count), bandwidth=max(float(width), NARROWEST))
+            for count, width in zip(cycles, self.bandwidth, strict=True)
+        ]
+        return np.asarray(self.std * levels)
 
 
 @one_thread
@@ -170,7 +185,7 @@ def response_statistics(
         angles, shares = spreading.quadrature(HEADINGS)
         headings = main + angles
     along, *parts = _responses(linear, database, np.append(main, headings), output)
-    moments, density, unknown = np.zeros((6, 3)), np.zeros(along.rao.shape), 0.0
+    moments, density, unknown = np.zeros((6, 4)), np.zeros(along.rao.shape), 0.0
     for share, part in zip(shares, parts, strict=True):
         each = np.abs(part.rao) ** 2 * np.asarray(spectrum.density(part.omega))[:, None]
         moments += share * part.moments(each)
@@ -184,7 +199,8 @@ def response_statistics(
         std=np.sqrt(moments[:, 0]),
         duration=span,
         wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
-        moments=moments,
+        bandwidth=_bandwidth(*moments[:, :3].T),
+        moments=moments[:, [0, 2, 3]],
         headings=headings,
         heading_share=shares,
     )
@@ -199,9 +215,9 @@ class _Response:
     rao: Complex
 
     def moments(self, density: Array) -> Array:
-        """m0, m2, m4 (6, 3) of a density (k, 6) over the frequency of the waves."""
-        weights = _weights(self.omega)
-        return np.stack([(weights * self.encounter**order) @ density for order in (0, 2, 4)], axis=1)
+        """m0, m1, m2, m4 (6, 4) of a density (k, 6) over the frequency of the waves."""
+        weights, met = _weights(self.omega), np.abs(self.encounter)
+        return np.stack([(weights * met**order) @ density for order in (0, 1, 2, 4)], axis=1)
 
     def at(self, omega: Array, density: Array) -> Array:
         """The density (k, 6) at other frequencies of the waves."""
@@ -214,6 +230,12 @@ class _Response:
         outside = ~inside_table(database.omega, self.encounter)
         energy = _weights(self.omega) * np.asarray(spectrum.density(self.omega))
         return float(energy[outside].sum() / spectrum.moment(0))
+
+
+def _bandwidth(m0: Array, m1: Array, m2: Array) -> Array:
+    moving = m0 * m2 > 0.0
+    ratio = np.where(moving, m1**2 / np.where(moving, m0 * m2, 1.0), 1.0)
+    return np.asarray(np.sqrt(np.maximum(1.0 - ratio, 0.0)))
 
 
 def _weights(omega: Array) -> Array:

@@ -249,7 +249,8 @@ def _search(model: _core.Model, time: float, values: Array) -> _Search:
         finest = DIGITS * float(np.max(np.abs(y[: model.twist_index(0)])))
         left, free = (float(np.max(np.abs(along[part]), initial=0.0)) for part in (fixed, ~fixed))
         stands = np.max(np.abs(move)) <= (finest if moving < 0.5 * before else ROUGHEST * finest)
-        done, before = left < CONVERGED or (stands and moving < ROUNDED), moving
+        done = left < CONVERGED or (stands and moving < ROUNDED and drifting < CREEP)
+        before = moving
         if done and max(free, drifting) < CREEP:
             return _found(model, time, y, stiffness)
         if done or (steps >= PATIENCE and free > max(FALLING * left, CREEP)):

@@ -62,14 +62,14 @@ def tanks_of(given: Any) -> dict[str, Tank]:
 
 
 def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
-    """Changes of the contents (kg) that make a moment about roll and pitch, the least water moved.
+    """Changes of the contents (kg) that make moments about roll, pitch or both, the least water moved.
 
     Parameters
     ----------
     tanks : mapping of str to Tank
-    moments : ndarray, shape (2, n)
+    moments : ndarray, shape (k, n)
         Of 1 kg in each tank, N m.
-    needed : ndarray, shape (2,)
+    needed : ndarray, shape (k,)
         N m.
 
     Raises
@@ -83,7 +83,7 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     room = np.array([tank.capacity - tank.content for tank in tanks.values()])
     there = np.array([tank.content for tank in tanks.values()])
     # In and out of each tank; and how far the worst of them goes beyond what it holds, and below nothing.
-    equal = np.hstack([moments, -moments, np.zeros((2, 2))]) / size
+    equal = np.hstack([moments, -moments, np.zeros((len(needed), 2))]) / size
     beyond = np.hstack([np.eye(2 * count), -np.kron(np.eye(2), np.ones((count, 1)))])
     cost = np.append(np.ones(2 * count), count * np.array([OVERFLOW, RUN_DRY]))
     solved = linprog(
@@ -92,9 +92,9 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     )  # fmt: skip
     if solved.status != 0:
         raise SceneError(
-            f"ballast: moments of {needed[0]:.4g} N m about roll and {needed[1]:.4g} N m about pitch are "
-            f"needed, and no contents of tanks {', '.join(map(repr, tanks))} make both; add one on each side "
-            "of the centreline, forward and aft"
+            f"ballast: moments of {' and '.join(f'{one:.4g}' for one in needed)} N m are needed, about roll "
+            f"and pitch as asked for, and no contents of tanks {', '.join(map(repr, tanks))} make them; add "
+            "one on each side of the centreline, forward and aft, or leave the trim (trim_deg=None)"
         )
     change = solved.x[:count] - solved.x[count : 2 * count]
     _require_room(tanks, change)

@@ -6,5 +6,7 @@ from seacrane.answers.statics import statics as statics
 from seacrane.answers.statics import Statics as Statics
 from seacrane.answers.load_chart import load_chart as load_chart
 from seacrane.answers.load_chart import LoadChart as LoadChart
+from seacrane.answers.lift_sheet import lift_sheet as lift_sheet
+from seacrane.answers.lift_sheet import LiftSheet as LiftSheet
 from seacrane.answers.report import report as report
 from seacrane.answers.report import Report as Report

@@ -25,6 +25,7 @@ from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
+from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ LEAST_SHARE = 1e-3  # of the described load, which is tried first beside it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class LoadChart:
+class LoadChart(Tabular):
     """The allowable load over radius and slew angle. Made by `load_chart`; prints as a table.
 
     Attributes

@@ -12,6 +12,7 @@ from seacrane.analysis.crane_poses import Place, path_through, places_of, posed
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_reach import tip_radius
 from seacrane.description.description import Description
+from seacrane.description.drives import add_driver
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -50,7 +51,11 @@ class Reach:
         low, high = self._range(places[label])
         ends = [{**others, label: value} for value in (0.0, low, high)]
         path, times = path_through(places, ends)
-        self._model = compile_scene(posed(_bare(scene), places, path).copy(orientation="quaternion"))
+        led = posed(_bare(scene), places, path).copy(orientation="quaternion")
+        for one in scene.roles.values():
+            if one.structure is not None:  # upright: what the crane gives is told by the rest state
+                add_driver(led, joint=one.structure, curve=0.0)
+        self._model = compile_scene(led)
         self._evaluator = _core.Evaluator(self._model)
         self._low, self._begin, self._span = low, float(times[1]), float(times[2] - times[1])
         self._rate = (high - low) / self._span

@@ -12,12 +12,14 @@ from seacrane.answers.limits_section import LIMITS
 from seacrane.answers.particulars import PARTICULARS
 from seacrane.answers.provenance_section import PROVENANCE
 from seacrane.answers.section import Section
+from seacrane.answers.sheet_section import SHEET
 from seacrane.answers.summary_section import STATISTICS, SUMMARY
 from seacrane.result import Result
 
 SECTIONS: tuple[Section[Result], ...] = (
     GLANCE,
     SUMMARY,
+    SHEET,
     PARTICULARS,
     SCENE_PICTURE,
     THREE_DIMENSIONS,

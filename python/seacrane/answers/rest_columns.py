@@ -13,6 +13,7 @@ from seacrane import _core
 from seacrane.analysis.crane_poses import drive_name
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
+from seacrane.answers.hook_stiffness import hook_stiffness
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, luffing_ropes, luffs, piston_areas, slews
 from seacrane.description.crane_reach import placed, tip_radius
@@ -21,14 +22,16 @@ from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.roles import CraneRoles
-from seacrane.description.suspension import hung_loads, names_of_suspensions
-from seacrane.inputs.frames import heading_of, rotation_matrix
+from seacrane.description.rungs import RIGID
+from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
+from seacrane.inputs.frames import heading_of, heel_and_trim
 from seacrane.one_thread import one_thread
 from seacrane.run.hook_loads import hook_loads
 
 Array = NDArray[np.float64]
 LINES = {"line_tension": ("tension", "N"), "line_length": ("length", "m"),
          "line_unstretched_length": ("unstretched length", "m")}  # fmt: skip
+HOOK_STIFFNESS = "hook stiffness"
 CHANNELS = {"driver_force", "tension", "position", "quaternion", *LINES}
 
 
@@ -74,6 +77,12 @@ class AtRest:
         """Of a crane's tip, m."""
         return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
+    def stiffness(self, hoist: Suspension) -> float:
+        """Vertical force over sag of its lower end, N/m, the vessels held; NaN of a line that is slack."""
+        body, point = hoist.lower
+        found = hook_stiffness(self.scene, self.model, self.state, body=body, point=point)
+        return found if np.isfinite(found) or hoist.rung in (ROD, RIGID) else np.nan
+
     def height(self, body: str, point: Any) -> float:
         """Of a point of a body (its coordinates, m) above z = 0, m."""
         return float(self._placed(body, point)[0][2])
@@ -82,6 +91,15 @@ class AtRest:
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Unit (SI) and value of everything that is told, by name."""
     return {**_vessels(at_rest), **_cranes(at_rest), **_hoists(at_rest), **_lines(at_rest)}
+
+
+def pulls_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    """Of hooks, lines, and rods and wires that no load of a crane hangs on: unit (SI) and value, by name."""
+    joints = [name for name, joint in at_rest.scene.joints.items() if joint.kind == "distance"]
+    carried = _hook_loads(at_rest)
+    rods = {f"tension {name}": ("N", carried[name]) for name in joints
+            if name in carried and name not in at_rest.model.redundant}  # fmt: skip
+    return {**rods, **_hoists(at_rest), **_lines(at_rest)}
 
 
 def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
@@ -152,6 +170,8 @@ def _hoists(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         top = one.suspension.top.removesuffix(" line")
         pull = at_rest.channels["line_tension"][lines.index(top)] if top in lines else carried[top]
         found[f"hoist tension{label}"] = ("N", float(pull))
+        if one.crane is not None:
+            found[f"{HOOK_STIFFNESS}{label}"] = ("N/m", at_rest.stiffness(one.suspension))
     return found
 
 
@@ -193,7 +213,4 @@ def heeling_stiffness(model: _core.Model, values: Array, time: float, body: str)
 def attitude(values: Array, model: _core.Model, body: str) -> Array:
     """Height (m), roll and pitch (rad) of a vessel's reference point, as (6,) motions without the others."""
     at = model.pose_index(list(model.bodies).index(body))
-    turn = rotation_matrix(values[at + 3 : at + 7])
-    pitch = -np.arcsin(np.clip(turn[2, 0], -1.0, 1.0))
-    roll = np.arctan2(turn[2, 1], turn[2, 2])
-    return np.array([0.0, 0.0, values[at + 2], roll, pitch, 0.0])
+    return np.array([0.0, 0.0, values[at + 2], *heel_and_trim(values[at + 3 : at + 7]), 0.0])

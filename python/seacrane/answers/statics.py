@@ -14,7 +14,7 @@ from seacrane.analysis.crane_poses import crane_of, path_through, places_of, pos
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
-from seacrane.answers.rest_columns import AtRest, columns_of
+from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of
 from seacrane.description.description import Description
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
@@ -24,6 +24,7 @@ from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
+from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 from seacrane.result.units import read_as
 from seacrane.validity.left_range import LARGEST_HEEL
@@ -40,7 +41,7 @@ Pose = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Statics:
+class Statics(Tabular):
     """A lift at rest in every pose asked for. Made by `statics`; prints as a table.
 
     Attributes
@@ -54,7 +55,8 @@ class Statics:
     columns : mapping of str to ndarray or float
         Values over the grid, numbers where it has no axis, SI; ``statics["GM"]`` is one of them.
     units : mapping of str to str
-        Of each column: rad, m, N, N m, Pa. It prints in deg, kN, kN m, bar, and hook loads in t.
+        Of each column: rad, m, N, N/m, N m, Pa. It prints in deg, kN, kN m, bar, hook loads
+        in t and stiffness in mm/kN.
     pose_units : mapping of str to str
         Of each axis of the grid: rad or m.
     gravity : float
@@ -110,10 +112,7 @@ class Statics:
         """One pose as a column of names and values, several as one row each."""
         printed = {name: self._printed(name) for name in self.columns}
         if not self.poses:
-            rows = [
-                [name, _shown(printed[name][1] * float(v)), printed[name][0]]
-                for name, v in self.columns.items()
-            ]
+            rows = [[name, _shown(float(values)), unit] for name, (unit, values) in printed.items()]
             return ["", "value", "unit"], rows
         turned = {name for name, unit in self.pose_units.items() if unit == "rad"}
         axes = [f"{name} [{'deg' if name in turned else 'm'}]" for name in self.poses]
@@ -122,22 +121,25 @@ class Statics:
             np.atleast_1d(np.degrees(v) if name in turned else v) for name, v in self.poses.items()
         ]
         places = itertools.product(*axes_values)
-        told = zip(
-            *(factor * np.ravel(self.columns[name]) for name, (_, factor) in printed.items()), strict=True
-        )
+        told = zip(*(np.ravel(values) for _, values in printed.values()), strict=True)
         rows = [[_shown(float(v)) for v in (*place, *row)] for place, row in zip(places, told, strict=True)]
         return head, rows
 
-    def _printed(self, name: str) -> tuple[str, float]:
-        """Unit in which a column is printed, and what its SI values are multiplied by."""
+    def _printed(self, name: str) -> tuple[str, Any]:
+        """Unit in which a column is printed, and its values there."""
+        values = np.asarray(self.columns[name])
         if name.startswith(HOOK):
-            return "t", 1e-3 / self.gravity
+            return "t", values * 1e-3 / self.gravity
+        if name.startswith(HOOK_STIFFNESS):
+            return "mm/kN", 1e6 / values
         factor, unit = read_as(self.units[name])
-        return unit, factor
+        return unit, factor * values
 
 
 def _shown(value: float) -> str:
-    """With four digits; zero where it is so up to rounding."""
+    """With four digits; zero where it is so up to rounding, a dash where it is not known."""
+    if np.isnan(value):
+        return "-"
     return f"{0.0 if abs(value) < NOTHING else value:.4g}"
 
 
@@ -181,8 +183,10 @@ def statics(
     Statics
         heel (rad; positive lifts port), trim (rad; positive lowers the bow), draught change (m, of the
         reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
-        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), hoist tension (N),
-        cylinder forces (N, positive pushes), slew torque (N m).
+        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (N), hoist tension (N), hook
+        stiffness (N/m: vertical force over sag of the hook, of rope and crane in series, vessels and drives
+        held; infinite on a rod and a rigid wire, NaN of a slack line), cylinder forces (N, positive pushes),
+        slew torque (N m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
         that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free
         surfaces; GM spread is the largest less the smallest GM over the fits of the database's tanks.

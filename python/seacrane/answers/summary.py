@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.answers.hanging_rest import static_pulls
 from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
 from seacrane.answers.statics import Statics
 from seacrane.description.rungs import RIGID
@@ -16,6 +17,7 @@ from seacrane.description.suspension import ROD
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
+from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 from seacrane.renamed import refusing
 from seacrane.result import Result
@@ -86,7 +88,7 @@ class SummaryRow:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Summary:
+class Summary(Tabular):
     """The numbers of a run. Made by `summary`; prints as a table, in the units in which they are read.
 
     Attributes
@@ -206,8 +208,9 @@ def summary(
 
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
     heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
-    The static tension of a link is the weight that hangs on it. Of all else the value at the first output
-    from `after` on takes its place, marked by a star.
+    The static tension of a link is the weight that hangs on it. Where something else carries that too, as of
+    slings, taglines and two cranes, it is that of the scene at rest, off any deck, its references held as at
+    the start. Of all else the value at the first output from `after` on takes its place, marked by a star.
 
     Parameters
     ----------
@@ -235,17 +238,26 @@ def summary(
     known = _static(static)
     part = _part(result, after, before)
     time = result.time[part]
+    curves = [one for one in reported_curves(result) if np.isfinite(one.values[part]).any()]
+    unknown = [one.name for one in curves if one.pulls and one.static is None and one.name not in known]
+    told = static_pulls(result) if unknown else {}
+    if not isinstance(told, str):
+        known = {name: told[name] for name in unknown if name in told} | known
     every = [
         replace(one, static=known[one.name] * si_factor(one.unit) if one.name in known else one.static)
-        for one in reported_curves(result)
-        if np.isfinite(one.values[part]).any()
+        for one in curves
     ]
     rows = [_row(one, time, one.values[part]) for one in every]
     inside = [replace(one, values=one.values[part]) for one in every]
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
-        remarks=tuple(remarks_on(result, time, inside)), utilisation=result.utilisation,
+        remarks=(*remarks_on(result, time, inside), *_restless(told)), utilisation=result.utilisation,
     )  # fmt: skip
+
+
+def _restless(told: dict[str, float] | str) -> list[str]:
+    """Why loads that something else carries too have no factor."""
+    return [f"No factor of what is starred: {told}."] if isinstance(told, str) else []
 
 
 def _static(given: Statics | None) -> dict[str, float]:

@@ -16,25 +16,27 @@ from seacrane.crane.jointed_data import MeshData, RopeData
 from seacrane.crane.parts import CraneParts
 from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
+from seacrane.crane.structure import FAR, STRUCTURE, UP, Lean, leaning
 from seacrane.description.bodies import add_body
 from seacrane.description.crane_parts import add_roles
 from seacrane.description.damping import add_air_drag, add_pendulum_damping
 from seacrane.description.description import Description
 from seacrane.description.drives import add_driver
+from seacrane.description.forces import add_spring
 from seacrane.description.joints import add_joint
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.meshes import add_mesh
 from seacrane.description.recorded import add_range, record_coordinate
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, text_of
+from seacrane.inputs.checked import flag_of, positive_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 
 Array = npt.NDArray[np.float64]
 PAYLOAD = "payload"
-FAR = 20.0  # times the crane's extent: no mesh in m
+TOO_LARGE = 20.0  # times the crane's extent: no mesh in m
 POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
@@ -56,6 +58,7 @@ def add_crane(
     held: bool | None = None,
     hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
     design_factor: float = 1.0,
+    stiffness: float | None = None,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload at rest; its coordinates are recorded and keep the data file's ranges.
@@ -91,6 +94,11 @@ def add_crane(
         barrel and rod. Default: what the data file says; it may say nothing.
     design_factor : float
         Dynamic factor that the crane's capacity contains, 1 or more, as of `add_roles`.
+    stiffness : float, optional
+        Of the crane's structure, boom and pedestal together, N/m: vertical force over sag at the tip as
+        described, without the hoist rope. The crane leans by that in the plane of its jib, about a hinge at
+        the slew bearing, with 2 % of critical damping; at other radii the sag goes with their square. As
+        described it stands under its own weight and what hangs on it then. Default: it does not give.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -122,6 +130,10 @@ def add_crane(
         if payload is not None:
             raise SceneError("crane: payload and payload_mass are given; put the mass into the Payload")
         payload = Payload(mass=payload_mass)
+    lean = None
+    if stiffness is not None:
+        positive_of("crane: stiffness", stiffness, "N/m")
+        parts, lean = leaning(parts)
     bodies, joints = list(parts.bodies), list(parts.joints)
     if payload is not None:
         bodies.append(payload.under(parts.tip[1]))
@@ -142,6 +154,8 @@ def add_crane(
     load = 0.0 if payload is None else payload.mass
     add_hydraulics(scene, crane, oil, pose=pose, payload_mass=load, prefix=prefix)
     tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
+    if lean is not None and stiffness is not None:
+        frame.add_lean(lean, stiffness, load, prefix + STRUCTURE, names)
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
     led = [joint for joint in parts.drives if joint not in {parts.cylinders[label] for label in oil}]
@@ -162,6 +176,7 @@ def add_crane(
         ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
         held=is_held is not False,
         design_factor=design_factor,
+        structure=None if lean is None else prefix + STRUCTURE,
     )
 
 
@@ -198,7 +213,7 @@ def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: Cra
     size = float(np.ptp(added.vertices, axis=0).max())
     points = np.array([*(joint.point for joint in parts.joints), parts.tip[1]])
     extent = float(np.ptp(points, axis=0).max())
-    if size > FAR * extent > 0.0:
+    if size > TOO_LARGE * extent > 0.0:
         raise SceneError(
             f"mesh {added.name!r}: spans {size:.4g} m, and the joints of its crane {extent:.4g} m; it is "
             "most likely in mm: give it scale 0.001"
@@ -261,6 +276,20 @@ class _Frame:
         at = self.origin + self.to_inertial @ point
         x, y, z = (rotation_matrix(body.quaternion).T @ (at - body.position)).tolist()
         return name, (x, y, z)
+
+    def add_lean(
+        self, lean: Lean, stiffness: float, load: float, name: str, names: Mapping[str, str]
+    ) -> None:
+        """The spring that holds a crane up, and its load, kg: vertical, as far out as the tip."""
+        first, second = (
+            self._block(names[body], at)
+            for body, at in ((lean.first, lean.point + FAR * UP), (lean.second, lean.point))
+        )
+        add_spring(
+            self.scene, name, first=first[0], first_point=first[1], second=second[0], second_point=second[1],
+            stiffness=stiffness, damping=lean.damping(stiffness),
+            natural_length=FAR - (lean.weight + load) * self.scene.gravity / stiffness,
+        )  # fmt: skip
 
     def rope(self, rope: RopeData, prefix: str, names: Mapping[str, str]) -> LuffingRope:
         """With its blocks in the coordinates of the scene's bodies."""

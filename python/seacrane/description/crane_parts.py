@@ -39,6 +39,7 @@ def add_roles(
     ropes: Mapping[str, LuffingRope] | None = None,
     design_factor: float = 1.0,
     held: bool = False,
+    structure: str | None = None,
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
@@ -76,6 +77,9 @@ def add_roles(
     held : bool
         Whether a slew drive, luff or cylinder on which nothing acts when the scene is compiled is held where
         it is described, as those of `add_crane` are.
+    structure : str, optional
+        Hinge and spring, of one name, that stand for what the crane's structure gives: N/m at the tip. What
+        `add_hoist` hangs there preloads the spring.
 
     Returns
     -------
@@ -103,6 +107,9 @@ def add_roles(
         path = _path(scene, what, line)
         payload = path[-1][0] if payload is None else payload
         tip = path[0] if tip is None else tip
+    if structure is not None:
+        _require(what, "structure", structure, scene.joints, "joint")
+        _require(what, "structure", structure, scene.springs, "spring")
     for label, joint in (cylinders or {}).items():
         _require(what, f"cylinder {label!r}", joint, scene.joints, "joint")
     if payload is not None:
@@ -124,6 +131,7 @@ def add_roles(
         areas=areas_by_label(what, {} if areas is None else areas, cylinders or {}),
         held=flag_of(f"{what}: held", held),
         design_factor=design_factor_of(what, design_factor),
+        structure=structure,
     )
     scene.roles[prefix] = roles
     return roles

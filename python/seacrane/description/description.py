@@ -43,6 +43,8 @@ KINDS: Mapping[str, str] = {
     "clearances": "clearance",
     "relatives": "relative",
     "channels": "channel",
+    "ratings": "rating",
+    "lift_factors": "lift factors",
     "meshes": "mesh",
 }
 ELEMENTS = tuple(COMPILED)
@@ -85,6 +87,10 @@ class Description:
         Points whose motion over others is recorded.
     channels : dict of str to OwnChannel
         Expressions of channels, which are recorded.
+    ratings : dict of str to Rating
+        What lines and slings break at.
+    lift_factors : dict of str to LiftFactors
+        By loads, what their lifts are calculated with beside the scene.
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -118,6 +124,8 @@ class Description:
     clearances: dict[str, Any] = field(default_factory=dict)
     relatives: dict[str, Any] = field(default_factory=dict)
     channels: dict[str, Any] = field(default_factory=dict)
+    ratings: dict[str, Any] = field(default_factory=dict)
+    lift_factors: dict[str, Any] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
     meshes: dict[str, Any] = field(default_factory=dict)

@@ -40,10 +40,12 @@ from seacrane.description.forces import add_force_table, add_load, add_point_for
 from seacrane.description.holding import free_drives
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
+from seacrane.description.lift_factors import lift_factors_from_node, lift_factors_to_data
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.own_channels import own_channels_from_node, own_channels_to_data
+from seacrane.description.ratings import ratings_from_node, ratings_to_data
 from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.relatives import relatives_from_node, relatives_to_data
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
@@ -85,12 +87,16 @@ _ADDED_LATER: dict[str, Any] = {
     "clearances": [],
     "relatives": [],
     "channels": [],
+    "ratings": [],
+    "lift_factors": [],
     "roles": None,
     "provenance": None,
     "meshes": [],
     "databases": [],
 }  # what older files of this version lack
-UNMOVING = ("notes", "provenance", "limit_states", "clearances", "meshes")  # tables
+UNMOVING = (
+    "notes", "provenance", "limit_states", "clearances", "ratings", "lift_factors", "meshes",
+)  # tables  # fmt: skip
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
 
@@ -188,6 +194,8 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "clearances",
         "relatives",
         "channels",
+        "ratings",
+        "lift_factors",
         "roles",
         "provenance",
         "meshes",
@@ -201,8 +209,9 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, databases, limit states, clearances and meshes do not count, and of C functions only
-    their names. Relatives and channels of one's own do: a file goes on with those that it has begun with.
+    Notes, provenance, databases, limit states, clearances, ratings, lift factors and meshes do not count,
+    and of C functions only their names. Relatives and channels of one's own do: a file goes on with those
+    that it has begun with.
     """
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
@@ -237,6 +246,8 @@ def _scene(root: Node, scene: Some) -> Some:
     clearances_from_node(root.at("clearances"), scene)
     relatives_from_node(root.at("relatives"), scene)
     own_channels_from_node(root.at("channels"), scene)
+    ratings_from_node(root.at("ratings"), scene)
+    lift_factors_from_node(root.at("lift_factors"), scene)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -297,6 +308,8 @@ def _elements(scene: Description) -> dict[str, Any]:
         "clearances": clearances_to_data(scene),
         "relatives": relatives_to_data(scene),
         "channels": own_channels_to_data(scene),
+        "ratings": ratings_to_data(scene),
+        "lift_factors": lift_factors_to_data(scene),
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
     }
     out |= {key: value for key, value in later.items() if value}  # as for points

@@ -18,6 +18,7 @@ from seacrane.inputs.shown import shown
 # older files lack them
 _NEWER = ("memory_error", "free_surface", "slack_tanks", "record")  # not in files of older versions
 _GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", *_NEWER))
+TEXTS = ("line", "structure")  # roles that are there or not
 _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 
 
@@ -38,8 +39,7 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         more["held"] = True
     if roles.design_factor != 1.0:
         more["design_factor"] = roles.design_factor
-    if roles.line:
-        more["line"] = roles.line
+    more |= {key: name for key in TEXTS if (name := getattr(roles, key))}
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
@@ -54,7 +54,7 @@ def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
         entry.expect(
-            _ROLES, optional=("capacity", "areas", "luffs", "ropes", "held", "line", "design_factor")
+            _ROLES, optional=("capacity", "areas", "luffs", "ropes", "held", "design_factor", *TEXTS)
         )
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
@@ -73,8 +73,7 @@ def roles_from_node(node: Node, scene: Description) -> None:
             found["luffs"] = {name: (joint, coordinate) for name, joint, coordinate in rows}
         if "ropes" in entry.value:
             found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
-        if "line" in entry.value:
-            found["line"] = entry.at("line").text()
+        found |= {key: entry.at(key).text() for key in TEXTS if key in entry.value}
         if "design_factor" in entry.value:
             found["design_factor"] = entry.at("design_factor").number()
         if "held" in entry.value:  # files of before 0.3 lack it: a crane that nothing held was free

@@ -17,6 +17,8 @@ from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 
 KEYS = ("name", "channel", "maximum", "minimum")
+SLACK = "slack"  # in place of a channel: the margin that marine operations are planned with
+SLACK_MARGIN = 0.1  # of the static tension: 10 % as DNV-RP-N103 is quoted to ask for; unverified
 
 
 @refusing
@@ -36,7 +38,8 @@ def add_limit_state(
     Parameters
     ----------
     channel : str
-        As results name it, such as "link_tension", or a selector with names: "vessel_motion[roll]".
+        As results name it, such as "link_tension", or a selector with names: "vessel_motion[roll]". "slack",
+        or "slack[hoist]", is `slack_margin` with a minimum of 0.1: no line below a tenth of its static load.
     maximum, minimum : float, optional
         Largest and smallest value that it may have, in its SI unit (rad for angles); not zero.
     names : mapping of str to str, optional
@@ -57,6 +60,10 @@ def add_limit_state(
     """
     if not isinstance(names or {}, Mapping):
         raise SceneError(f"limit state: names is {shown(names)}; give names by dimension")
+    word, bracket, rest = channel.partition("[") if isinstance(channel, str) else ("", "", "")
+    if word.strip() == SLACK:
+        channel = f"slack_margin{bracket}{rest}"
+        minimum = SLACK_MARGIN if maximum is None and minimum is None else minimum
     pick = pick_of("limit state", channel, names)
     if pick.parts:
         raise SceneError(f"limit state {pick}: holds at all times; leave {pick.parts} out")
@@ -97,10 +104,7 @@ def limit_states_from_node(node: Node, scene: Description) -> None:
         older = isinstance(entry.value, dict) and "where" in entry.value  # of before 0.3
         named = "where" if older else "names"
         entry.expect((*KEYS, named))
-        bounds = {
-            key: None if entry.at(key).value is None else entry.at(key).number()
-            for key in ("maximum", "minimum")
-        }
+        bounds = {key: entry.at(key).number_or_none() for key in ("maximum", "minimum")}
         names = entry.at(named)
         if not isinstance(names.value, dict):
             names.fail("give an object with names")

@@ -44,6 +44,8 @@ class CraneRoles:
         Whether a drive on which nothing acts when the scene is compiled is held as it is described.
     design_factor : float
         Dynamic factor that the capacity contains: a hook load may be that many times its weight.
+    structure : str or None
+        Joint and spring, of one name, by which the crane leans, where it gives.
     """
 
     prefix: str = ""
@@ -59,6 +61,7 @@ class CraneRoles:
     held: bool = False
     design_factor: float = 1.0
     line: str | None = None
+    structure: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))

@@ -106,3 +106,9 @@ def quaternion_of(matrix: Array) -> Array:
     )
     largest = np.linalg.eigh(products)[1][:, -1]  # 4 q q^T - 1: its largest eigenvector is q
     return np.asarray(largest * (1.0 if largest[0] >= 0.0 else -1.0))
+
+
+def heel_and_trim(quaternion: Array) -> tuple[float, float]:
+    """Roll and pitch (rad) of a body, by its quaternion: positive lifts port, and lowers the bow."""
+    turn = rotation_matrix(quaternion)
+    return float(np.arctan2(turn[2, 1], turn[2, 2])), float(-np.arcsin(np.clip(turn[2, 0], -1.0, 1.0)))

@@ -20,7 +20,7 @@ from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.check_keys import SHIPPED
 from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
-from seacrane.lift.tables import Table
+from seacrane.lift.tables import LEFT, Table
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
@@ -152,7 +152,8 @@ class Caller:
             case "crane":
                 self.crane(scene, table, values, {})
             case "ballast":
-                scene.add_ballast(**given | _tanks(given))
+                left = {key: None for key, value in given.items() if value in LEFT}
+                scene.add_ballast(**given | _tanks(given) | left)
             case "joint":
                 scene.add_joint(**given)
             case "roles":

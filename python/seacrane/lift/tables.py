@@ -21,6 +21,7 @@ from seacrane.description import (
     drives,
     forces,
     joints,
+    lift_factors,
     limit_states,
     meshes,
     own_channels,
@@ -73,6 +74,7 @@ DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
 ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
 TIME: dict[str, Any] = {"unit": "s"}
+LEFT = ("left",)  # of a heel or trim: as it comes
 START: dict[str, Any] = {
     "type": "text",
     "choices": ("rest",),
@@ -258,6 +260,7 @@ SLINGS = keys_of(
         "EA": {"unit": "N"},
         "length": LENGTH,
         "angle_deg": {"unit": "deg"},
+        "breaking_load": {"unit": "N"},
         "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     },
 )
@@ -286,6 +289,7 @@ CRANE = keys_of(
         "foot": POINT,
         "payload": {"type": "table", "keys": PAYLOAD},
         "payload_mass": {"unit": "kg"},
+        "stiffness": {"unit": "N/m"},
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
@@ -399,6 +403,7 @@ _ALL = (
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
         sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
         density={"unit": "kg/m3"}, flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, segment_rung={"type": "text", "choices": lines.STRETCHING},
     ),
     _call("winch", lines.add_winch, _core.Line),
@@ -422,7 +427,7 @@ _ALL = (
         "hoist", hoist.add_hoist,
         mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, slack=LENGTH, EA={"unit": "N"},
         crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
-        block_mass={"unit": "kg"},
+        block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
     ),
@@ -441,7 +446,7 @@ _ALL = (
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
-        rung={"choices": lines.STRETCHING},
+        rung={"choices": lines.STRETCHING}, breaking_load={"unit": "N"},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),
@@ -459,6 +464,11 @@ _ALL = (
     ),
     _call("relative", relatives.add_relative),
     _call("channel", own_channels.add_channel),
+    _call(
+        "lift_factors", lift_factors.add_lift_factors,
+        center_of_gravity=POINT, skew_load=ROW, shackle_breaking_load={"unit": "N"},
+        sources={"type": "names"},
+    ),
     _call(
         "limit_state", limit_states.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
@@ -482,7 +492,7 @@ _ALL = (
     Table(
         name="ballast", text=_summary(add_ballast), add=add_ballast,
         keys=keys_of(add_ballast, more={
-            "heel_deg": {"unit": "deg"}, "trim_deg": {"unit": "deg"},
+            "heel_deg": {"unit": "deg", "choices": LEFT}, "trim_deg": {"unit": "deg", "choices": LEFT},
             "tanks": {"type": "tables", "keys": TANK, "text": "Without them one force."},
         }),
     ),

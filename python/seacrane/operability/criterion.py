@@ -15,6 +15,7 @@ from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.statistics.gaussian import THREE_HOURS
 
+MAXIMA = {"clumped": "clumped, Vanmarcke", "rayleigh": "Rayleigh, sqrt(2 ln N)"}
 STATISTICS = {
     "significant": "significant",
     "mpm": "most probable maximum",
@@ -45,6 +46,10 @@ class Criterion:
     motion : bool
         Whether `maximum` bounds the distance from the value at rest, to either side. Default False: the value
         itself.
+    maxima : {"clumped", "rayleigh"}
+        How the linear model counts crests: in Vanmarcke's clumps (default), or each by itself, Rayleigh's
+        sqrt(2 ln N) of the standards, which is higher. With `motion` N counts both sides. Runs count their
+        own.
     name : str
         Default: the channel and the names.
     stage : str
@@ -63,6 +68,7 @@ class Criterion:
     statistic: str = "mpm"
     exposure: float | None = None
     motion: bool = False
+    maxima: str = "clumped"
     name: str = ""
     stage: str = ""
 
@@ -86,6 +92,10 @@ class Criterion:
             raise SceneError(
                 f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
                 f"{', '.join(STATISTICS)}"
+            )
+        if self.maxima not in MAXIMA:
+            raise SceneError(
+                f"criterion {self.name!r}: maxima is {shown(self.maxima)}; choose from {', '.join(MAXIMA)}"
             )
         if self.exposure is not None:
             positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
@@ -134,4 +144,5 @@ class Criterion:
         over = "" if self.statistic == "significant" else over
         sign = "<=" if self.minimum is None else ">="
         unit = unit_of(self.channel, self.names.values())
-        return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}"
+        linear = "" if one_lift or self.statistic == "significant" else f"; linear: {MAXIMA[self.maxima]}"
+        return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}{linear}"

@@ -36,12 +36,13 @@ def gaussian_level(criterion: Criterion, moments: Array) -> float:
     m0, m1, m2 = moments
     sides = len(criterion.sides)
     bandwidth = np.sqrt(max(1.0 - m1**2 / (m0 * m2), 0.0))
+    width = max(float(bandwidth) / sides, NARROWEST) if criterion.maxima == "clumped" else None
     # To either side: twice the crossings, in clumps with Vanmarcke's factor of half the bandwidth.
     found = gaussian_maximum(
         std=1.0,
         rate=sides * float(np.sqrt(m2 / m0)) / (2.0 * np.pi),
         exposure=criterion.span,
-        bandwidth=max(float(bandwidth) / sides, NARROWEST),
+        bandwidth=width,
     )
     return float(getattr(found, criterion.statistic).value)
 

@@ -9,6 +9,7 @@ from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.line_path import described_poses
+from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.rungs import StretchingRung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, rows_of, shaped_of, text_of, vector_of
@@ -31,6 +32,8 @@ def add_bridle(
     damping_ratio: float = 0.02,
     rung: StretchingRung = "elastic",
     settling: float = 0.2,
+    breaking_load: float | None = None,
+    safety_factor: float | None = None,
 ) -> list[_core.Line]:
     """Slings from one point of a hook to points of a load: a line for each, "<name> 1", "<name> 2" and so on.
 
@@ -49,7 +52,7 @@ def add_bridle(
         On the hook, in its coordinates, m.
     lengths : array_like, shape (n,), optional
         Unstretched, m; by default the distances between the bodies as they are described.
-    damping_ratio, rung, settling
+    damping_ratio, rung, settling, breaking_load, safety_factor
         Of each, as in `add_line`; the mass on each is its share of the load's.
 
     Returns
@@ -77,7 +80,8 @@ def add_bridle(
     apart = np.linalg.norm(foot + ends @ turned.T - origin - rotation @ top, axis=1)
     given = _for_each(f"{what}: lengths", lengths, len(ends)) if np.size(lengths) else apart.tolist()
     axial = _for_each(f"{what}: EA", EA, len(ends))
-    return [
+    ratings = [rating_of(f"{name} {i + 1}", breaking_load, safety_factor) for i in range(len(ends))]
+    slings = [
         add_load(scene, _core.Line(
             name=f"{name} {i + 1}", bodies=[hook, load], points=[top, end], EA=axial[i],
             length=given[i], damping_ratio=damping_ratio, mass=scene.bodies[load].mass / len(ends),
@@ -85,6 +89,9 @@ def add_bridle(
         ))
         for i, end in enumerate(ends)
     ]  # fmt: skip
+    for rating in ratings:
+        note_rating(scene, rating)
+    return slings
 
 
 def _for_each(what: str, values: ArrayLike, count: int) -> list[float]:

@@ -15,7 +15,9 @@ from seacrane.description.bodies import add_body
 from seacrane.description.damping import BOX_DRAG, SWING_RATIO, add_air_drag, add_pendulum_damping
 from seacrane.description.description import GROUND, KINDS, Description
 from seacrane.description.joints import add_joint
+from seacrane.description.loads import changed
 from seacrane.description.places import place_of
+from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.recorded import add_point
 from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import ELASTIC, RIGID, WITH_MASS, Rung
@@ -57,15 +59,22 @@ class Slings:
         Of the slings from the horizontal, deg, between 0 and 90.
     points : array_like of shape (n, 3), or None
         On the load, in its coordinates, m. Default: the four upper corners of its size.
+    breaking_load : float or None
+        Of each, N.
+    safety_factor : float or None
+        Least breaking load over largest force.
     """
 
     EA: float
     length: float | None = None
     angle_deg: float | None = None
     points: Any = None
+    breaking_load: float | None = None
+    safety_factor: float | None = None
 
     def __post_init__(self) -> None:
         positive_of("slings: EA", self.EA)
+        rating_of("slings", self.breaking_load, self.safety_factor)
         if (self.length is None) == (self.angle_deg is None):
             raise SceneError(
                 "slings: give their length (m) or their angle_deg from the horizontal, one of them"
@@ -113,6 +122,8 @@ def add_hoist(
     slings: Slings | Mapping[str, Any] | None = None,
     winch: Mapping[str, Any] | bool = False,
     damping: bool = True,
+    breaking_load: float | None = None,
+    safety_factor: float | None = None,
 ) -> CraneRoles:
     """Hang a load on a line from a crane's tip: line of n falls, block, slings, winch and load, at rest.
 
@@ -161,6 +172,8 @@ def add_hoist(
         Keywords of `add_winch`, or True for one without bounds. Default: none.
     damping : bool
         Whether the load has the small damping of a `Payload`: of its swing, and drag in still air.
+    breaking_load, safety_factor : float, optional
+        Of the rope, as in `add_line`: of one fall.
 
     Returns
     -------
@@ -212,6 +225,9 @@ def add_hoist(
         weight = scene.gravity * (block_mass + (0.0 if on else scene.bodies[load].mass))
         _tie(scene, what, name, roles.tip, hook, falls, weight,
              {"EA": EA, "stiffness": stiffness}, rung, mass_per_length, slack)  # fmt: skip
+        if roles.structure is not None:
+            _preload(scene, roles.structure, weight)
+        note_rating(scene, rating_of(name, breaking_load, safety_factor))
         if winch is not False:
             add_winch(scene, name, **({} if winch is True else winch))
         if rig is not None:
@@ -421,7 +437,15 @@ def _sling(scene: Description, name: str, block: str, load: str, rig: Slings, *,
     add_bridle(
         scene, f"{name} sling", hook=block, load=load, points=ends, EA=rig.EA,
         lengths=lengths / (1.0 + density * lengths / rig.EA),
+        breaking_load=rig.breaking_load, safety_factor=rig.safety_factor,
     )  # fmt: skip
+
+
+def _preload(scene: Description, structure: str, weight: float) -> None:
+    """The crane stands as described under a weight at its tip, N."""
+    spring = scene.springs[structure]
+    length = spring.natural_length - weight / spring.stiffness
+    scene.springs[structure] = changed(spring, natural_length=length)
 
 
 def _damp(scene: Description, tip: Place, load: str) -> None:

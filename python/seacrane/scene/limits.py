@@ -6,13 +6,18 @@ located in time by the integrator; see docs/events.md.
 
 from __future__ import annotations
 
+import numpy as np
+
 from seacrane import _core
-from seacrane.description.description import Description, coordinate_of
+from seacrane.description.description import GROUND, Description, coordinate_of
 from seacrane.description.forces import add_load
+from seacrane.description.places import place_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, text_of
+from seacrane.inputs.frames import rotation_matrix
 
 NO_STOP = 1e7  # m or rad: a bound here or beyond is none
+CLOSE = 1e-6  # m
 STICKING_SPEED = 1e-3  # m/s or rad/s
 
 
@@ -111,9 +116,32 @@ def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _cor
     Raises
     ------
     SceneError
-        For a joint that is not there; what only the whole scene shows comes with `Scene.compile`.
+        For a joint that is not there, and a body with a size whose centre is described below the plane of
+        its seat; what only the whole scene shows comes with `Scene.compile`.
     """
+    if isinstance(joint, str) and joint in scene.joints:
+        _require_above(scene, scene.joints[joint])
     return _limit(scene, "seat", joint, name)
+
+
+def _require_above(scene: Description, joint: _core.Joint) -> None:
+    """SceneError for a box that is described inside its support, or below it."""
+    body = scene.bodies.get(joint.second)
+    if body is None or not np.any(body.size) or (joint.first != GROUND and joint.first not in scene.bodies):
+        return
+    turn = np.eye(3) if joint.first == GROUND else rotation_matrix(scene.bodies[joint.first].quaternion)
+    normal = turn @ np.asarray(joint.first_frame.axes)[:, 2]
+    plane = place_of(scene, body=joint.first, point=joint.first_frame.point)
+    own = rotation_matrix(body.quaternion)
+    height = float(normal @ (body.position + own @ np.asarray(body.center_of_mass) - plane))
+    half = 0.5 * float(np.abs(normal @ own) @ np.asarray(body.size))
+    if height < -CLOSE:
+        which = "below" if height <= -half else "inside"
+        raise SceneError(
+            f"seat on joint {joint.name!r}: body {body.name!r} is described {which} {joint.first!r}, its "
+            f"centre {-height:.4g} m below the plane that it stands on; raise it by {half - height:.4g} m, "
+            "or turn the joint's axis away from the support"
+        )
 
 
 def add_soft_stop(

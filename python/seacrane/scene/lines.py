@@ -15,6 +15,7 @@ from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import changed, lines_of, refuse_heavy_winch, whole_of
 from seacrane.description.places import place_of
+from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.rungs import (
     AUTO,
     ELASTIC,
@@ -84,6 +85,8 @@ def add_line(
     drag_coefficient: float = CYLINDER_DRAG,
     density: float = AIR,
     flow: ArrayLike = (0.0, 0.0, 0.0),
+    breaking_load: float | None = None,
+    safety_factor: float | None = None,
 ) -> _core.Line | _core.Limit | list[_core.Line]:
     """A line, which pulls and never pushes: between two bodies, or over points and sheaves of several.
 
@@ -159,6 +162,10 @@ def add_line(
         With mass, kg/m3, of the fluid; default: air. Buoyancy and added mass are left out.
     flow : array_like, shape (3,)
         With mass, velocity of the fluid, m/s, inertial axes.
+    breaking_load : float, optional
+        Minimum breaking load of the rope, one fall, N: `lift_sheet` and the report compare the tension.
+    safety_factor : float, optional
+        Least breaking load over largest tension, 1 or more.
 
     Returns
     -------
@@ -176,35 +183,40 @@ def add_line(
     name = name_of("line", joint if name is None and joint is not None else name)
     what = f"line {name!r}"
     _check_rung(what, rung, {key: told[key] for key in TAKEN_BY})
+    rating = rating_of(name, breaking_load, safety_factor)
     ends = first, second, first_point, second_point
+    over: tuple[Any, Any] = (bodies, points)
     if joint is not None:
         _refuse_second(what, "a joint", *ends, bodies, points, length)
-        return add_wire(scene, joint, restitution, sticking_speed, name)
-    if bodies is not None or points is not None:
+    elif bodies is not None or points is not None:
         _refuse_second(what, "bodies and points", *ends)
-        over: tuple[Any, Any] = (bodies, points)
     else:
         over = path_between(scene, what, (first, second), (first_point, second_point))
-    if rung == RIGID:
-        return _wire(scene, what, name, *over, length, restitution, sticking_speed)
-    if rung == WITH_MASS:
-        return chain_of_segments(
+    added: Any
+    if joint is not None:
+        added = add_wire(scene, joint, restitution, sticking_speed, name)
+    elif rung == RIGID:
+        added = _wire(scene, what, name, *over, length, restitution, sticking_speed)
+    elif rung == WITH_MASS:
+        added = chain_of_segments(
             scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
             segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
             diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow,
         )  # fmt: skip
-    if length is not None and tension_at_start is not None:
-        raise SceneError(f"{what}: has a length and a tension_at_start; give one of them")
-    line = _core.Line(
-        name=name, bodies=over[0], points=over[1], EA=_axial_stiffness(what, EA, strains, tensions),
-        length=UNKNOWN_LENGTH if length is None else length, damping_ratio=damping_ratio, mass=mass,
-        rung=rung, settling=settling, radii=radii, axes=axes, turns=turns, efficiencies=efficiencies,
-        frictions=frictions, slip_speed=slip_speed, strains=strains, tensions=tensions,
-    )  # fmt: skip
-    if length is None:
-        line = changed(line, length=starting_length(scene, line, tension_at_start))
-    added: _core.Line = add_load(scene, line)
-    return added
+    else:
+        if length is not None and tension_at_start is not None:
+            raise SceneError(f"{what}: has a length and a tension_at_start; give one of them")
+        line = _core.Line(
+            name=name, bodies=over[0], points=over[1], EA=_axial_stiffness(what, EA, strains, tensions),
+            length=UNKNOWN_LENGTH if length is None else length, damping_ratio=damping_ratio, mass=mass,
+            rung=rung, settling=settling, radii=radii, axes=axes, turns=turns, efficiencies=efficiencies,
+            frictions=frictions, slip_speed=slip_speed, strains=strains, tensions=tensions,
+        )  # fmt: skip
+        if length is None:
+            line = changed(line, length=starting_length(scene, line, tension_at_start))
+        added = add_load(scene, line)
+    note_rating(scene, rating)
+    return added  # type: ignore[no-any-return]
 
 
 def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:

@@ -21,6 +21,7 @@ from seacrane.description import (
     file,
     forces,
     joints,
+    lift_factors,
     limit_states,
     meshes,
     own_channels,
@@ -101,8 +102,8 @@ class Scene(Description):
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
         `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
-    recorded, ranges, limit_states, clearances, relatives, channels, roles, provenance, meshes,
-    notes
+    recorded, ranges, limit_states, clearances, relatives, channels, ratings, lift_factors, roles,
+    provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
         which distances, relative motions and expressions are recorded, the parts of cranes, where vessels
         come from, what bodies are drawn by, and the user's own notes.
@@ -116,6 +117,7 @@ class Scene(Description):
     add_range = recorded.add_range
     add_point = recorded.add_point
     add_limit_state = limit_states.add_limit_state
+    add_lift_factors = lift_factors.add_lift_factors
     add_clearance = clearances.add_clearance
     add_relative = relatives.add_relative
     add_channel = own_channels.add_channel
@@ -220,6 +222,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     found.append(("clearances", list(scene.clearances)))
     found.append(("relatives", list(scene.relatives)))
     found.append(("channels", list(scene.channels)))
+    found.append(("lift factors", list(scene.lift_factors)))
     found.append(("meshes", list(scene.meshes)))
     return [(kind, names) for kind, names in found if names]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.described import described
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
-from seacrane.statistics.gaussian import expected_crossings
+from seacrane.sea.crossings import expected_crossings
 from seacrane.statistics.record_extremes import RecordExtremes
 from seacrane.statistics.seeds import SeedExtremes
 
@@ -60,8 +60,8 @@ def _crossing_paper(found: RecordExtremes) -> Sheet:
     clumped = _gaussian(found, levels, found.spectrum.bandwidth)
     lines = [
         Line(label="crests counted", values=_shown(counted)),
-        Line(label="Gaussian", values=_shown(_gaussian(found, levels, None)), colour=1, style="--"),
-        Line(label="Gaussian, clumped", values=_shown(clumped), colour=2, style="--"),
+        Line(label="Rayleigh", values=_shown(_gaussian(found, levels, None)), colour=1, style="--"),
+        Line(label="clumped, Vanmarcke", values=_shown(clumped), colour=2, style="--"),
     ]
     if found.tail is not None:
         above = np.where(levels >= found.tail.threshold, levels, np.nan)

@@ -47,10 +47,10 @@ class RecordExtremes:
         The largest value between each two up-crossings, ascending.
     spectrum : SpectrumEstimate
     gaussian : Maximum
-        As if the process were Gaussian, every crossing independent: sqrt(2 ln N). The intervals hold the
-        scatter of the standard deviation.
+        Rayleigh's: as if the process were Gaussian, every crossing independent, sqrt(2 ln N). The intervals
+        hold the scatter of the standard deviation.
     clumped : Maximum
-        The same with crossings in clumps, by the bandwidth of the spectrum.
+        Vanmarcke's: the same with crossings in clumps, by the bandwidth of the spectrum.
     tail : Tail or None
         Peaks over a threshold; None where the record has too few.
     over_threshold : Maximum or None
@@ -114,7 +114,7 @@ class RecordExtremes:
         )
 
     def _rows(self) -> list[list[str]]:
-        rows = [self.gaussian.cells("Gaussian, sqrt(2 ln N)"), self.clumped.cells("Gaussian, clumped")]
+        rows = [self.gaussian.cells("Rayleigh, sqrt(2 ln N)"), self.clumped.cells("clumped, Vanmarcke")]
         return (
             rows
             if self.over_threshold is None

@@ -1,0 +1,339 @@
+"""lift_sheet(): what a signed lift calculation states, number by number, with formulas and sources."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.answers.hanging_rest import hanging_rest
+from seacrane.answers.rest_columns import AtRest, pulls_of
+from seacrane.answers.summary import summary
+from seacrane.description.description import Description
+from seacrane.description.lift_factors import LiftFactors
+from seacrane.description.loads import changed
+from seacrane.description.ratings import Rating
+from seacrane.description.suspension import Hung, Suspension, hung_loads, suspensions
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
+from seacrane.plotting.html import notebook_table, table
+from seacrane.plotting.tabular import Tabular
+from seacrane.plotting.text import text_table
+from seacrane.result import Result
+from seacrane.result.units import read_as
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+HEAD = ("", "value", "unit", "formula", "with", "source")
+UNVERIFIED = "unverified"
+SCENE, STATICS, RUN = "the scene", "the scene at rest", "this run"
+WORST = "worst corner of the envelope"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SheetRow:
+    """One number of a lift sheet.
+
+    Attributes
+    ----------
+    name : str
+    value : float
+        SI.
+    unit : str
+    formula, inputs : str
+        How it comes about, in symbols and in numbers.
+    source : str
+        Of what was given: "unverified" where nobody said where it is from.
+    required : float or None
+        What it has to reach.
+    """
+
+    name: str
+    value: float
+    unit: str
+    formula: str
+    inputs: str
+    source: str
+    required: float | None = None
+
+    @property
+    def kept(self) -> bool | None:
+        """Whether it reaches what is required; None where nothing is."""
+        return None if self.required is None else self.value >= self.required
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LiftSheet(Tabular):
+    """The numbers of a lift calculation. Made by `lift_sheet`; prints as a table, forces in kN.
+
+    Attributes
+    ----------
+    scene, load : str
+    rows : tuple of SheetRow
+    """
+
+    scene: str
+    load: str
+    rows: tuple[SheetRow, ...]
+
+    def __getitem__(self, name: str) -> SheetRow:
+        """The row of that name; KeyError names those that are there."""
+        for row in self.rows:
+            if row.name == name:
+                return row
+        known = ", ".join(repr(row.name) for row in self.rows)
+        raise KeyError(f"there is no row {name!r}; the sheet has {known}")
+
+    def __iter__(self) -> Iterator[SheetRow]:
+        return iter(self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @property
+    def kept(self) -> bool:
+        """Whether every number reaches what is required of it."""
+        return all(row.kept is not False for row in self.rows)
+
+    def __repr__(self) -> str:
+        return f"<LiftSheet of {self.load!r} in {self.scene!r}: {len(self.rows)} rows>"
+
+    def __str__(self) -> str:
+        return f"{self._title()}\n{text_table(HEAD, self._cells(), right=(1,))}"
+
+    def _repr_html_(self) -> str:
+        return notebook_table(HEAD, self._cells(), caption=self._title())
+
+    def html(self) -> str:
+        """The table alone, as HTML."""
+        return table(HEAD, self._cells(), caption=self._title())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Columns over `row`, SI; a requirement that there is not as NaN."""
+        import xarray
+
+        names = [item.name for item in fields(SheetRow) if item.name != "name"]
+        columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
+        columns["required"] = [np.nan if value is None else value for value in columns["required"]]
+        return xarray.Dataset(
+            {key: ("row", np.array(values)) for key, values in columns.items()},
+            {"row": [row.name for row in self.rows]},
+            {"scene": self.scene, "load": self.load},
+        )
+
+    def _title(self) -> str:
+        return f"{self.scene}: lift of {self.load}"
+
+    def _cells(self) -> list[list[str]]:
+        return [_cells(row) for row in self.rows]
+
+
+def _cells(row: SheetRow) -> list[str]:
+    factor, unit = read_as(row.unit)
+    told = f"{factor * row.value:.4g}"
+    if row.required is not None:
+        told += " >= " if row.kept else " below "
+        told += f"{row.required:.4g}"
+    return [row.name, told, unit, row.formula, row.inputs, row.source]
+
+
+@one_thread
+def lift_sheet(subject: Result | Description, *, load: str | None = None) -> LiftSheet:
+    """Design weight, hook load, forces in slings and ropes and their safety factors, each with its source.
+
+    Static forces are those of the scene at rest with the load off any deck, its mass times the weight
+    contingency factor, its centre of gravity in the corner of its envelope that is worst for each. The
+    dynamic factor multiplies all of them, the skew load factor the slings besides. The steps are those of GL
+    Noble Denton 0027/ND Rev. 11, 6.2 and 7.2; against DNV-ST-N001, which took its place, they are
+    unverified. Factors are the user's: `Scene.add_lift_factors`.
+
+    Parameters
+    ----------
+    subject : Result or Scene
+        Of a run, whose dynamic factor counts where none was given; of a scene alone the factor is 1.
+    load : str, optional
+        The body; default: the only one with lift factors, or the only one that hangs on a crane.
+
+    Returns
+    -------
+    LiftSheet
+
+    Raises
+    ------
+    SceneError
+        For a result without its scene, a load that hangs on nothing, a scene without rest.
+    """
+    scene = subject.scene if isinstance(subject, Result) else subject
+    if not isinstance(scene, Description):
+        raise SceneError(f"lift sheet: subject is {shown(subject)}; give a Scene, or a Result that holds its")
+    body = _load_of(scene, load)
+    hung = [one for one in hung_loads(scene) if one.load == body]
+    if not hung:
+        raise SceneError(f"lift sheet: load {body!r} hangs on nothing; hang it by add_hoist or a link")
+    factors = scene.lift_factors.get(body) or LiftFactors(name=body)
+    rows = list(_Sheet(scene, factors, hung, subject if isinstance(subject, Result) else None).rows())
+    return LiftSheet(scene=scene.name, load=body, rows=tuple(rows))
+
+
+def _load_of(scene: Description, load: str | None) -> str:
+    hung = hung_loads(scene)
+    on_cranes = [one.load for one in hung if one.crane is not None]
+    known = list(dict.fromkeys(list(scene.lift_factors) or on_cranes or [one.load for one in hung]))
+    if load is None and len(known) == 1:
+        return known[0]
+    if load not in scene.bodies:
+        loads = ", ".join(map(repr, known)) or "none"
+        raise SceneError(f"lift sheet: load is {shown(load)}; name one, the scene has {loads}")
+    return str(load)
+
+
+class _Sheet:
+    """The rows, one after another."""
+
+    def __init__(
+        self, scene: Description, factors: LiftFactors, hung: list[Hung], run: Result | None
+    ) -> None:
+        self._scene, self._factors, self._hung, self._run = scene, factors, hung, run
+        self._at_rest = [pulls_of(one) for one in _corners(scene, factors)]
+        several = sum(one.crane is not None for one in hung_loads(scene)) > 1
+        self._labels = [f" {one.label}" if several or one.crane is None else "" for one in hung]
+
+    def rows(self) -> Iterator[SheetRow]:
+        """All of them."""
+        factors = self._factors
+        weight = self._scene.bodies[factors.name].mass * self._scene.gravity
+        design = factors.weight_contingency * weight
+        yield SheetRow(name="weight", value=weight, unit="N", formula="W = m g", source=SCENE,
+                       inputs=f"m {weight / self._scene.gravity:.6g} kg")  # fmt: skip
+        yield self._given("weight contingency", "weight_contingency", "gamma")
+        yield SheetRow(name="design weight", value=design, unit="N", formula="gamma W", source="",
+                       inputs=f"{factors.weight_contingency:g} x {weight / 1e3:.4g} kN")  # fmt: skip
+        x, y, z = factors.center_of_gravity
+        if any(factors.center_of_gravity):
+            yield SheetRow(name="envelope of the centre of gravity", value=max(x, y, z), unit="m",
+                           formula="half its edges", inputs=f"{x:g}, {y:g}, {z:g} m",
+                           source=self._source("center_of_gravity"))  # fmt: skip
+        for one, label in zip(self._hung, self._labels, strict=True):
+            yield from self._of_hook(one, label)
+        slings = self._slings()
+        if len(factors.skew_load) not in (1, len(slings)):
+            raise SceneError(
+                f"lift factors of {factors.name!r}: skew_load has {len(factors.skew_load)} numbers, and it "
+                f"hangs on {len(slings)} slings; give one for all, or one for each"
+            )
+        for i, sling in enumerate(slings):
+            yield from self._of_sling(i, sling)
+        if factors.alpha != 1.0:
+            yield from self._of_sea()
+
+    def _of_hook(self, one: Hung, label: str) -> Iterator[SheetRow]:
+        static = self._worst(f"hook load{label}")
+        yield SheetRow(name=f"static hook load{label}", value=static, unit="N", source=STATICS,
+                       formula="gamma W + rigging", inputs=WORST)  # fmt: skip
+        dynamic, source = self._dynamic(label)
+        yield SheetRow(name=f"dynamic factor{label}", value=dynamic, unit="", formula="DAF", source=source,
+                       inputs="")  # fmt: skip
+        yield SheetRow(name=f"dynamic hook load{label}", value=static * dynamic, unit="N", source="",
+                       formula="DAF x static", inputs=f"{dynamic:.4g} x {static / 1e3:.4g} kN")  # fmt: skip
+        rating = self._scene.ratings.get(one.suspension.name)
+        if rating is not None:
+            pull = self._worst(f"hoist tension{label}")
+            force = pull * dynamic
+            yield SheetRow(name=f"rope tension {rating.name}", value=force, unit="N", source=STATICS,
+                           formula="DAF x tension of a fall",
+                           inputs=f"{dynamic:.4g} x {pull / 1e3:.4g} kN")  # fmt: skip
+            yield self._safety(f"safety factor {rating.name}", rating.breaking_load, force,
+                               rating.safety_factor, "")  # fmt: skip
+
+    def _of_sling(self, number: int, sling: Suspension) -> Iterator[SheetRow]:
+        factors = self._factors
+        dynamic = max(self._dynamic(label)[0] for label in self._labels)
+        skew = factors.skew_load[number if len(factors.skew_load) > 1 else 0]
+        static = self._worst(f"line tension {sling.name}", f"tension {sling.name}")
+        force = static * dynamic * skew
+        yield SheetRow(
+            name=f"force {sling.name}", value=force, unit="N", formula="DAF SKL x static, " + WORST,
+            inputs=f"{dynamic:.4g} x {skew:g} x {static / 1e3:.4g} kN",
+            source=f"SKL: {self._source('skew_load')}",
+        )  # fmt: skip
+        rating: Rating | None = self._scene.ratings.get(sling.name)
+        if rating is not None:
+            asked, key = rating.safety_factor, ""
+            if asked is None:
+                asked, key = factors.sling_safety_factor, "sling_safety_factor"
+            yield self._safety(f"safety factor {sling.name}", rating.breaking_load, force, asked, key)
+        if factors.shackle_breaking_load is not None:
+            yield self._safety(f"safety factor of the shackle, {sling.name}", factors.shackle_breaking_load,
+                               force, factors.shackle_safety_factor, "shackle_safety_factor")  # fmt: skip
+
+    def _of_sea(self) -> Iterator[SheetRow]:
+        yield self._given("alpha factor", "alpha", "alpha")
+        hs = None if self._run is None else self._run.settings.get("hs")
+        if isinstance(hs, int | float):
+            alpha = self._factors.alpha
+            yield SheetRow(name="operational Hs", value=alpha * hs, unit="m", formula="alpha Hs", source="",
+                           inputs=f"{alpha:g} x {hs:g} m")  # fmt: skip
+
+    def _safety(
+        self, name: str, breaking_load: float, force: float, asked: float | None, key: str
+    ) -> SheetRow:
+        source = "" if asked is None else self._source(key) if key else "given with the rope"
+        return SheetRow(
+            name=name, value=breaking_load / force, unit="", formula="MBL / force", required=asked,
+            inputs=f"{breaking_load / 1e3:.4g} / {force / 1e3:.4g} kN", source=source,
+        )  # fmt: skip
+
+    def _given(self, name: str, key: str, formula: str) -> SheetRow:
+        return SheetRow(name=name, value=getattr(self._factors, key), unit="", formula=formula, inputs="",
+                        source=self._source(key))  # fmt: skip
+
+    def _source(self, key: str) -> str:
+        return self._factors.sources.get(key, UNVERIFIED)
+
+    def _dynamic(self, label: str) -> tuple[float, str]:
+        """The factor of one hook, and where it is from."""
+        given = self._factors.dynamic_factor
+        if given is not None:
+            return given, self._source("dynamic_factor")
+        if self._run is None:
+            return 1.0, "none: statics alone"
+        row = summary(self._run)[f"hook load{label}"]
+        if row.factor is None:
+            return 1.0, "none: the run knows no factor"
+        return row.factor, f"{RUN}: largest over static hook load"
+
+    def _slings(self) -> list[Suspension]:
+        """What holds the load itself, below a block."""
+        above = {one.suspension.name for one in self._hung}
+        return [
+            one for one in suspensions(self._scene)
+            if one.lower[0] == self._factors.name and one.name not in above and self._bears(one)
+        ]  # fmt: skip
+
+    def _bears(self, one: Suspension) -> bool:
+        """A tagline is none: it does not come from the hook."""
+        return one.upper[0] in {hook.suspension.lower[0] for hook in self._hung}
+
+    def _worst(self, *names: str) -> float:
+        return max(corner[name][1] for corner in self._at_rest for name in names if name in corner)
+
+
+def _corners(scene: Description, factors: LiftFactors) -> Iterator[AtRest]:
+    """At rest with the design weight, its centre of gravity in each corner of its envelope."""
+    body = scene.bodies[factors.name]
+    gamma = factors.weight_contingency
+    sides = [(-edge, edge) if edge else (0.0,) for edge in factors.center_of_gravity]
+    for corner in itertools.product(*sides):
+        out = scene.copy()
+        out.bodies[factors.name] = changed(
+            body, mass=gamma * body.mass, inertia=gamma * np.asarray(body.inertia),
+            center_of_mass=np.asarray(body.center_of_mass) + corner,
+        )  # fmt: skip
+        yield hanging_rest(out)

@@ -1,0 +1,40 @@
+"""How often a Gaussian process crosses a level: singly, or in clumps of a narrow band."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def expected_crossings(level: float, *, cycles: float, bandwidth: float | None) -> float:
+    """Mean number of up-crossings of a level, or of clumps of them, by a Gaussian process.
+
+    Parameters
+    ----------
+    level : float
+        In standard deviations above the mean.
+    cycles : float
+        Mean number of up-crossings of the mean.
+    bandwidth : float or None
+        Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
+    """
+    single = float(cycles * np.exp(-0.5 * level**2))
+    if bandwidth is None or level <= 0.0:
+        return single
+    alone = -np.expm1(-np.sqrt(2.0 * np.pi) * bandwidth * level)
+    return min(single, float(cycles * alone / np.expm1(0.5 * level**2)))
+
+
+def level_crossed(count: float, *, cycles: float, bandwidth: float | None) -> float:
+    """The level in standard deviations that is crossed `count` times on average; 0 where none is."""
+    from scipy.optimize import brentq
+
+    if count >= cycles:
+        return 0.0
+    top = float(np.sqrt(2.0 * np.log(cycles / count)))
+    if bandwidth is None:
+        return top
+
+    def beyond(level: float) -> float:
+        return float(np.log(expected_crossings(level, cycles=cycles, bandwidth=bandwidth) / count))
+
+    return float(brentq(beyond, 0.0, top))
