@@ -16,7 +16,16 @@ from test_report import Page
 from test_result import crane_result, crane_run, vessel_result
 
 from seacrane import (
-    FileFormatError, Frame, Result, Scene, SceneError, Stage, cases, report, simulate, simulate_stages,
+    FileFormatError,
+    Frame,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    cases,
+    report,
+    simulate,
+    simulate_stages,
 )  # fmt: skip
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
