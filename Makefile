@@ -68,8 +68,8 @@ $(BIN)/python: | system-packages
 	mv $@.began $@
 
 # The list changes when a file appears or goes; its members' dates tell of edits.
-SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/lanes cpp/CMakeLists.txt cmake licenses python/seacrane CMakeLists.txt \
-                  pyproject.toml README.md LICENSE -type f -not -path '*/__pycache__/*' | LC_ALL=C sort)
+SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/lanes cpp/CMakeLists.txt cmake licenses python/seacrane examples \
+                  CMakeLists.txt pyproject.toml README.md LICENSE -type f -not -path '*/__pycache__/*' | LC_ALL=C sort)
 $(STAMPS)/sources.txt: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' $(SOURCES) > $@.new
@@ -205,8 +205,13 @@ viewer:
 	$(PIP) install -q -r .venv/requirements-wheel.txt
 	mv $@.began $@
 
+# Notebooks with their outputs, which the wheel holds; run again where their text or the package has changed.
+EXECUTED := $(patsubst notebooks/%.md,build/executed/%.ipynb,$(wildcard notebooks/*.md))
+build/executed/%.ipynb: notebooks/%.md tools/wheel/notebooks.py .venv/.installed-seacrane .venv/.installed-wheel
+	$(BIN)/python tools/wheel/notebooks.py $< $@
+
 # What cibuildwheel would build elsewhere is printed, so that a mistake in its configuration is found here.
-wheel: build .venv/.installed-wheel
+wheel: build .venv/.installed-wheel $(EXECUTED)
 	$(BIN)/python tools/wheel/build.py dist
 	$(BIN)/python tools/wheel/check.py dist/seacrane-*.whl $(WHEEL_ARGS)
 	for system in linux macos windows; do \

@@ -15,7 +15,18 @@ import pytest
 from test_report import Page
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, report, simulate
+from seacrane import (
+    FileFormatError,
+    Frame,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    cases,
+    report,
+    simulate,
+    simulate_stages,
+)  # fmt: skip
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import statistics_of
@@ -61,6 +72,50 @@ def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) 
         "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Hook load and tension",
         "Limits", "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
     ]  # fmt: skip
+
+
+def staged(**hoist: Any) -> Result:
+    """A block and slings on a winch from a crane on a given ship, hoisted in the second of two stages."""
+    scene = Scene(name="staged")
+    scene.add_given_vessel("rest", name="barge")
+    scene.add_crane(base="barge", slew=-np.pi / 2, s1=2.0, s2=2.0)
+    rig = {"block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}, "winch": {"maximum_rate": 0.5}}
+    scene.add_hoist(mass=20e3, size=(3, 3, 2), EA=4e7, falls=2, **rig, **hoist)
+    stages = [
+        Stage(name="hang", duration=2.0),
+        Stage(name="hoist", duration=3.0, commands={"hoist.rate": -0.4}),
+    ]
+    return simulate_stages(scene, stages, dt_out=0.1)
+
+
+def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
+    result = staged()
+    read = Page(report(result).html)
+    assert read.row("ship") == ["barge: moves by its rest"]
+    assert read.row("crane")[0].startswith("on barge, tip ")
+    assert read.row("load") == ["load, 20 t, 3 x 3 x 2 m, 4 slings, block and rigging 1 t"]
+    rope = 2.0 * (8.0 - 8.0 * 21e3 * result.scene.gravity / 2.0 / 4e7)
+    assert read.row("wire") == [f"hoist, elastic, 2 falls, EA 4e+07 N, {rope:.4g} m of rope, winch (0.5 m/s)"]
+    hook = result.select("hook_load", suspension="hoist") / 9.80665e3
+    for name, start, end in (("hang", "0", "2"), ("hoist", "2", "5")):
+        within = hook[result.stage(name)]
+        assert read.row(name) == [start, end, "duration", f"{within.min():.4g} to {within.max():.4g}"]
+    assert f"{hook.min():.4g} t" in read.text, "the least hook load is that of the hook, not of a sling"
+
+
+def test_a_warning_is_told_once_with_how_often_it_came() -> None:
+    told = [
+        "link 'a': pushes with 3.1 N at t = 2 s",
+        "link 'a': pushes with 12 N at t = 7.5 s",
+        "roll reaches 21",
+    ]
+    run = crane_run(t_end=1.0)
+    run["stats"]["validity"] = "\n".join(told)
+    html = report(Result.from_arrays(**run)).html
+    assert html.count("pushes with") == 1 and "pushes with 3.1 N at t = 2 s. It came 2 times" in unescape(
+        html
+    )
+    assert html.count("It came") == 1
 
 
 def test_the_page_is_whole_and_needs_nothing_outside(page: Report) -> None:

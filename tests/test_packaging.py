@@ -91,7 +91,15 @@ def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_
     for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
         shutil.copy(repository / name, tmp_path)
     shutil.copytree(repository / ".ci", tmp_path / ".ci")
-    for name in ("cpp/seacrane", "cpp/bindings", "cpp/lanes", "cmake", "licenses", "python/seacrane"):
+    for name in (
+        "cpp/seacrane",
+        "cpp/bindings",
+        "cpp/lanes",
+        "cmake",
+        "licenses",
+        "python/seacrane",
+        "examples",
+    ):
         (tmp_path / name).mkdir(parents=True)
     source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
     for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):

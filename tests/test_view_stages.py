@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from functools import lru_cache
 from pathlib import Path
 
 import chromium
 import numpy as np
 import pytest
-from stage_scenes import on_deck
+from stage_scenes import HEIGHT, STIFFNESS, on_deck
 
 from seacrane import Result, Stage, simulate_stages, view
 from seacrane.pictures.drawing import drawing_of
+
+PULL = 25e3  # N
 
 
 @lru_cache(maxsize=1)
@@ -63,6 +66,45 @@ def test_models_have_no_wire_where_there_is_none(tmp_path: Path) -> None:
     gone = (times > 2.0 + 1e-6) & (times < 3.0 - 1e-6)
     assert gone.any() and np.all(scale[gone] < 1e-4)
     assert np.all(scale[times < 1.9][:, :2] == 1.0) and np.all(scale[times < 1.9][:, 2] > 19.0)
+
+
+def marked() -> Result:
+    """Two stages, a named point 3 m beside a box on the ground, and a line that pulls at a seat."""
+    scene = on_deck(length=HEIGHT / (1.0 + PULL / STIFFNESS))
+    scene.add_point(name="corner", body="load", point=(1.0, 0.0, 0.0))
+    scene.add_clearance(name="mast", points=["corner"], center=(5.0, 0.0, 1.0), size=(2.0, 2.0, 4.0))
+    stages = [Stage(name="hold", duration=1.0), Stage(name="wait", duration=1.0)]
+    return simulate_stages(scene, stages, dt_out=0.2)
+
+
+def test_stages_points_clearances_and_forces_are_on_the_page() -> None:
+    page = view(marked())
+    data = json.loads(page.html.split('id="data">')[1].split("</script>")[0])
+    assert data["stages"] == [["hold", 0.0, 1.0], ["wait", 1.0, 2.0]]
+    assert data["points"] == [{"name": "corner", "at": [0, 1.0, 0.0, 0.0]}]
+    assert data["clearances"] == [
+        {"name": "mast", "points": [[0, 1.0, 0.0, 0.0]], "at": [-1, 5.0, 0.0, 1.0], "size": [2.0, 2.0, 4.0]}
+    ]
+    assert list(data["forces"]) == ["hoist"]
+    (wire,) = data["wires"]
+    assert 40e9 * (2.0 * wire["size"]) ** 2 == pytest.approx(STIFFNESS)
+    assert "EA = 40 GPa" in page.html
+
+
+@pytest.mark.nightly
+def test_pages_tell_stage_clearance_and_tension(tmp_path: Path) -> None:
+    command = chromium.found()
+    if command is None:
+        pytest.skip("no Chromium: install Debian's package chromium")
+    path = view(marked()).save(tmp_path / "page.html")
+    with chromium.tab(command) as tab:
+        tab.open(path.as_uri())
+        tab.value("seacrane.seek(1.5)")
+        assert tab.value("seacrane.stage()") == "wait, 1.50 s"
+        assert tab.value("seacrane.clearance('mast')") == pytest.approx(3.0, abs=1e-3)
+        assert tab.value("seacrane.wire('hoist 1')") == f"hoist 1 {PULL / 1e3:g} kN"
+        tab.value("document.getElementById('real').click()")
+        assert tab.errors == []
 
 
 @pytest.mark.nightly

@@ -1,8 +1,9 @@
 """Tries a wheel as one who installs it would, and keeps its facts: ``python tools/wheel/check.py WHEEL``.
 
-It is installed where no compiler is found. `seacrane doctor`, `seacrane --version` and the first notebook run
-from it. A run of case 2 is compared with one of the package that the system's own compiler made. Seeds of it
-in lanes, as many as this processor has instructions for, are compared with seeds one by one. Facts go to
+It is installed where no compiler is found. `seacrane doctor` and `seacrane --version` run from it, and from
+what `seacrane examples` writes a script, a lift file and the first notebook; every notebook has its outputs.
+A run of case 2 is compared with one of the package that the system's own compiler made. Seeds of it in lanes,
+as many as this processor has instructions for, are compared with seeds one by one. Facts go to
 wheel-facts.csv beside the wheel, with --publish also into benchmarks/results and the documents.
 """
 
@@ -76,7 +77,10 @@ def tried(clean: Clean) -> dict[str, str]:
     print(clean.run("seacrane", "--version"))
     print(clean.run("seacrane", "doctor"))
     imports = [float(clean.run("python", "-c", IMPORT)) for _ in range(REPEATS)]
-    (first,) = (ROOT / "notebooks").glob("01_*.md")
+    print(clean.run("seacrane", "examples", "examples"))
+    print(clean.run("python", "examples/pendulum.py"))
+    print(clean.run("seacrane", "run", "examples/lifts/first_lift.toml", "--out", "runs"))
+    first, *_ = notebooks_in(clean.folder / "examples")
     script = clean.folder / "notebook.py"
     jupytext.write(jupytext.read(first), script, fmt="py:percent")
     seconds = timed(lambda: print(clean.run("python", str(script))))
@@ -84,6 +88,17 @@ def tried(clean: Clean) -> dict[str, str]:
         "import, s": f"{statistics.median(imports):.2f}",
         "notebook 1, s": f"{seconds:.0f}",
     }
+
+
+def notebooks_in(examples: Path) -> list[Path]:
+    """All that there are, each with outputs; refused where one is missing or has none."""
+    found = sorted((examples / "notebooks").glob("*.ipynb"))
+    wanted = sorted(path.stem for path in (ROOT / "notebooks").glob("*.md"))
+    require([path.stem for path in found] == wanted, f"the wheel has the notebooks {found}, not {wanted}")
+    for path in found:
+        outputs = [out for cell in json.loads(path.read_text())["cells"] for out in cell.get("outputs", ())]
+        require(len(outputs) > 1, f"{path.name} has no outputs")
+    return found
 
 
 def compared(clean: Clean, against: Path) -> dict[str, str]:

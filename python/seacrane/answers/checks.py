@@ -19,7 +19,7 @@ from seacrane.answers.measures import (
 )
 from seacrane.answers.section import Section
 from seacrane.plotting.html import table
-from seacrane.result import Result
+from seacrane.result import Event, Result
 
 MOST_EVENTS = 200
 CONSTRAINT_ERRORS = {
@@ -104,18 +104,27 @@ def _checks(result: Result) -> str:
     return "\n".join(f"<h3>{name}</h3>{table((), rows)}{words}" for name, rows, words in parts if rows)
 
 
+def _beside_stages(result: Result) -> list[Event]:
+    """Begins of stages are in the particulars."""
+    return [one for one in result.events if one.kind != "stage"]
+
+
 def _events(result: Result) -> str:
+    events = _beside_stages(result)
     rows: list[Sequence[Any]] = [
         (one.time, one.name, one.kind, one.speed, one.impulse, one.energy_lost)
-        for one in result.events[:MOST_EVENTS]
+        for one in events[:MOST_EVENTS]
     ]
     head = ("time [s]", "limit", "event", "speed [m/s or rad/s]", "impulse [N s or N m s]", "energy lost [J]")
-    more = len(result.events) - len(rows)
+    more = len(events) - len(rows)
     return table(head, rows) + (note(f"{more} later events are not shown.") if more else "")
 
 
 def _warnings(result: Result) -> str:
-    items = "".join(f"<li>{escape(text)}.</li>" for text in findings_of(result))
+    items = "".join(
+        f"<li>{escape(text)}.{f' It came {times} times, with other numbers.' if times > 1 else ''}</li>"
+        for text, times in findings_of(result).items()
+    )
     return f"<ul>{items}</ul>" if items else "<p>None.</p>"
 
 
@@ -124,7 +133,9 @@ CHECKS: Section[Result] = Section(
     applies=lambda result: bool(_told(constraint_rows(result)) or _told(energy_rows(result))),
     html=_checks,
 )
-EVENTS: Section[Result] = Section(title="Events", applies=lambda result: bool(result.events), html=_events)
+EVENTS: Section[Result] = Section(
+    title="Events", applies=lambda result: bool(_beside_stages(result)), html=_events
+)
 WARNINGS: Section[Result] = Section(title="Warnings", applies=lambda _: True, html=_warnings)
 COST: Section[Result] = Section(
     title="Cost", applies=lambda _: True, html=lambda result: table((), _told(counter_rows(result)))

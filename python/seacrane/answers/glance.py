@@ -7,7 +7,7 @@ import numpy as np
 from seacrane.answers.blocks import cards
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import energy_balanced, findings_of, joints_closed
-from seacrane.answers.reported_curves import HOOK, reported_curves
+from seacrane.answers.reported_curves import hook_loads
 from seacrane.answers.section import Section
 from seacrane.result import Result
 from seacrane.result.traces import Trace, traces
@@ -33,7 +33,7 @@ def _largest(result: Result, channel: str, label: str) -> Cards:
 
 
 def _hook_loads(result: Result) -> Cards:
-    found = [one for one in reported_curves(result) if one.kind == HOOK and np.isfinite(one.values).any()]
+    found = [one for one in hook_loads(result) if np.isfinite(one.values).any()]
     if not found:
         return {}
     largest = max(found, key=lambda one: float(np.nanmax(one.values)))

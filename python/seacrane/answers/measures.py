@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,7 @@ STATED = [
     "actuator_force",
     "driver_force",
 ]
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 PLANAR = ("surge", "sway", "yaw")  # motions that the summary leaves to the statistics
 # What is shown under a crane's own names is not shown again under those of its parts.
 SAME = {
@@ -75,10 +77,16 @@ def energy_balanced(result: Result) -> bool | None:
     return None if closure is None else closure <= BALANCED
 
 
-def findings_of(result: Result) -> list[str]:
-    """What its description and the run were warned of, one message each."""
+def findings_of(result: Result) -> dict[str, int]:
+    """What its description and the run were warned of: each by its first message, and how often it came.
+
+    A lift in stages is told of one thing in several, with other numbers.
+    """
     told = [str(result.stats.get(key, "")).splitlines() for key in ("described", "validity")]
-    return list(dict.fromkeys(line for lines in told for line in lines))
+    alike: dict[str, list[str]] = {}
+    for line in dict.fromkeys(line for lines in told for line in lines):
+        alike.setdefault(NUMBER.sub("#", line), []).append(line)
+    return {lines[0]: len(lines) for lines in alike.values()}
 
 
 def stated_traces(result: Result) -> list[Trace]:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from seacrane.answers.lift_particulars import lift_rows, stage_table
 from seacrane.answers.section import Section
 from seacrane.plotting.html import format_value, table
 from seacrane.result import Result
@@ -85,13 +86,16 @@ def _notes(settings: Mapping[str, Any]) -> Rows:
 def _html(result: Result) -> str:
     settings = result.settings
     groups = {
+        "Lift": lift_rows(result),
         "Scene": _scene(result, settings),
         "Sea": _rows(settings, SEA) + _rows(result.stats, STATED_SEA),
         "Method": _method(result, settings),
         "Notes": _notes(settings),
     }
     blocks = [f"<div><h3>{name}</h3>{table((), rows)}</div>" for name, rows in groups.items() if rows]
-    return f'<div class="columns">{"".join(blocks)}</div>'
+    stages = stage_table(result)
+    below = f"<h3>Stages</h3>{stages}" if stages else ""
+    return f'<div class="columns">{"".join(blocks)}</div>{below}'
 
 
 PARTICULARS: Section[Result] = Section(title="Particulars", applies=lambda _: True, html=_html)

@@ -84,6 +84,12 @@ def reported_curves(result: Result) -> list[Curve]:
         raise FileFormatError(f"the result's notes are none that a run writes: {error}") from error
 
 
+def hook_loads(result: Result) -> list[Curve]:
+    """Of what hangs on cranes, or else by itself: not those of slings and taglines beside them."""
+    every = [one for one in reported_curves(result) if one.kind == HOOK]
+    return [one for one in every if one.rung] or every
+
+
 def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
     hung = hung_in(result)

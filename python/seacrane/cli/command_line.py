@@ -46,6 +46,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_hydro(commands)
     _add_trade(commands)
     _add_schema(commands)
+    _add_examples(commands)
     _add_doctor(commands)
     return parser
 
@@ -204,6 +205,13 @@ def _add_schema(commands: Any) -> None:
     schema = commands.add_parser("schema", help=text, description=text)
     schema.add_argument("--study", action="store_true", help="that of study files")
     schema.add_argument("--path", action="store_true", help="print where the installed copy is instead")
+
+
+def _add_examples(commands: Any) -> None:
+    text = "write the scripts, jobs, lift files and notebooks that come with seacrane"
+    examples = commands.add_parser("examples", help=text, description=text)
+    examples.add_argument("folder", metavar="DIR", help="folder to write to; made if absent")
+    examples.add_argument("--overwrite", action="store_true", help="replace earlier ones in that folder")
 
 
 def _add_doctor(commands: Any) -> None:

@@ -1,4 +1,4 @@
-"""The folder that `--out` names."""
+"""The folder that a command writes to."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 
-def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = True) -> Path:
+def output_folder(
+    name: str, *, holds: Iterable[str] = (), overwrite: bool = True, called: str = "--out "
+) -> Path:
     """The folder, made if absent.
 
     Parameters
@@ -16,6 +18,8 @@ def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = Tru
         Files that will be written into it.
     overwrite : bool
         Whether those may replace earlier ones.
+    called : str
+        What stands before the name where it is told.
 
     Raises
     ------
@@ -26,12 +30,12 @@ def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = Tru
     earlier = [] if overwrite else [file for file in holds if (folder / file).exists()]
     if earlier:
         raise FileExistsError(
-            f"--out {name} holds an earlier {', '.join(earlier)}; give another folder, or --overwrite"
+            f"{called}{name} holds an earlier {', '.join(earlier)}; give another folder, or --overwrite"
         )
     if folder.exists() and not folder.is_dir():
-        raise OSError(f"--out {name} is a file; name a folder")
+        raise OSError(f"{called}{name} is a file; name a folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OSError(f"could not make the folder --out {name}: {error.strerror or error}") from error
+        raise OSError(f"could not make the folder {called}{name}: {error.strerror or error}") from error
     return folder

@@ -8,6 +8,7 @@ import numpy as np
 
 from seacrane.description.description import Description
 from seacrane.description.file import scene_digest
+from seacrane.description.loads import lines_of
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.page_sea import sea_words
 from seacrane.pictures.pose_curves import Motion
@@ -15,6 +16,7 @@ from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
 
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
+REAL_WIRES = "as thick as steel ropes of their EA, EA = 40 GPa times the square of the diameter"
 ESTIMATE = "error_estimate_"
 
 
@@ -31,6 +33,7 @@ def caption(
     rows += [("seed", str(seed))] if seed is not None else []
     rows += _run_rows(result, motion) if result is not None else [("run", "none: the scene at its start")]
     rows += [("axes", AXES), ("drawn", _drawn(looks))]
+    rows += [("real wires", REAL_WIRES)] if lines_of(scene.loads) else []
     return [(what, words) for what, words in rows if words]
 
 

@@ -31,6 +31,7 @@ from seacrane.pictures.animated_gltf import gltf_of
 from seacrane.pictures.caption import caption
 from seacrane.pictures.drawing import Drawing, drawing_of
 from seacrane.pictures.drawn_bodies import Look
+from seacrane.pictures.marks import forces_of, marks_of
 from seacrane.pictures.packing import Blob
 from seacrane.pictures.page_sea import sea_components, without_sea
 from seacrane.pictures.palette import HULL, SLACK, TRACKS, WIRES, body_colour
@@ -215,6 +216,8 @@ def view(
         "sea": None if without_sea(shown_scene) else blob.floats(sea_components(shown_scene)),
         "wires": [wire | {"colours": [WIRES[wire["kind"]], SLACK]} for wire in drawing.wires],
         "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
+        "forces": forces_of(result, drawing.wires, motion, blob),
+        **marks_of(shown_scene, result, motion.bodies),
         "arrows": arrows_of(shown_scene, result, motion, motion.bodies, blob),
         "strip": strip_of(result, channels, motion, blob),
     }

@@ -19,6 +19,7 @@ from seacrane.pictures.shapes import plain
 GROUND = -1
 WALL = 1.15  # outer over inner radius of a barrel
 THINNEST_ROD = 0.4  # of the piston, where both sides have one area
+STEEL_ROPE = 40e9  # N/m2, EA over the square of the diameter; unverified
 
 
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
@@ -27,9 +28,9 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     Of each: name, the element that it is of, kind ("link", "wire", "spring", "barrel" or "rod"; a span is a
     link), both ends as the body's number (-1: the ground) and a point relative to its centre of mass, the
     length (m) below which it hangs slack, 0 if it never does, the radius (m) that it has, 0 for that of all
-    lines, and how far it goes (m), 0 for all the way. A luffing rope whose hinge is led by the moment is a
-    link. Arcs over sheaves are short links without a name. Where a line meets a sheave is as in the pose that
-    the scene describes.
+    lines, how far it goes (m), 0 for all the way, and the radius (m) of a steel rope of its EA, 0 where that
+    is not known. A luffing rope whose hinge is led by the moment is a link. Arcs over sheaves are short links
+    without a name. Where a line meets a sheave is as in the pose that the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -76,7 +77,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     for name, cylinder in hydraulic_cylinders(scene).items():
         if slide_of(scene, cylinder) not in of_cranes:  # else its barrel and its rod are bodies
             found += _cylinder(scene, bodies, name, cylinder)
-    return [{"radius": 0.0, "reach": 0.0} | one for one in found]
+    return [{"radius": 0.0, "reach": 0.0, "size": 0.0} | one for one in found]
 
 
 def _cylinder(
@@ -106,8 +107,11 @@ def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line
         origin, rotation = poses(line.bodies[at])
         return end_of(scene, bodies, line.bodies[at], rotation.T @ (place - origin))
 
+    size = 0.5 * float(np.sqrt(line.EA / STEEL_ROPE))
+
     def link(label: str, start: list[float], stop: list[float]) -> dict[str, Any]:
-        return {"name": label, "element": name, "kind": "link", "from": start, "to": stop, "length": 0.0}
+        ends = {"from": start, "to": stop, "length": 0.0, "size": size}
+        return {"name": label, "element": name, "kind": "link", **ends}
 
     found = [
         link(f"{name} {i + 1}", end(i, start), end(i + 1, stop))

@@ -8,11 +8,12 @@ import { Arrow, GROUPS, newtons, roundScale } from './arrows.js';
 import { bodyGroup } from './bodies.js';
 import { bookmarks } from './camera.js';
 import { Labels } from './labels.js';
+import { Clearance, PointMark } from './marks.js';
 import { Motion } from './motion.js';
 import { savePicture, startFilm } from './save.js';
 import { Sea } from './sea.js';
 import { Strip } from './strip.js';
-import { floats, gunzip } from './unpack.js';
+import { Series, floats, gunzip } from './unpack.js';
 import { Wheel } from './wheels.js';
 import { Track, Wire } from './wires.js';
 
@@ -33,9 +34,10 @@ class Page {
     this.makeSea();
     this.makeLines();
     this.makeArrows();
+    this.makeMarks();
     this.makeLabels();
     this.makeCamera();
-    this.strip = new Strip($('strip'), data.strip, buffer, this.motion, (t) => this.seek(t));
+    this.strip = new Strip($('strip'), data.strip, data.stages, buffer, this.motion, (t) => this.seek(t));
     this.makeControls();
     addEventListener('resize', () => this.size());
     this.strip.size();
@@ -100,6 +102,8 @@ class Page {
   }
 
   makeLines() {
+    const forces = Object.entries(this.data.forces).map(([name, series]) => [name, new Series(this.buffer, series)]);
+    this.forces = new Map(forces);
     this.wires = this.data.wires.map((wire) => new Wire(wire, 1.1 * this.thin));
     this.wires.forEach((wire) => this.scene.add(wire.mesh));
     this.tracks = this.motion.frames < 2 ? [] : this.data.tracks.map(
@@ -117,6 +121,14 @@ class Page {
     this.arrows.forEach((arrow) => this.scene.add(arrow.group));
   }
 
+  makeMarks() {
+    const points = this.data.points.map((point) => new PointMark(point, 2.2 * this.thin));
+    this.gaps = this.data.clearances.map((one) => new Clearance(one));
+    this.marks = [...points, ...this.gaps];
+    this.marks.forEach(({ object }) => this.scene.add(object));
+    this.points = points;
+  }
+
   makeLabels() {
     this.labels = new Labels($('labels'));
     const few = this.data.bodies.length <= 6;
@@ -132,6 +144,13 @@ class Page {
     this.wires.forEach((wire) => {
       const element = this.labels.add(wire.name, 2, () => (wire.mesh.visible ? wire.middle : null), 'wire');
       wire.label = { element, entry: this.labels.labels.find((one) => one.element === element) };
+    });
+    const tips = this.data.tracks.map(({ at }) => `${at}`);
+    this.points.filter(({ at }) => !tips.includes(`${at}`)).forEach((point) => {
+      this.labels.add(point.name, 2, () => (point.object.visible ? point.object.position.clone() : null), 'point');
+    });
+    this.gaps.forEach((gap) => {
+      gap.label = this.labels.add('', 0.7, () => (gap.object.visible ? gap.middle : null), 'gap');
     });
     this.arrows.forEach((arrow) => {
       arrow.label = this.labels.add('', 0.5, () => {
@@ -193,7 +212,7 @@ class Page {
     $('film').onclick = () => this.film();
     Object.assign($('time'), { min: this.start, max: this.end, step: 'any' });
     $('time').oninput = () => this.seek(+$('time').value);
-    for (const id of ['forces', 'names', 'tracks', 'water']) $(id).onchange = () => { this.dirty = true; };
+    for (const id of ['forces', 'names', 'tracks', 'marks', 'real', 'water']) $(id).onchange = () => { this.dirty = true; };
     const keys = {
       ' ': () => this.play(!this.playing),
       ArrowRight: (event) => this.seek(this.time + (event.shiftKey ? 5 : 0.2)),
@@ -205,6 +224,8 @@ class Page {
       f: () => this.next('forces'),
       n: () => this.next('names'),
       t: () => $('tracks').click(),
+      c: () => $('marks').click(),
+      s: () => $('real').click(),
       p: () => $('picture').click(),
       r: () => $('film').click(),
     };
@@ -315,7 +336,8 @@ class Page {
     this.strip.show(t);
     this.drawAxes();
     $('time').value = t;
-    $('now').textContent = `${t.toFixed(2)} s`;
+    const stage = this.data.stages.findLast(([, start]) => start <= t);
+    $('now').textContent = stage ? `${stage[0]}, ${t.toFixed(2)} s` : `${t.toFixed(2)} s`;
     $('view').value = this.view;
     $('time').setAttribute('aria-valuetext', `${t.toFixed(1)} seconds`);
     this.dirty = false;
@@ -323,14 +345,21 @@ class Page {
 
   showLines(t) {
     for (const wire of this.wires) {
-      wire.show(this.motion, t);
-      wire.label.element.textContent = wire.slack ? `${wire.name} (slack)` : wire.name;
+      wire.show(this.motion, t, $('real').checked);
+      const force = this.forces.get(wire.element);
+      const pull = force ? ` ${newtons(Math.max(0, force.linear(0, this.motion.place(t))))}` : '';
+      wire.label.element.textContent = wire.slack ? `${wire.name} (slack)` : `${wire.name}${pull}`;
       wire.label.entry.rank = wire.slack ? 0.6 : 2;
     }
     for (const track of this.tracks) {
       track.group.forEach((line) => { line.visible = $('tracks').checked; });
       track.show(t);
     }
+    for (const mark of this.marks) {
+      mark.object.visible = $('marks').checked;
+      mark.show(this.motion, t);
+    }
+    for (const gap of this.gaps) gap.label.textContent = gap.text;
     const shown = SHOWN_FORCES[$('forces').value];
     for (const arrow of this.arrows) {
       arrow.group.visible = shown.includes(arrow.kind);
@@ -410,6 +439,9 @@ class Page {
       elevation: (x, y, t) => this.sea.elevation(x, y, t),
       absent: () => this.wires.filter((wire) => !wire.mesh.visible).map((wire) => wire.name),
       slack: () => this.wires.filter((wire) => wire.slack).map((wire) => wire.name),
+      clearance: (name) => this.gaps.find((gap) => gap.name === name).nearest(this.motion, this.time).distance,
+      stage: () => $('now').textContent,
+      wire: (name) => this.wires.find((wire) => wire.name === name).label.element.textContent,
       software: this.software,
       wavesDrawn: this.sea ? this.sea.drawn.length : 0,
     };

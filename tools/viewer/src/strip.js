@@ -6,13 +6,14 @@ const HIGHEST = 46; // pixels of a row
 const LOWEST = 30;
 const SHARE = 0.32; // of the page
 const AXIS = 18;
+const HEAD = 17; // of the names of stages
 const COLOURS = ['#0b5a8a', '#c2581a', '#2f7d3a', '#8a2f6b', '#6b6b1a', '#333f4a'];
 
 export class Strip {
-  constructor(canvas, panels, buffer, motion, seek) {
-    Object.assign(this, { canvas, motion });
+  constructor(canvas, panels, stages, buffer, motion, seek) {
+    Object.assign(this, { canvas, motion, stages, head: stages.length ? HEAD : 0 });
     this.panels = panels.map((panel) => ({ ...panel, series: new Series(buffer, panel.values) }));
-    canvas.hidden = !this.panels.length;
+    canvas.hidden = !this.panels.length && !stages.length;
     const move = (event) => {
       const box = canvas.getBoundingClientRect();
       const u = (event.clientX - box.left - GUTTER) / (box.width - GUTTER - 12);
@@ -25,7 +26,7 @@ export class Strip {
   size() {
     if (this.canvas.hidden) return;
     this.row = Math.round(Math.min(HIGHEST, Math.max(LOWEST, (SHARE * window.innerHeight) / this.panels.length)));
-    this.canvas.style.height = `${this.panels.length * this.row + AXIS}px`;
+    this.canvas.style.height = `${this.head + this.panels.length * this.row + AXIS}px`;
     const ratio = window.devicePixelRatio || 1;
     this.width = this.canvas.clientWidth;
     this.height = this.canvas.clientHeight;
@@ -46,13 +47,14 @@ export class Strip {
 
   y(panel, row, value) {
     const span = panel.high - panel.low || 1;
-    return row * this.row + 6 + (1 - (value - panel.low) / span) * (this.row - 12);
+    return this.head + row * this.row + 6 + (1 - (value - panel.low) / span) * (this.row - 12);
   }
 
   draw(pen) {
     pen.fillStyle = '#fff';
     pen.fillRect(0, 0, this.width, this.height);
     pen.font = '11px sans-serif';
+    this.drawStages(pen);
     this.panels.forEach((panel, row) => this.drawPanel(pen, panel, row));
     pen.fillStyle = '#445';
     pen.textAlign = 'center';
@@ -60,15 +62,33 @@ export class Strip {
       const x = this.x(t);
       pen.fillText(`${t}`, x, this.height - 5);
       pen.fillStyle = '#e3e8ec';
-      pen.fillRect(x, 0, 1, this.panels.length * this.row);
+      pen.fillRect(x, this.head, 1, this.panels.length * this.row);
       pen.fillStyle = '#445';
     }
     pen.textAlign = 'left';
     pen.fillText('time [s]', 10, this.height - 5);
   }
 
+  // Names over the time line, as much of each as has room, and where each begins.
+  drawStages(pen) {
+    this.stages.forEach(([name, start, end], i) => {
+      const [left, right] = [this.x(start), this.x(end)];
+      pen.fillStyle = i % 2 ? '#e9eef2' : '#f6f8fa';
+      pen.fillRect(left, 0, right - left, this.height - AXIS);
+      pen.fillStyle = '#33475a';
+      pen.textAlign = 'left';
+      let text = name;
+      while (text && pen.measureText(text).width > right - left - 6) text = text.slice(0, -1);
+      if (text.length === name.length || text.length > 2) pen.fillText(text, left + 3, 12);
+    });
+    if (this.head) {
+      pen.fillStyle = '#1d2b36';
+      pen.fillText('stage', 10, 12);
+    }
+  }
+
   drawPanel(pen, panel, row) {
-    const top = row * this.row;
+    const top = this.head + row * this.row;
     pen.fillStyle = '#c9d2d9';
     pen.fillRect(0, top + this.row - 1, this.width, 1);
     pen.fillStyle = '#8a97a3';
@@ -104,18 +124,18 @@ export class Strip {
     pen.scale(this.ratio, this.ratio);
     const place = this.motion.place(t);
     pen.fillStyle = '#c0392b';
-    pen.fillRect(this.x(t) - 0.5, 0, 1.5, this.panels.length * this.row);
+    pen.fillRect(this.x(t) - 0.5, 0, 1.5, this.head + this.panels.length * this.row);
     this.panels.forEach((panel, row) => {
       pen.font = 'bold 11px sans-serif';
       pen.fillStyle = '#1d2b36';
-      pen.fillText(`${panel.title} [${panel.unit}]`, 10, row * this.row + 0.32 * this.row, GUTTER - 50);
+      pen.fillText(`${panel.title} [${panel.unit}]`, 10, this.head + (row + 0.32) * this.row, GUTTER - 50);
       pen.font = '11px sans-serif';
       const values = panel.labels.map((_, line) => short(panel.series.linear(line, place)));
       let x = 10;
       panel.labels.forEach((label, line) => {
         pen.fillStyle = COLOURS[line % COLOURS.length];
         const text = label ? `${label} ${values[line]}` : values[line];
-        if (x + pen.measureText(text).width < GUTTER - 40 || line === 0) pen.fillText(text, x, row * this.row + 0.76 * this.row, GUTTER - 50);
+        if (x + pen.measureText(text).width < GUTTER - 40 || line === 0) pen.fillText(text, x, this.head + (row + 0.76) * this.row, GUTTER - 50);
         x += pen.measureText(text).width + 8;
       });
     });

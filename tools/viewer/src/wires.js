@@ -19,7 +19,9 @@ export class Wire {
     return !this.absent.some(([start, end]) => start <= t && t < end);
   }
 
-  show(motion, t) {
+  // As thick as it is, where that is known and asked for; else thick enough to be seen.
+  show(motion, t, real) {
+    const thickness = real && this.size > 0 ? this.size : this.thickness;
     this.mesh.visible = this.there(t);
     const [from, to] = [motion.point(this.from, t), motion.point(this.to, t)];
     if (this.reach > 0) to.lerpVectors(from, to, Math.min(1, this.reach / from.distanceTo(to)));
@@ -30,13 +32,13 @@ export class Wire {
     this.mesh.material.color.set(this.colours[this.slack ? 1 : 0]);
     this.mesh.geometry.dispose();
     if (this.radius > 0) {
-      this.mesh.geometry = new CylinderGeometry(this.thickness, this.thickness, chord, 16);
+      this.mesh.geometry = new CylinderGeometry(thickness, thickness, chord, 16);
       this.mesh.position.copy(this.middle);
       this.mesh.quaternion.setFromUnitVectors(UP, to.clone().sub(from).normalize());
       return;
     }
     const curve = new CatmullRomCurve3(points);
-    this.mesh.geometry = new TubeGeometry(curve, this.slack ? 48 : 1, this.thickness, 6, false);
+    this.mesh.geometry = new TubeGeometry(curve, this.slack ? 48 : 1, thickness, 6, false);
   }
 }
 

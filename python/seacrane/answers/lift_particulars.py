@@ -1,0 +1,130 @@
+"""What was lifted, by what and in which stages: ship, crane, wire, load and hook load, in words and units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from seacrane.answers.blocks import note
+from seacrane.answers.reported_curves import POSES, Curve, hook_loads
+from seacrane.description.crane_reach import tip_radius
+from seacrane.description.description import GROUND, Description
+from seacrane.description.loads import lines_of
+from seacrane.description.roles import CraneRoles
+from seacrane.description.suspension import Hung, hung_loads, suspensions
+from seacrane.plotting.html import table
+from seacrane.result import Result
+from seacrane.scene.lines import NO_BOUND, STRONGEST
+
+Rows = list[tuple[str, Any]]
+BOUNDS = {  # of a winch: unit, and from where on there is none
+    "maximum_rate": ("m/s", NO_BOUND),
+    "maximum_acceleration": ("m/s2", NO_BOUND),
+    "lag": ("s of lag", np.inf),
+    "maximum_tension": ("N", STRONGEST),
+}
+
+
+def lift_rows(result: Result) -> Rows:
+    """Of a result that holds its scene: what carries, what hangs, and on what."""
+    scene = result.scene
+    if scene is None or not scene.roles:
+        return []
+    hung = hung_loads(scene)
+    found = [("ship", words) for words in _ships(scene)] + [
+        ("crane", words) for words in _cranes(result, scene)
+    ]
+    for one in hung:
+        found += [("wire", _wire(scene, one)), ("load", _load(scene, one))]
+    return found + [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in _hooks(result)]
+
+
+def stage_table(result: Result) -> str:
+    """Stages as they were run, with the hook loads of each; empty for one run."""
+    if not result.stages:
+        return ""
+    hooks = _hooks(result)
+    head = ("stage", "from [s]", "to [s]", "ended by", *(f"{one.name} [{one.unit}]" for one in hooks))
+    rows = []
+    for span in result.stages:
+        within = result.stage(span.name)
+        loads = [_range(one.values[within]) for one in hooks]
+        rows.append((span.name, round(span.start, 2), round(span.end, 2), span.ended_by or "stopped", *loads))
+    ranges = note("Of hook loads the least and the largest output of the stage.") if hooks else ""
+    return table(head, rows) + ranges
+
+
+def _hooks(result: Result) -> list[Curve]:
+    return [one for one in hook_loads(result) if np.isfinite(one.values).any()]
+
+
+def _range(values: Any) -> str:
+    known = values[np.isfinite(values)]
+    return f"{known.min():.4g} to {known.max():.4g}" if known.size else ""
+
+
+def _ships(scene: Description) -> Iterator[str]:
+    for name, known in scene.provenance.items():
+        if name not in scene.bodies:
+            continue
+        body, led = scene.bodies[name], known.motion is not None
+        words = [known.database, f"moves by its {known.motion}" if led else f"{_tonnes(body.mass)}, floats"]
+        yield f"{name}: {', '.join(word for word in words if word)}"
+
+
+def _cranes(result: Result, scene: Description) -> Iterator[str]:
+    for prefix, roles in scene.roles.items():
+        words = [f"{prefix.strip()} on {_base(scene, roles)}".strip()]
+        if roles.tip is not None and roles.slew is not None and set(POSES) <= set(result.channels):
+            first, last = (
+                float(tip_radius(scene, roles, result["position"][at], result["quaternion"][at]))
+                for at in (0, -1)
+            )
+            height = result.place_of(*roles.tip)[:, 2]
+            moves = abs(last - first) > 0.05 or abs(height[-1] - height[0]) > 0.05
+            words.append(f"tip {first:.1f} m out and {height[0]:.1f} m up at the start")
+            words += [f"{last:.1f} m and {height[-1]:.1f} m at the end"] if moves else []
+        yield ", ".join(words)
+
+
+def _base(scene: Description, roles: CraneRoles) -> str:
+    """What the crane stands on: followed down from its slew drive."""
+    above = {joint.second: joint.first for joint in scene.joints.values()}
+    body = scene.joints[roles.slew[0]].first if roles.slew else GROUND
+    while body not in scene.provenance and body in above:
+        body = above.pop(body)
+    return body
+
+
+def _wire(scene: Description, hung: Hung) -> str:
+    one = hung.suspension
+    words = [one.name, one.rung if one.falls == 1 else f"{one.rung}, {one.falls} falls"]
+    line = lines_of(scene.loads).get(min(one.parts)) if one.parts else None
+    if line is not None:
+        words += [f"EA {line.EA:.4g} N"] if line.EA else []
+        words += [f"{line.length.evaluate(0.0)[0, 0]:.4g} m of rope"] if len(one.parts) == 1 else []
+    if line is not None and line.winch:
+        given = [(getattr(line, key), *bound) for key, bound in BOUNDS.items()]
+        bounds = [f"{value:g} {unit}" for value, unit, none in given if 0.0 < value < none]
+        words.append(" ".join(["winch", f"({', '.join(bounds)})" if bounds else ""]).strip())
+    return ", ".join(words)
+
+
+def _load(scene: Description, hung: Hung) -> str:
+    body = scene.bodies[hung.load]
+    words = [f"{hung.load}, {_tonnes(body.mass)}"]
+    if np.any(body.size):
+        words.append(" x ".join(f"{edge:g}" for edge in body.size) + " m")
+    slings = [
+        one for one in suspensions(scene) if one.lower[0] == hung.load and one.name != hung.suspension.name
+    ]
+    words += [f"{len(slings)} slings"] if slings else []
+    rigging = None if hung.weight is None else hung.weight / scene.gravity - body.mass
+    words += [f"block and rigging {_tonnes(rigging)}"] if rigging and rigging > 1e-6 * body.mass else []
+    return ", ".join(words)
+
+
+def _tonnes(mass: float) -> str:
+    return f"{mass / 1e3:,.4g} t" if mass < 1e7 else f"{mass / 1e3:,.0f} t"
