@@ -101,7 +101,7 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
         scene, over={"seed": range(1, 21)}, keep={"swing": swing}, t_end=60.0,
         rtol=1e-2, dt_out=0.5,
     )  # fmt: skip
-    control = LinearControl(scene, **at, t_end=60.0, after=10.0, dt=0.5)
+    control = LinearControl(scene, **at, t_end=60.0, after=10.0, dt_out=0.5)
     found = controlled_mean(
         runs.dataset.swing,
         controls=control.extremes(range(1, 21)),
@@ -117,7 +117,7 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
 def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt": 0.25}
+    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
         sea = with_sea(scene, {"seed": 2, "hs": hs})

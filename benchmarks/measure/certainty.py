@@ -91,7 +91,7 @@ def control_variates() -> Iterator[tuple[str, ...]]:
         ).dataset.sel(hs=hs)
         for hs in HEIGHTS
     }  # fmt: skip
-    given: dict[str, Any] = {"t_end": T_END, "after": START, "dt": 0.5}
+    given: dict[str, Any] = {"t_end": T_END, "after": START, "dt_out": 0.5}
     for name, _, _, words, motion in CONTROLLED:
         for hs in HEIGHTS:
             control: LinearControl | HookLoadControl

@@ -22,6 +22,7 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
+from seacrane.renamed import refusing
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
 
@@ -35,7 +36,7 @@ BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
 GRID = 1500  # frequencies over the band of the database
 GRID_OF_MODE = 120  # more on either side of each resonance
 FINE = 20_001  # frequencies at which the encounter is looked up
-HEADINGS = 48  # of the quadrature over the directions
+DIRECTIONS = 48  # of the quadrature over the directions
 MOST_UNKNOWN = 0.1  # of the energy of the waves, met outside the table of a database at speed
 
 
@@ -62,9 +63,9 @@ class ResponseStatistics:
         Share of the sea's energy within the band of the database; the rest is left out.
     moments : ndarray, shape (6, 3)
         m0, m2, m4; at forward speed by the frequency of encounter.
-    headings : ndarray, shape (q,)
+    directions : ndarray, shape (q,)
         Directions of the quadrature, rad.
-    heading_share : ndarray, shape (q,)
+    direction_share : ndarray, shape (q,)
         Their shares of the energy of the waves; they sum to one.
     """
 
@@ -75,8 +76,8 @@ class ResponseStatistics:
     duration: float
     wave_energy_share: float
     moments: Array
-    headings: Array
-    heading_share: Array
+    directions: Array
+    direction_share: Array
 
     __repr__ = brief
 
@@ -107,12 +108,13 @@ class ResponseStatistics:
         return np.asarray(self.std * np.sqrt(2.0 * np.log(cycles)))
 
 
+@refusing
 @one_thread
 def response_statistics(
     scene: Description | LinearModel,
     *,
     spectrum: _core.Spectrum,
-    heading: float,
+    direction: float,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     duration: float = 10800.0,
@@ -132,12 +134,12 @@ def response_statistics(
     scene, body, point, state, memory, database
         As `motion_rao`.
     spectrum : Spectrum
-    heading : float
+    direction : float
         rad, main direction of travel from the vessel's x towards its y.
     duration : float
         s, of the extremes.
     spreading : Spreading, optional
-        Of the energy about `heading`: `cos_2s` or `cos_n`. Default: long-crested.
+        Of the energy about `direction`: `cos_2s` or `cos_n`. Default: long-crested.
 
     Raises
     ------
@@ -164,12 +166,12 @@ def response_statistics(
             0
         )
         warn_of_waves_below_band(database, below, "waves of a spectrum")
-    main, output = float(heading), linear.output(body=body, point=point)
-    headings, shares = np.array([main]), np.ones(1)
+    main, output = float(direction), linear.output(body=body, point=point)
+    directions, shares = np.array([main]), np.ones(1)
     if spreading is not None:
-        angles, shares = spreading.quadrature(HEADINGS)
-        headings = main + angles
-    along, *parts = _responses(linear, database, np.append(main, headings), output)
+        angles, shares = spreading.quadrature(DIRECTIONS)
+        directions = main + angles
+    along, *parts = _responses(linear, database, np.append(main, directions), output)
     moments, density, unknown = np.zeros((6, 3)), np.zeros(along.rao.shape), 0.0
     for share, part in zip(shares, parts, strict=True):
         each = np.abs(part.rao) ** 2 * np.asarray(spectrum.density(part.omega))[:, None]
@@ -185,8 +187,8 @@ def response_statistics(
         duration=span,
         wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
         moments=moments,
-        headings=headings,
-        heading_share=shares,
+        directions=directions,
+        direction_share=shares,
     )
 
 

@@ -56,7 +56,7 @@ class LinearControl(_Control):
     body : str
     axis : str
         "x", "y", "z" of the point, or "roll", "pitch", "yaw" of the body's rotation vector; inertial frame.
-    t_end, after, dt : float
+    t_end, after, dt_out : float
         Times as of the runs, s: until when, from when on extremes are taken, and between outputs.
     point : array_like, shape (3,), optional
         Body coordinates, m; default: the centre of mass, as of the channel `position`.
@@ -82,7 +82,7 @@ class LinearControl(_Control):
         axis: str,
         t_end: float,
         after: float = 0.0,
-        dt: float = 0.1,
+        dt_out: float = 0.1,
         point: ArrayLike | None = None,
         derivative: int = 0,
         words: Mapping[str, Value] | None = None,
@@ -90,7 +90,7 @@ class LinearControl(_Control):
     ) -> None:
         self._motions = LinearMotions(
             scene, [Motion(body=body, axis=axis, point=point, derivative=derivative)],
-            t_end=t_end, after=after, dt=dt, words=words, state=state,
+            t_end=t_end, after=after, dt_out=dt_out, words=words, state=state,
         )  # fmt: skip
 
     def series(self, seed: int) -> Array:
@@ -110,7 +110,7 @@ class HookLoadControl(_Control):
     ----------
     scene : Scene
         With a sea of one wave system, whose seed varies, and a load on a link.
-    t_end, after, dt, words, state
+    t_end, after, dt_out, words, state
         As of `LinearControl`.
     link : str, optional
         Joint between crane and load; default: the only one.
@@ -127,7 +127,7 @@ class HookLoadControl(_Control):
         *,
         t_end: float,
         after: float = 0.0,
-        dt: float = 0.1,
+        dt_out: float = 0.1,
         link: str | None = None,
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
@@ -145,7 +145,7 @@ class HookLoadControl(_Control):
         ]
         lift = Motion(body=joint.first, axis="z", point=head, derivative=2)
         self._motions = LinearMotions(
-            scene, [*motions, lift], t_end=t_end, after=after, dt=dt, words=words, state=state
+            scene, [*motions, lift], t_end=t_end, after=after, dt_out=dt_out, words=words, state=state
         )
 
     def series(self, seed: int) -> Array:

@@ -76,7 +76,7 @@ class LinearMotions:
         *,
         t_end: float,
         after: float,
-        dt: float,
+        dt_out: float,
         words: Mapping[str, Value] | None,
         state: _core.State | None,
     ) -> None:
@@ -95,7 +95,7 @@ class LinearMotions:
                 "control: the memory of a vessel is a convolution, whose start from rest the linear model "
                 "does not know; take a fitted one, such as memory='by-motion'"
             )
-        self.times = _times(t_end, after, dt)
+        self.times = _times(t_end, after, dt_out)
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
         self._resolvent = Resolvent(linear)
         self._rows = np.array([motion.row(linear) for motion in motions])
@@ -116,14 +116,14 @@ class LinearMotions:
         return np.asarray(steady - self._decays @ x.sum(axis=0).real)
 
 
-def _times(t_end: Any, after: Any, dt: Any) -> Array:
+def _times(t_end: Any, after: Any, dt_out: Any) -> Array:
     end, begin, step = (
-        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt", dt))
+        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt_out", dt_out))
     )
     if not (0.0 <= begin < end and 0.0 < step <= end - begin and end / step < MOST_TIMES):
         raise SceneError(
-            f"control: t_end is {end:g} s, after {begin:g} s, dt {step:g} s; give outputs between after and "
-            f"t_end, at most {MOST_TIMES}"
+            f"control: t_end is {end:g} s, after {begin:g} s, dt_out {step:g} s; give outputs between after "
+            f"and t_end, at most {MOST_TIMES}"
         )
     times = step * np.arange(round(end / step) + 1)
     return np.asarray(times[times >= begin - 1e-9 * step])

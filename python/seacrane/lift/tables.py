@@ -379,7 +379,7 @@ _ALL = (
     ),
     _call(
         "slack_tank", slack_tank.add_slack_tank,
-        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, body={"type": "text"},
+        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, vessel={"type": "text"},
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=_sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),

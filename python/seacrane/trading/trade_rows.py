@@ -141,11 +141,9 @@ def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str,
     turn = rotation_matrix(result.select("quaternion", body=link.first))
     lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)
     tip = result.select("position", body=link.first) + turn @ lever
-    spin = np.cross(result.select("angular_velocity", body=link.first), turn @ lever)
     below = link.length + float(link.second_frame.point[2] - payload.center_of_mass[2])
     return {
-        "hook_tension": np.full((len(tip), 1), payload.mass * scene.gravity),
-        "tip_velocity": np.asarray(result.select("velocity", body=link.first) + spin),
+        "hook_load": np.full((len(tip), 1), payload.mass * scene.gravity),
         "payload_position": tip - np.array([0.0, 0.0, below]),
     }
 

@@ -39,7 +39,7 @@ def free_vessel_system(vessel: VesselParameters) -> FloatArray:
     model = vessel.memory
     if not isinstance(model, MemoryModel):
         raise TypeError("the vessel's memory is a convolution; give one of states, from fit_memory")
-    rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+    rigid = rigid_mass_matrix(vessel.mass, vessel.center_of_mass, vessel.inertia)
     inverse = np.linalg.inv(rigid + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
     p, total = len(held), len(held) + 6 + model.states
