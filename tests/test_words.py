@@ -93,10 +93,9 @@ def test_no_public_keyword_or_key_has_a_spelling_that_the_table_replaces(
 
 def test_words_stay_only_where_they_are(refused: dict[str, list[str]]) -> None:
     """A place of the last column that no longer holds its word is taken out of the table."""
-    found = words()
-    for old, stays in refused.items():
-        held = [place for place, word in found if fnmatchcase(word, old)]
-        assert all(any(fnmatchcase(place, at) for place in held) for at in stays), (old, stays)
+    held = [(place, old) for place, word in words() for old in refused if fnmatchcase(word, old)]
+    for at in {at for stays in refused.values() for at in stays}:
+        assert any(fnmatchcase(place, at) and at in refused[old] for place, old in held), at
 
 
 def test_a_start_of_a_run_is_a_state() -> None:

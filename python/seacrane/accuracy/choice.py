@@ -112,9 +112,7 @@ def run_to_accuracy(
 
     Parameters
     ----------
-    scene : Scene
-    t_end : float
-        s.
+    t_end : s.
     accuracy : mapping of str to float
         Largest error over the outputs by quantity, in its unit.
     method, outputs, shorthand, start, controllers, progress

@@ -33,9 +33,7 @@ class Quantity:
 
     Attributes
     ----------
-    name, unit : str
-    channels : tuple of str
-        Channels that it is made of.
+    channels : Channels that it is made of.
     values : callable
         Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
         the items.
@@ -53,12 +51,9 @@ class ErrorMeasures:
 
     Attributes
     ----------
-    largest : float
-        Over time.
-    rms : float
-        Root of the mean square over time.
-    std : float
-        Of the standard deviations over time: what a statistic loses, whatever the phase.
+    largest : Over time.
+    rms : Root of the mean square over time.
+    std : Of the standard deviations over time: what a statistic loses, whatever the phase.
     """
 
     largest: float

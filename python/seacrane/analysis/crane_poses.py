@@ -57,7 +57,6 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
 
     Parameters
     ----------
-    scene : Scene
     places : mapping of str to (str, str)
         Every coordinate of its cranes.
     path : mapping of str to Curve

@@ -59,13 +59,9 @@ def frequency_memories(
 
     Parameters
     ----------
-    scene : Scene
-    memory : str
-        "scene": convolutions only. "database": the matrices of a database for `vessel` too.
-    database : HydroDatabase or None
-        In place of the vessel's own: the same ship at a forward speed.
-    vessel : str or None
-        Body on which waves act.
+    memory : "scene": convolutions only. "database": the matrices of a database for `vessel` too.
+    database : In place of the vessel's own: the same ship at a forward speed.
+    vessel : Body on which waves act.
 
     Raises
     ------

@@ -31,10 +31,8 @@ class Growing:
 
     Attributes
     ----------
-    value : complex
-        Eigenvalue, 1/s.
-    label : str
-        Body and motion that it moves most, as "vessel roll".
+    value : Eigenvalue, 1/s.
+    label : Body and motion that it moves most, as "vessel roll".
     """
 
     value: complex

@@ -67,10 +67,8 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     Parameters
     ----------
     tanks : mapping of str to Tank
-    moments : ndarray, shape (2, n)
-        Of 1 kg in each tank, N m.
-    needed : ndarray, shape (2,)
-        N m.
+    moments : (2, n) Of 1 kg in each tank, N m.
+    needed : (2,) N m.
 
     Raises
     ------

@@ -83,11 +83,8 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
 
     Parameters
     ----------
-    title : str
-        Heading, escaped here.
-    lead : str
-        HTML below it.
-    sections : iterable of Section
+    title : Heading, escaped here.
+    lead : HTML below it.
     subject
         What they are about.
 

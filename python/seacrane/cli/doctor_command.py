@@ -68,13 +68,9 @@ class Package:
 
     Attributes
     ----------
-    name : str
-    extra : str
-        The optional part of seacrane that needs it; empty for what is always needed.
-    least : str
-        Least version, or empty.
-    found : str
-        Version that is installed, or empty.
+    extra : The optional part of seacrane that needs it; empty for what is always needed.
+    least : Least version, or empty.
+    found : Version that is installed, or empty.
     """
 
     name: str

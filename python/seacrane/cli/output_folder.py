@@ -11,11 +11,8 @@ def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = Tru
 
     Parameters
     ----------
-    name : str
-    holds : iterable of str
-        Files that will be written into it.
-    overwrite : bool
-        Whether those may replace earlier ones.
+    holds : Files that will be written into it.
+    overwrite : Whether those may replace earlier ones.
 
     Raises
     ------

@@ -50,12 +50,9 @@ def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> S
 
     Parameters
     ----------
-    source : str
-        Name of a case, or path of a lift, a scene file or a script.
-    options : Namespace
-        May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
-    scripts : bool
-        Whether a script may be executed.
+    source : Name of a case, or path of a lift, a scene file or a script.
+    options : May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
+    scripts : Whether a script may be executed.
 
     Raises
     ------

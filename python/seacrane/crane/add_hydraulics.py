@@ -59,8 +59,7 @@ def add_hydraulics(
     ----------
     pose : mapping of str to float
         "s1" and "s2" of a knuckle boom, coordinates of another crane.
-    payload_mass : float
-        kg.
+    payload_mass : kg.
     """
     if not hydraulics:
         return

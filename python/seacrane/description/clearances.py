@@ -25,15 +25,10 @@ class Clearance:
 
     Attributes
     ----------
-    name : str
-    points : tuple of str
-        Named by `Scene.add_point`.
-    body : str
-        That carries the box, or "ground".
-    center : (float, float, float)
-        Of the box, coordinates of the body, m.
-    size : (float, float, float)
-        Of the box, along the axes of the body, m; zero: a point, an edge or a plate.
+    points : Named by `Scene.add_point`.
+    body : That carries the box, or "ground".
+    center : Of the box, coordinates of the body, m.
+    size : Of the box, along the axes of the body, m; zero: a point, an edge or a plate.
     """
 
     name: str

@@ -59,11 +59,8 @@ def place_cylinder(
 
     Parameters
     ----------
-    scene : Scene
-    given : dict
-        Entries of the cylinder.
-    force : float, optional
-        N, that it holds; with it the pressures may be left out.
+    given : Entries of the cylinder.
+    force : N, that it holds; with it the pressures may be left out.
 
     Raises
     ------

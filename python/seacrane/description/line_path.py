@@ -25,14 +25,10 @@ class Sheave:
 
     Attributes
     ----------
-    center : ndarray, shape (3,)
-        m.
-    radius : float
-        m.
-    axis : ndarray, shape (3,)
-        Of length one; the line runs about it by the right hand. Zero at a point.
-    turns : float
-        Whole turns on it besides.
+    center : (3,) m.
+    radius : m.
+    axis : (3,) Of length one; the line runs about it by the right hand. Zero at a point.
+    turns : Whole turns on it besides.
     """
 
     center: Array
@@ -47,11 +43,8 @@ class Laid:
 
     Attributes
     ----------
-    starts, ends : ndarray, shape (n - 1, 3)
-        Of the straight parts, inertial axes, m.
-    wraps : ndarray, shape (n,)
-        Angle on each sheave, rad; 0 at points.
-    sheaves : list of Sheave
+    starts, ends : (n - 1, 3) Of the straight parts, inertial axes, m.
+    wraps : (n,) Angle on each sheave, rad; 0 at points.
     """
 
     starts: Array

@@ -24,9 +24,7 @@ class OwnChannel:
 
     Attributes
     ----------
-    name, expression : str
-    unit : str
-        SI, by the units of its curves.
+    unit : SI, by the units of its curves.
     """
 
     name: str

@@ -33,13 +33,10 @@ class Pick:
 
     Attributes
     ----------
-    channel : str
     names : mapping of str to str
         By dimension; dimensions that are not named are kept.
-    after : float or None
-        s: earlier outputs are left out; None: nothing is said of it.
-    stage : str or None
-        The outputs of this stage alone.
+    after : s: earlier outputs are left out; None: nothing is said of it.
+    stage : The outputs of this stage alone.
     """
 
     channel: str

@@ -30,14 +30,10 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
 
     Parameters
     ----------
-    omega : ndarray, shape (k,)
-        rad/s.
-    amplitude : ndarray of complex, shape (k, n)
-        m or rad.
-    ramp : float
-        s, over which the sum grows from rest; 0: all of it from the start.
-    duration : float
-        s; the curves hold their value from then on.
+    omega : (k,) rad/s.
+    amplitude : (k, n) m or rad.
+    ramp : s, over which the sum grows from rest; 0: all of it from the start.
+    duration : s; the curves hold their value from then on.
 
     Returns
     -------

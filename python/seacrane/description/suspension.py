@@ -28,20 +28,14 @@ class Suspension:
 
     Attributes
     ----------
-    name : str
-        Of the joint, or of the line; of a line with mass the whole of it.
-    channel : str
-        Its name, or that of its lowest segment, in the channels over `suspension`.
-    top : str
-        That of its uppermost segment.
-    rung : str
-        "rod", which pushes too, or that of a line.
+    name : Of the joint, or of the line; of a line with mass the whole of it.
+    channel : Its name, or that of its lowest segment, in the channels over `suspension`.
+    top : That of its uppermost segment.
+    rung : "rod", which pushes too, or that of a line.
     first, upper, lower : (str, (float, float, float))
         Body and point, in its coordinates, m: where it begins, and both ends of its last straight part.
-    falls : int
-        Straight parts that hold the lower body.
-    parts : frozenset of str
-        The elements that it is made of.
+    falls : Straight parts that hold the lower body.
+    parts : The elements that it is made of.
     """
 
     name: str
@@ -68,15 +62,10 @@ class Hung:
     ----------
     label : str
         "hook" after the crane's prefix; of a load that hangs on no crane, the name of the suspension.
-    crane : CraneRoles or None
-    suspension : Suspension
-        On which it hangs, with block and slings where it has them.
-    load : str
-        The body.
-    point : (float, float, float)
-        Of it, in its coordinates, m: where it is held, in the middle of its slings.
-    weight : float or None
-        Of all that the suspension carries, N; None where something else carries it too.
+    suspension : On which it hangs, with block and slings where it has them.
+    load : The body.
+    point : Of it, in its coordinates, m: where it is held, in the middle of its slings.
+    weight : Of all that the suspension carries, N; None where something else carries it too.
     """
 
     label: str

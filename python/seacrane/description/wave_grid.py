@@ -16,8 +16,7 @@ def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
 
     Parameters
     ----------
-    omega : ndarray, shape (n,)
-        rad/s, positive.
+    omega : (n,) rad/s, positive.
 
     Returns
     -------

@@ -33,14 +33,11 @@ class Growth:
 
     Attributes
     ----------
-    first : int
-        Seed.
-    batches : int
-        How many there may be.
+    first : Seed.
+    batches : How many there may be.
     others : mapping of str to tuple
         Values of the other parameters, of which all combinations are run.
-    size : int
-        Seeds in a pack.
+    size : Seeds in a pack.
     """
 
     first: int

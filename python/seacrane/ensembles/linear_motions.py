@@ -32,10 +32,7 @@ class Motion:
 
     Attributes
     ----------
-    body, axis : str
-    point : array_like or None
-        Body coordinates, m; None: the centre of mass.
-    derivative : int
+    point : Body coordinates, m; None: the centre of mass.
     """
 
     body: str

@@ -37,8 +37,7 @@ def chunks_of(
 
     Parameters
     ----------
-    folder : Path
-        Of the group.
+    folder : Of the group.
     dims : mapping of str to int
         Number of own dimensions of each variable, each of one chunk.
     indices, shape

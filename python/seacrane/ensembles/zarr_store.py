@@ -419,9 +419,7 @@ def require_bounded(group: Any, over: int) -> None:
 
     Parameters
     ----------
-    group : zarr.Group
-    over : int
-        Number of dimensions of the ensemble.
+    over : Number of dimensions of the ensemble.
 
     Raises
     ------
@@ -440,9 +438,7 @@ def require_arrays(group: Any, members: Members, first: Mapping[str, Labelled]) 
 
     Parameters
     ----------
-    group : zarr.Group
-    members : Members
-        That there is room for.
+    members : That there is room for.
     first : mapping of str to Labelled
         How arrays lie.
 

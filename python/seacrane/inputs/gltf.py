@@ -39,10 +39,8 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
 
     Parameters
     ----------
-    path : path-like
-        .glb, or .gltf with its buffers inside.
-    most : int
-        Triangles that it may have.
+    path : .glb, or .gltf with its buffers inside.
+    most : Triangles that it may have.
 
     Returns
     -------

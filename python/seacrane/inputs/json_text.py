@@ -18,9 +18,7 @@ def json_of(data: bytes, place: str, **hooks: Any) -> Any:
 
     Parameters
     ----------
-    data : bytes
-    place : str
-        Where they are, for messages.
+    place : Where they are, for messages.
     **hooks
         Of `json.loads`; what they raise as ValueError is told.
 

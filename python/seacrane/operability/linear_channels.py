@@ -31,13 +31,9 @@ class LinearChannels:
 
     Attributes
     ----------
-    model : LinearModel
-    rest : ndarray, shape (m,)
-        Values at rest, in the units of the channels.
-    c : ndarray, shape (m, n)
-        Per x of the model.
-    d : ndarray, shape (m, 6)
-        Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
+    rest : (m,) Values at rest, in the units of the channels.
+    c : (m, n) Per x of the model.
+    d : (m, 6) Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
     """
 
     model: LinearModel

@@ -221,11 +221,8 @@ class Glb:
 
         Parameters
         ----------
-        values : array_like
-        target : int, optional
-            VERTICES or INDICES.
-        bounds : bool
-            Whether to tell the lowest and highest, as glTF demands of positions and times.
+        target : VERTICES or INDICES.
+        bounds : Whether to tell the lowest and highest, as glTF demands of positions and times.
         """
         array = np.asarray(values)
         whole = array.dtype.kind in "iu"

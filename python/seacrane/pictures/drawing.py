@@ -37,11 +37,7 @@ class Drawing:
 
     Attributes
     ----------
-    title : str
-    scene : Description
-    result : Result or None
-        None: bodies stand at their assembled start.
-    motion : Motion
+    result : None: bodies stand at their assembled start.
     looks : mapping of str to Look
         By body, in the order of the motion.
     """

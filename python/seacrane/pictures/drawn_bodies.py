@@ -56,12 +56,9 @@ class Look:
 
     Attributes
     ----------
-    role : str
-        "vessel", "payload", "crane" or "body".
-    shapes : list of Shape
-        Relative to the centre of mass, body axes, m.
-    note : str
-        What the shapes stand for, where they are no more than that.
+    role : "vessel", "payload", "crane" or "body".
+    shapes : Relative to the centre of mass, body axes, m.
+    note : What the shapes stand for, where they are no more than that.
     """
 
     role: str

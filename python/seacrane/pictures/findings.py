@@ -72,10 +72,8 @@ def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> 
 
     Parameters
     ----------
-    time, values : ndarray, shape (n,)
-        s, and any unit.
-    period, start : float
-        s; at least two periods must follow the start.
+    time, values : (n,) s, and any unit.
+    period, start : s; at least two periods must follow the start.
 
     Raises
     ------

@@ -46,18 +46,12 @@ class Piece:
         "time" and the channels.
     coords : mapping of str to sequence of str
         As `Result.coords`.
-    stats : mapping
-        As `Result.stats`, of all of the run until here.
-    about : About
-        As `Result.about`.
-    events : sequence of Event
-        Of this piece.
-    interrupted : bool
-        False for the last piece of a run that reached its end.
-    state : bytes
-        Where the piece ends, as a state file; empty where there is none.
-    scene : bytes
-        What is run, as a scene file, in the first piece of a file; empty in the others.
+    stats : As `Result.stats`, of all of the run until here.
+    about : As `Result.about`.
+    events : Of this piece.
+    interrupted : False for the last piece of a run that reached its end.
+    state : Where the piece ends, as a state file; empty where there is none.
+    scene : What is run, as a scene file, in the first piece of a file; empty in the others.
     """
 
     arrays: Mapping[str, Array]

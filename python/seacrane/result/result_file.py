@@ -31,14 +31,11 @@ class Contents:
 
     Attributes
     ----------
-    outputs : int
-        How many.
+    outputs : How many.
     dims : mapping of str to tuple of str
         Of each channel.
-    state : bytes
-        As a state file; empty where there is none.
-    scene : bytes
-        As a scene file; empty where there is none.
+    state : As a state file; empty where there is none.
+    scene : As a scene file; empty where there is none.
     """
 
     outputs: int

@@ -44,18 +44,12 @@ class Left:
 
     Attributes
     ----------
-    source : Path
-        Where it is.
-    piece : Piece
-        The last outputs, and the state where they end.
-    first : float
-        Time of the first output, s.
-    outputs : int
-        All outputs until the state.
-    events : int
-        All events until the state.
-    end : int
-        Where the piece ends in a partial file; 0 where it is of a result's file.
+    source : Where it is.
+    piece : The last outputs, and the state where they end.
+    first : Time of the first output, s.
+    outputs : All outputs until the state.
+    events : All events until the state.
+    end : Where the piece ends in a partial file; 0 where it is of a result's file.
     """
 
     source: Path
@@ -233,14 +227,11 @@ class ResultFile:
 
         Parameters
         ----------
-        result : Result, optional
-            None: there are no new outputs.
+        result : None: there are no new outputs.
         stats, about, events
             Of the run until now, as a result has them.
-        state : bytes
-            As `state_to_bytes` gives it.
-        interrupted : bool
-            False at the end of the run.
+        state : As `state_to_bytes` gives it.
+        interrupted : False at the end of the run.
 
         Raises
         ------

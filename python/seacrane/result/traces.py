@@ -54,12 +54,9 @@ class Trace:
 
     Attributes
     ----------
-    channel : str
-    names : tuple of str
-        Along the channel's dimensions but time.
-    unit : str
-        Of the values: degrees for radians, kN for newtons where they are large.
-    values : ndarray, shape (n,)
+    names : Along the channel's dimensions but time.
+    unit : Of the values: degrees for radians, kN for newtons where they are large.
+    values : (n,)
     """
 
     channel: str
@@ -83,8 +80,6 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
 
     Parameters
     ----------
-    result : Record
-    channel : str
     **names : str
         As of `Result.select`, such as ``body="payload"``.
 

@@ -28,17 +28,11 @@ class Utilised:
 
     Attributes
     ----------
-    name, channel : str
-    curve : str
-        Which of the channel's curves is the worst, by its names; empty where there is one only.
-    unit : str
-        Of the limit and of what was reached, SI; the table prints kN, kN m, deg, bar.
-    limit : float
-        The bound that is nearest to being reached.
-    reached : float
-        Worst value; NaN where the channel was not recorded.
-    at : float
-        When, s; NaN likewise.
+    curve : Which of the channel's curves is the worst, by its names; empty where there is one only.
+    unit : Of the limit and of what was reached, SI; the table prints kN, kN m, deg, bar.
+    limit : The bound that is nearest to being reached.
+    reached : Worst value; NaN where the channel was not recorded.
+    at : When, s; NaN likewise.
     utilisation : float
         1 at the limit: reached over limit, or limit over reached where the limit is one from below (or, of
         negative values, from above); infinite where such a value has changed its sign. NaN where the channel

@@ -49,11 +49,8 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
 
     Parameters
     ----------
-    runs : sequence of Run
-        No more than `lanes`, with one method and one end time.
-    lanes : int
-    look : callable
-        Called with the time now and then.
+    runs : No more than `lanes`, with one method and one end time.
+    look : Called with the time now and then.
 
     Returns
     -------

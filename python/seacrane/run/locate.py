@@ -33,13 +33,9 @@ class Course:
     ----------
     scene, model, method, outputs
         What is stepped, how, and what is recorded, the channels of conditions among it.
-    first : float
-        Time from which outputs are counted, s.
-    interrupts : Interrupts
-    calls : Calls
-        Of controllers.
-    began, done : callables
-        Told of each run that begins, and of each that is part of the result.
+    first : Time from which outputs are counted, s.
+    calls : Of controllers.
+    began, done : Told of each run that begins, and of each that is part of the result.
     """
 
     scene: Scene

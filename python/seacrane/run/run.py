@@ -428,16 +428,11 @@ class _Lasting:
 
     Attributes
     ----------
-    options : RunOptions
-        Of the core.
-    coords : mapping
-        Names along the dimensions of channels.
-    steered : frozenset of str
-        Actuators whose inputs are not zero at the start.
-    stats : mapping
-        Of `lasting_stats`.
-    about : About
-        Of the scene; the settings differ by sea.
+    options : Of the core.
+    coords : Names along the dimensions of channels.
+    steered : Actuators whose inputs are not zero at the start.
+    stats : Of `lasting_stats`.
+    about : Of the scene; the settings differ by sea.
     """
 
     options: _core.RunOptions

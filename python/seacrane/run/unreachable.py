@@ -86,10 +86,8 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
 
     Parameters
     ----------
-    lengths : dict of str to float
-        Unstretched, by line, m, as the stage begins.
-    begin : float
-        s.
+    lengths : Unstretched, by line, m, as the stage begins.
+    begin : s.
     """
     lines = lines_of(scene.loads)
     for condition in stage.conditions:

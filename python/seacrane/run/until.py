@@ -28,13 +28,9 @@ class Level:
 
     Attributes
     ----------
-    channel : str
-    names : tuple of (str, str)
-        Dimension and name that pick one series of the channel.
-    value : float
-        In the channel's unit.
-    above : bool
-        Whether it is met at and above the value, else at and below it.
+    names : Dimension and name that pick one series of the channel.
+    value : In the channel's unit.
+    above : Whether it is met at and above the value, else at and below it.
     """
 
     channel: str
@@ -82,9 +78,7 @@ class Contact:
 
     Attributes
     ----------
-    limit : str
-        Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
-    holds : bool
+    limit : Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
     """
 
     limit: str

@@ -20,14 +20,10 @@ class Chain:
 
     Attributes
     ----------
-    span : ndarray, shape (3,)
-        From the first end to the second, m.
-    segment : float
-        Unstretched length of each segment, m.
-    stiffness : float
-        EA, N.
-    weights : ndarray, shape (n - 1,)
-        Of the masses between the n segments, N, along -z.
+    span : (3,) From the first end to the second, m.
+    segment : Unstretched length of each segment, m.
+    stiffness : EA, N.
+    weights : (n - 1,) Of the masses between the n segments, N, along -z.
     """
 
     span: Array

@@ -57,11 +57,9 @@ def motion_of_components(
     source : HydroDatabase or MotionRaos
         A database without motions of its own has those of the linear model of the ship alone, floating as
         `Scene.add_vessel` describes it.
-    waves : Waves
     place, heading
         Of the ship at rest: (x, y), m; rad.
-    gravity : float
-        m/s2.
+    gravity : m/s2.
 
     Warns
     -----

@@ -268,10 +268,7 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
 
     Parameters
     ----------
-    scene : Scene
-    line : Line
-    direction : array_like, shape (3,)
-        Of that motion, inertial axes.
+    direction : (3,) Of that motion, inertial axes.
 
     Returns
     -------
@@ -295,12 +292,8 @@ def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction
 
     Parameters
     ----------
-    scene : Scene
-    actuator : str
-    body, point : str, array_like
-        The point, m, in coordinates of the body.
-    direction : array_like, shape (3,)
-        Along which its speed counts, inertial axes.
+    body, point : The point, m, in coordinates of the body.
+    direction : (3,) Along which its speed counts, inertial axes.
 
     Returns
     -------

@@ -227,10 +227,8 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
 
     Parameters
     ----------
-    scene : Scene
-        Without the cylinder.
-    given : dict
-        Entries of the cylinder.
+    scene : Without the cylinder.
+    given : Entries of the cylinder.
 
     Raises
     ------

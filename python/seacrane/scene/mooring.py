@@ -122,13 +122,9 @@ def chosen_mooring(
 
     Parameters
     ----------
-    what : str
-        Names the vessel in messages.
-    database : HydroDatabase
-        Whose restoring may hold a mooring of its own.
-    mooring, period : as in `add_vessel`.
-    usual : bool
-        Whether the period is that of a user who gave none.
+    what : Names the vessel in messages.
+    database : Whose restoring may hold a mooring of its own.
+    usual : Whether the period is that of a user who gave none.
 
     Raises
     ------

@@ -87,9 +87,7 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
 
     Parameters
     ----------
-    database : HydroDatabase
-    omega : ndarray, shape (n,)
-        rad/s; beyond the database's as `HydroDatabase.force_at` with ``outside="limits"``.
+    omega : (n,) rad/s; beyond the database's as `HydroDatabase.force_at` with ``outside="limits"``.
 
     Returns
     -------

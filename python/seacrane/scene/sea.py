@@ -292,13 +292,11 @@ class WithoutLoad:
 
     Attributes
     ----------
-    energy : float
-        Share of the energy of the waves.
+    energy : Share of the energy of the waves.
     variance : float
         Largest share of the variance of a load; what is left out is estimated from the slope of the forces
         at the end of the band.
-    load : str
-        Which load that is.
+    load : Which load that is.
     """
 
     energy: float
@@ -319,11 +317,6 @@ def without_load(
     Forces there are taken to continue as the power of the frequency that they follow at the end of the band
     (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
     (roll in a head sea) are not judged.
-
-    Parameters
-    ----------
-    omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
-    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
     """
     energy = 0.5 * amplitude**2
     above = omega > database.omega[-1] * (1.0 + 1e-9)

@@ -237,9 +237,7 @@ def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, f
 
     Parameters
     ----------
-    database : HydroDatabase
-    used : ndarray, shape (6, 6)
-        `additional_stiffness` of the model that a vessel has.
+    used : (6, 6) `additional_stiffness` of the model that a vessel has.
 
     Returns
     -------

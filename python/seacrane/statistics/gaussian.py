@@ -17,12 +17,9 @@ def expected_crossings(level: float, *, cycles: float, bandwidth: float | None) 
 
     Parameters
     ----------
-    level : float
-        In standard deviations above the mean.
-    cycles : float
-        Mean number of up-crossings of the mean.
-    bandwidth : float or None
-        Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
+    level : In standard deviations above the mean.
+    cycles : Mean number of up-crossings of the mean.
+    bandwidth : Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
     """
     single = float(cycles * np.exp(-0.5 * level**2))
     if bandwidth is None or level <= 0.0:

@@ -24,15 +24,11 @@ class Case:
 
     Attributes
     ----------
-    scene : Scene
-    t_end, dt_out : float
-        s.
-    start : State, optional
-        Where to begin; default: the assembled start.
+    t_end, dt_out : s.
+    start : Where to begin; default: the assembled start.
     truth : mapping of str to ndarray, optional
         Values of quantities, known otherwise than by tight runs of the same scene.
-    compiled : Model, optional
-        The compiled scene, to save compiling it again.
+    compiled : The compiled scene, to save compiling it again.
     """
 
     scene: Scene

@@ -32,10 +32,8 @@ class Measured:
 
     Attributes
     ----------
-    quantity, unit : str
-        Of the errors.
-    uncertainty : float
-        Of the reference.
+    quantity, unit : Of the errors.
+    uncertainty : Of the reference.
     """
 
     quantity: str

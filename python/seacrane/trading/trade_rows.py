@@ -38,12 +38,9 @@ class Bench:
 
     Attributes
     ----------
-    case : Case
-        The full scene.
+    case : The full scene.
     quantities : mapping of str to Quantity
-    truth : Reference
-    repeats : int
-        Equal runs; the quickest counts.
+    repeats : Equal runs; the quickest counts.
     """
 
     case: Case

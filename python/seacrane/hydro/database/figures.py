@@ -54,18 +54,13 @@ def matrix_sheet(
 
     Parameters
     ----------
-    abscissa : (str, str, ndarray of shape (n,))
-        Name, unit and values.
+    abscissa : (n,) Name, unit and values.
     curves : dict of ndarray, shape (n, 6, 6) or (6, 6)
         By label, SI. The first decides which entries are drawn; a constant becomes a dotted line.
-    symbol : str
-        A, B or K.
-    units : (str, str, str)
-        Of entries between two translations, one translation and one rotation, two rotations.
-    title, caption : str
-        Heading, and what follows the usual sentence below it.
-    band : (float, float), optional
-        Shaded range.
+    symbol : A, B or K.
+    units : Of entries between two translations, one translation and one rotation, two rotations.
+    title, caption : Heading, and what follows the usual sentence below it.
+    band : Shaded range.
     """
     name, unit_of_abscissa, values = abscissa
     panels = []
@@ -280,10 +275,8 @@ def hydro_figures(
 
     Parameters
     ----------
-    database : HydroData
-        Any database.
-    what : str or sequence of str, optional
-        Names; all if None.
+    database : Any database.
+    what : Names; all if None.
     memory : MemoryModel, optional
         Whose curves are drawn over the data; the database's own if None, and none if it has none.
 
@@ -309,10 +302,8 @@ def save_hydro_figures(
 
     Parameters
     ----------
-    database : HydroData
-        Any database.
-    folder : Path
-        Existing folder.
+    database : Any database.
+    folder : Existing folder.
     memory : MemoryModel, optional
         Whose curves are drawn over the data; the database's own if None, and none if it has none.
 
