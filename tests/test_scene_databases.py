@@ -232,7 +232,7 @@ def test_the_same_database_read_again_is_no_other() -> None:
         lambda scene, database: trade(scene, 1.0, database=database),
         lambda scene, database: plot_rao(scene, body="vessel", database=database),
         lambda scene, database: model_error(scene, body="vessel", times=[0, 1], database=database),
-        lambda scene, database: LinearControl(scene, database=database, body="vessel", axis="z", t_end=9.0),
+        lambda scene, database: LinearControl(scene, database=database, channel="heel[vessel]", t_end=9.0),
         lambda scene, database: HookLoadControl(scene, database=database, t_end=9.0),
         lambda scene, database: allowable_hs(scene, criteria=[], tp=8, direction_deg=0, database=database),
     ],
@@ -275,7 +275,7 @@ def test_drift_and_positions_take_the_database_of_the_scene() -> None:
 def test_controls_and_the_error_of_a_memory_take_the_database_of_a_loaded_scene(tmp_path: Path) -> None:
     cases.case2(hs=0.5, count=20).save(tmp_path / "scene.json")
     scene = Scene.load(tmp_path / "scene.json")
-    control = LinearControl(scene, body="payload", axis="z", t_end=20.0)
+    control = LinearControl(scene, "position[payload, z]", t_end=20.0)
     assert control.extremes([1, 2]).shape == (2,)
     assert HookLoadControl(scene, t_end=20.0).extremes([1]).shape == (1,)
     assert model_error(scene, body="vessel", times=np.linspace(0.0, 20.0, 41)).largest.shape == (6,)

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 # What was given by its place has the name BY_PLACE.
 BY_PLACE = "by place"
 KEPT = "the scene keeps the database of each vessel since it was added; leave it out"
+MOTION = "name the motion, such as 'position[load, z]' or 'acceleration[load, z]'"
 SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 BOUNDS = {"max": "maximum", "min": "minimum"}
 PASSED = {"above": "minimum", "below": "maximum"}
@@ -53,7 +54,10 @@ KEYWORDS: dict[str, dict[str, str]] = {
         "ensemble", "allowable_hs", "trade", "model_error",
     )},
     "plot_rao": {"database": KEPT, "headings_deg": "directions_deg"},
-    **{name: {"database": KEPT, "dt": "dt_out"} for name in ("LinearControl", "HookLoadControl")},
+    "HookLoadControl": {"database": KEPT, "dt": "dt_out"},
+    "LinearControl": {
+        "database": KEPT, "dt": "dt_out", **dict.fromkeys(("body", "axis", "derivative"), MOTION),
+    },
 }  # fmt: skip
 # Methods of `Scene`.
 METHODS: dict[str, str] = {

@@ -12,48 +12,72 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.frequency_domain import component_forces
 from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.shown import shown
+from seacrane.inputs.frames import heading_of, rotation_about_z
 from seacrane.one_thread import one_thread
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+ANGLES = ("heel", "trim", "yaw")
+ORDERS = {  # of the derivatives that channels are
+    **dict.fromkeys(("position", *ANGLES), 0),
+    **dict.fromkeys(("velocity", "angular_velocity"), 1),
+    **dict.fromkeys(("acceleration", "angular_acceleration"), 2),
+}
 MOST_TIMES = 10**6
 
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """One coordinate of a point, or its speed (derivative 1) or acceleration (2).
+    """One coordinate of a point of a body that rests upright, or its rate of a higher order.
 
     Attributes
     ----------
+    channel : One of `ORDERS`.
+    axis : x, y or z; nothing of an angle.
     point : Body coordinates, m; None: the centre of mass.
     """
 
+    channel: str
     body: str
-    axis: str
+    axis: str = ""
     point: ArrayLike | None = None
-    derivative: int = 0
 
     def row(self, linear: LinearModel) -> Array:
         """Of the states of a linear model."""
-        place = self.point
-        if place is None:
-            known = linear.scene.bodies
-            place = known[self.body].center_of_mass if self.body in known else (0.0, 0.0, 0.0)
-        return np.asarray(linear.output(body=self.body, point=place)[AXES.index(self.axis)])
+        body = linear.scene.bodies.get(self.body)
+        place = self.point if self.point is not None or body is None else body.center_of_mass
+        rows = linear.output(body=self.body, point=(0.0, 0.0, 0.0) if place is None else place)
+        if self.channel in ANGLES:
+            assert body is not None
+            turned = rotation_about_z(heading_of(body.quaternion)).T @ rows[3:]
+            return np.asarray(turned[ANGLES.index(self.channel)])
+        first = 3 if self.channel.startswith("angular") else 0
+        return np.asarray(rows[first + FIXED["axis"].index(self.axis)])
 
-    def require(self) -> None:
-        """Raise SceneError for an axis or a derivative that is none."""
-        if self.axis not in AXES:
-            raise SceneError(f"control: axis is {shown(self.axis)}; choose from {', '.join(AXES)}")
-        if self.derivative not in (0, 1, 2):
-            raise SceneError(f"control: derivative is {shown(self.derivative)}; give 0, 1 or 2")
+
+def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
+    """The motion that a text picks, at a point of its body.
+
+    Raises
+    ------
+    SceneError
+        For a channel that is no motion of a body, and one that is not a single curve.
+    """
+    pick = pick_of("control", channel)
+    if pick.channel not in ORDERS:
+        raise SceneError(f"control: {pick.channel} is no motion of a body; choose from {', '.join(ORDERS)}")
+    missing = [dim for dim in CHANNELS[pick.channel].dims_of_several[1:] if dim not in pick.names]
+    if missing or pick.parts:
+        wrong = f"name its {missing[0]}" if missing else f"give {pick.parts} beside it"
+        raise SceneError(f"control: {pick}: {wrong}, as in 'position[load, z]'")
+    return Motion(channel=pick.channel, **pick.names, point=point)
 
 
 class LinearMotions:
@@ -77,8 +101,6 @@ class LinearMotions:
         words: Mapping[str, Value] | None,
         state: _core.State | None,
     ) -> None:
-        for motion in motions:
-            motion.require()
         self._words = dict(words or {})
         for word in self._words:
             if word not in WORDS or word == "seed":
@@ -96,7 +118,7 @@ class LinearMotions:
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
         self._resolvent = Resolvent(linear)
         self._rows = np.array([motion.row(linear) for motion in motions])
-        self._orders = [motion.derivative for motion in motions]
+        self._orders = [ORDERS[motion.channel] for motion in motions]
         self._decays = _decays(linear.a, self._rows, self._orders, self.times)
 
     def series(self, seed: int) -> Array:
