@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -88,19 +87,19 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
     KeyError, ValueError
         As `Result.select`.
     """
-    array = result.select(channel, **names)
-    left = [dim for dim in result.dims[channel][1:] if dim not in names]
-    every = list(itertools.product(*(result.coords[dim] for dim in left)))
-    columns = array.reshape(len(result.time), len(every)).T
-    units = [_unit(result, channel, (*names.values(), *one)) for one in every]
-    kept = tuple(names.values())
-    found: list[Trace] = []
-    for one, values, unit in zip(every, columns, units, strict=True):
-        same = [column for column, other in zip(columns, units, strict=True) if other == unit]
-        factor, shown = shown_unit(unit, same)
-        found.append(
-            Trace(channel=channel, names=(*kept, *one), unit=shown, values=np.asarray(factor * values))
+    result.select(channel, **names)  # which refuses what is not there
+    curves = [
+        ((*names.values(), *(name for dim, name in named.items() if dim not in names)), values)
+        for named, values in Pick(channel=channel, names=names).curves(
+            result.channels[channel], result.dims[channel], result.coords
         )
+    ]
+    units = [_unit(result, channel, named) for named, _ in curves]
+    found: list[Trace] = []
+    for (named, values), unit in zip(curves, units, strict=True):
+        same = [other for (_, other), one in zip(curves, units, strict=True) if one == unit]
+        factor, shown = shown_unit(unit, same)
+        found.append(Trace(channel=channel, names=named, unit=shown, values=np.asarray(factor * values)))
     return found
 
 

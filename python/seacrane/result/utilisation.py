@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
+from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
@@ -136,15 +136,10 @@ def _utilised(
             limit=bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
-    free = [dim for dim in dims[channel][1:] if dim not in where]
-    picked = channels[channel][
-        (slice(None), *(coords[d].index(where[d]) if d in where else slice(None) for d in dims[channel][1:]))
-    ]
-    every = list(itertools.product(*(coords[dim] for dim in free)))
-    curves = picked.reshape(len(time), -1).T
+    curves = Pick(channel=channel, names=where).curves(channels[channel], dims[channel], coords)
     found = [
-        (*_worst(values, kind, bound), bound, names)
-        for values, names in zip(curves, every, strict=True)
+        (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
+        for names, values in curves
         for kind, bound in bounds
     ]
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
