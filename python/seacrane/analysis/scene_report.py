@@ -29,10 +29,6 @@ WORK_STATES = 2  # the work integral and its absolute counterpart
 def scene_report(scene: Description) -> dict[str, Rows]:
     """Compile a scene and tell what came out.
 
-    Parameters
-    ----------
-    scene : Scene
-
     Returns
     -------
     dict of str to list of (str, value)

@@ -15,12 +15,9 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
 
     Parameters
     ----------
-    scene : Scene
-        At rest as it is described; see `seacrane.balance`.
-    body : str
-        Of the vessel.
-    name : str
-        Of the point force.
+    scene : At rest as it is described; see `seacrane.balance`.
+    body : Of the vessel.
+    name : Of the point force.
 
     Returns
     -------

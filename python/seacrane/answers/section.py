@@ -52,12 +52,9 @@ class Section(Generic[Subject]):
 
     Attributes
     ----------
-    title : str
-        Its heading.
-    applies : callable
-        Whether a subject has anything for it; sections that do not apply are left out.
-    html : callable
-        Its content as HTML, in which all text of users is escaped.
+    title : Its heading.
+    applies : Whether a subject has anything for it; sections that do not apply are left out.
+    html : Its content as HTML, in which all text of users is escaped.
     """
 
     title: str

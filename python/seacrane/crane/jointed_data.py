@@ -26,9 +26,11 @@ class MeshData:
 
     Attributes
     ----------
-    vertices, faces : m, in place of a file.
+    vertices, faces : ndarray (n, 3) and (m, 3), or None
+        m, in place of a file.
     scale : By which coordinates are multiplied to be m.
-    origin, axes : Of the mesh in the crane-foot frame at home.
+    origin, axes : ndarray (3,) and (3, 3)
+        Of the mesh in the crane-foot frame at home.
     """
 
     name: str
@@ -47,7 +49,8 @@ class BodyData:
     Attributes
     ----------
     properties : Its centre of mass from the crane foot, its inertia along the foot's axes.
-    members : That it is made of and drawn by; empty where only its mass is known.
+    members : tuple of Tube or Box
+        That it is made of and drawn by; empty where only its mass is known.
     meshes : That it is drawn by in their place.
     """
 
@@ -68,7 +71,8 @@ class JointData:
     point : (3,) m.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
-    range : Of its coordinate from home, rad or m.
+    range : (float, float) or None
+        Of its coordinate from home, rad or m.
     """
 
     name: str
@@ -114,7 +118,8 @@ class JointedData:
     slew : Joint of the slew drive.
     luffs, cylinders : mapping of str to str
         Hinges that raise and lower the jib, and sliding joints, by label.
-    tip : Its body, and its place at home, m.
+    tip : (str, ndarray (3,))
+        Its body, and its place at home, m.
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping

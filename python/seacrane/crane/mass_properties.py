@@ -117,7 +117,8 @@ def combine(members: Sequence[Member], plane: Array) -> MassProperties:
 
     Parameters
     ----------
-    members : At least one.
+    members : sequence of Tube or Box
+        At least one.
     plane : ndarray, shape (3, 2)
         Columns: the unit vectors "along" and "above" of the crane plane in body axes; body y is across it.
 

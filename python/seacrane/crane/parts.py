@@ -23,7 +23,8 @@ class CraneParts:
     Attributes
     ----------
     bodies, joints : The first joint welds it to its base, whose name is "".
-    tip : Its body, and its place, m.
+    tip : (str, ndarray (3,))
+        Its body, and its place, m.
     slew : Joint of the slew drive.
     luffs, cylinders : mapping of str to str
         Joints by label.

@@ -24,7 +24,8 @@ class LuffingRope:
     name : Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
     falls : Parts of rope between the blocks; all carry the same tension.
     EA : Axial stiffness of one fall, N.
-    first, second : Body and point in its coordinates, m; the second one moves with the hinge.
+    first, second : (str, (float, float, float))
+        Body and point in its coordinates, m; the second one moves with the hinge.
     """
 
     name: str

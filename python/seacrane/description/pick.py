@@ -83,8 +83,7 @@ def pick_of(
 
     Parameters
     ----------
-    what : str
-        Who asks, for messages.
+    what : Who asks, for messages.
     channel : str or Pick
         The name of a channel, or a text as above.
     names : mapping of str to str, optional

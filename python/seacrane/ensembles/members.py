@@ -28,8 +28,7 @@ class Members:
     ----------
     axes : mapping of str to tuple
         Values of each parameter: of a grid along its axis, of a list by member.
-    grid : bool
-        Whether all combinations are run, those of the last parameter next to each other.
+    grid : Whether all combinations are run, those of the last parameter next to each other.
     """
 
     axes: Mapping[str, tuple[Value, ...]]

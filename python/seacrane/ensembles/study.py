@@ -35,6 +35,7 @@ class Study:
 
     Attributes
     ----------
+    source : Scene or callable
     t_end : s.
     method, outputs
         Of every run.

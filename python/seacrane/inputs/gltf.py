@@ -39,7 +39,8 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
 
     Parameters
     ----------
-    path : .glb, or .gltf with its buffers inside.
+    path : path-like
+        .glb, or .gltf with its buffers inside.
     most : Triangles that it may have.
 
     Returns

@@ -50,12 +50,9 @@ def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None
 
     Parameters
     ----------
-    keys : iterable of Key
-        That the table may have.
-    values : mapping
-        By spelling.
-    scene : Scene, optional
-        Whose joints decide between the units of a displacement and of an angle.
+    keys : That the table may have.
+    values : By spelling.
+    scene : Whose joints decide between the units of a displacement and of an angle.
 
     Raises
     ------

@@ -97,12 +97,8 @@ class Checker:
 
     Attributes
     ----------
-    document : Document
-    folder : Path
-    renamed : mapping
-        Keys that were called otherwise, by table.
-    older : dict
-        Those that were found, with what they are now.
+    renamed : Keys that were called otherwise, by table.
+    older : Those that were found, with what they are now.
     """
 
     document: Document

@@ -25,8 +25,7 @@ def curve_from(given: Any, unit: str) -> float | Curve:
     ----------
     given : float, mapping, or tuple of mapping
         Checked.
-    unit : str
-        Of its values.
+    unit : Of its values.
 
     Raises
     ------

@@ -40,11 +40,9 @@ class StudyFile:
 
     Attributes
     ----------
-    members : Members
     keep : mapping of str to Kept or StageTime
     until : mapping of str to float, or None
-    exposure : float or None
-        Of largest values, s; None: the length of a run.
+    exposure : Of largest values, s; None: the length of a run.
     accuracy : mapping of str to float, or None
         Largest error by quantity.
     """

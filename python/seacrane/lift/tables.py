@@ -88,12 +88,8 @@ class Table:
 
     Attributes
     ----------
-    name : str
-    text : str
-        What it is, for people.
-    keys : tuple of Key
-    several : bool
-        Whether there may be more than one, each as ``[[name]]``.
+    text : What it is, for people.
+    several : Whether there may be more than one, each as ``[[name]]``.
     add : callable, optional
         What is called with the scene and the keywords; default: the table needs more than one call.
     """

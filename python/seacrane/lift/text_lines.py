@@ -34,8 +34,7 @@ def lines_of(text: str) -> dict[Place, int]:
 
     Parameters
     ----------
-    text : str
-        A TOML document that `tomllib` has read without an error.
+    text : A TOML document that `tomllib` has read without an error.
 
     Returns
     -------

@@ -93,10 +93,7 @@ def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
 
     Parameters
     ----------
-    criterion : Criterion
-    numbers : ndarray, shape (..., 4)
-        `record_numbers` of each record.
-    rest : float
+    numbers : (..., 4) `record_numbers` of each record.
     """
     first = 2 if criterion.statistic == "significant" else 0
     sides = [

@@ -48,7 +48,8 @@ class Storms:
     ----------
     scene : Its references held, with its sea.
     begin : Time of the state at rest, s.
-    start : Where runs begin.
+    start : State or SteadyStart
+        Where runs begin.
     start_up : Left out, s.
     duration : Evaluated, s; None of lifts in stages, each of which is one.
     hs : m, ascending.

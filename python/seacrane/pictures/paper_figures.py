@@ -223,7 +223,8 @@ def crane_skeleton(
     Parameters
     ----------
     crane : The shipped crane if None.
-    foot : Crane foot in the vessel frame, m; the shipped place if None.
+    foot : (float, float, float), optional
+        Crane foot in the vessel frame, m; the shipped place if None.
 
     Returns
     -------

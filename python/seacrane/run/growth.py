@@ -63,14 +63,11 @@ def growing(
 
     Parameters
     ----------
-    modes : Modes
-        At rest in the poses of the states; the mode counts that grows most.
-    stats, settings : mapping
-        Of the run: `Result.stats`, `Result.settings`.
+    modes : At rest in the poses of the states; the mode counts that grows most.
+    stats, settings : Of the run: `Result.stats`, `Result.settings`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
-    near : float
-        Share of the limits, and of what damps the modes, from which on it is told.
+    near : Share of the limits, and of what damps the modes, from which on it is told.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)

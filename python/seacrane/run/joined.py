@@ -32,9 +32,12 @@ class Piece:
 
     Attributes
     ----------
-    names : All names along each dimension, also of channels that are not recorded.
-    start, end : Values of `COUNTED_ON` and of angles that count turns.
-    reached : Values of `COUNTED_ON` before these changes, counted from the first start.
+    names : dict of str to tuple of str
+        All names along each dimension, also of channels that are not recorded.
+    start, end : dict of str to array
+        Values of `COUNTED_ON` and of angles that count turns.
+    reached : dict of str to array
+        Values of `COUNTED_ON` before these changes, counted from the first start.
     lost : J, in connections made and released just before it.
     before : These changes.
     """

@@ -35,7 +35,8 @@ class Course:
         What is stepped, how, and what is recorded, the channels of conditions among it.
     first : Time from which outputs are counted, s.
     calls : Of controllers.
-    began, done : Told of each run that begins, and of each that is part of the result.
+    began, done : callables
+        Told of each run that begins, and of each that is part of the result.
     """
 
     scene: Scene

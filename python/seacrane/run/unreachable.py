@@ -86,7 +86,8 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
 
     Parameters
     ----------
-    lengths : Unstretched, by line, m, as the stage begins.
+    lengths : dict of str to float
+        Unstretched, by line, m, as the stage begins.
     begin : s.
     """
     lines = lines_of(scene.loads)

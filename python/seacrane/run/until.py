@@ -28,7 +28,8 @@ class Level:
 
     Attributes
     ----------
-    names : Dimension and name that pick one series of the channel.
+    names : tuple of (str, str)
+        Dimension and name that pick one series of the channel.
     value : In the channel's unit.
     above : Whether it is met at and above the value, else at and below it.
     """

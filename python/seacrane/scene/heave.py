@@ -292,7 +292,8 @@ def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction
 
     Parameters
     ----------
-    body, point : The point, m, in coordinates of the body.
+    body, point : str, array_like
+        The point, m, in coordinates of the body.
     direction : (3,) Along which its speed counts, inertial axes.
 
     Returns

@@ -124,6 +124,7 @@ def chosen_mooring(
     ----------
     what : Names the vessel in messages.
     database : Whose restoring may hold a mooring of its own.
+    mooring, period : as in `add_vessel`.
     usual : Whether the period is that of a user who gave none.
 
     Raises

@@ -23,16 +23,12 @@ class Mooring:
 
     Attributes
     ----------
-    matrix : ndarray, shape (6, 6)
-        All of it about the reference point.
-    horizontal : ndarray, shape (3,)
-        Springs of surge, sway and yaw by themselves.
-    floating : ndarray, shape (3, 3)
-        What joins the restoring of heave, roll and pitch.
+    matrix : (6, 6) All of it about the reference point.
+    horizontal : (3,) Springs of surge, sway and yaw by themselves.
+    floating : (3, 3) What joins the restoring of heave, roll and pitch.
     springs : tuple of (point, direction, stiffness)
         The rest, each along its line.
-    left : ndarray, shape (3,)
-        Couplings of heave, roll and pitch with yaw that are in none of these.
+    left : (3,) Couplings of heave, roll and pitch with yaw that are in none of these.
     """
 
     matrix: Array

@@ -317,6 +317,11 @@ def without_load(
     Forces there are taken to continue as the power of the frequency that they follow at the end of the band
     (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
     (roll in a head sea) are not judged.
+
+    Parameters
+    ----------
+    omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
+    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
     """
     energy = 0.5 * amplitude**2
     above = omega > database.omega[-1] * (1.0 + 1e-9)

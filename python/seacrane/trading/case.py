@@ -24,11 +24,15 @@ class Case:
 
     Attributes
     ----------
-    t_end, dt_out : s.
-    start : Where to begin; default: the assembled start.
+    scene : Scene
+    t_end, dt_out : float
+        s.
+    start : State, optional
+        Where to begin; default: the assembled start.
     truth : mapping of str to ndarray, optional
         Values of quantities, known otherwise than by tight runs of the same scene.
-    compiled : The compiled scene, to save compiling it again.
+    compiled : Model, optional
+        The compiled scene, to save compiling it again.
     """
 
     scene: Scene

@@ -13,7 +13,14 @@ FLOATING = (2, 3, 4)  # heave, roll, pitch
 
 
 def warn_of_waves_below_band(database: HydroData, share: float, what: str) -> None:
-    """Warn where more than a tenth of the energy of the waves is below the trusted band."""
+    """Warn where more than a tenth of the energy of the waves is below the trusted band.
+
+    Parameters
+    ----------
+    database : with `trusted_band`, or without, where nothing is known.
+    share : of the energy of the waves below the band.
+    what : whose waves these are, for the message.
+    """
     if database.trusted_band is None or share <= MOST_BELOW:
         return
     warn_caller(

@@ -57,7 +57,15 @@ def warn_of_water(
     omega: FloatArray | None = None,
     what: str = "the scene",
 ) -> None:
-    """Compare the database's water with another one's, to half a percent."""
+    """Compare the database's water with another one's, to half a percent.
+
+    Parameters
+    ----------
+    gravity : m/s2 of ``what``.
+    depth : m (inf: deep) of ``what``; None where it has no waves.
+    omega : (n,) rad/s of its waves, whose lengths are compared.
+    what : named in the warning.
+    """
     ratio = gravity / database.g
     if abs(ratio - 1.0) > SAME_WATER:
         warn_caller(

@@ -116,6 +116,11 @@ def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> 
     the restoring matrix, and what is left of it falls with the wavenumber (slope of the surface, and
     acceleration along it). So below the band F = C_3 + (F_lowest - C_3) k / k_lowest.
 
+    Parameters
+    ----------
+    omega : (n,) rad/s.
+    force : (..., n, 6) N/m and N m/m, beyond the band those of its nearest end.
+
     Returns
     -------
     (..., n, 6), a new array.

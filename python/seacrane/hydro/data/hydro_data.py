@@ -78,13 +78,32 @@ class HydroData:
 
     Attributes
     ----------
+    omega : (n,) frequencies in rad/s, increasing and positive.
+    heading : (m,) in rad, increasing, within [0, 2 pi).
+    added_mass, damping : (n, 6, 6) radiation only.
+    infinite_frequency_added_mass, zero_frequency_added_mass : (6, 6), or None when not known.
+    restoring, mass_matrix : (6, 6).
+    force : (m, n, 6) complex wave excitation.
+    motion_rao : (m, n, 6) complex motions as the source gives them, or None.
     motion_rao_limit : (6,) how far motions solved from A, B, C and the forces may be from `motion_rao`, by
         the largest motion: what the digits and the methods of the source allow. Where its reader states
         nothing, 1e-5 in heave and pitch, 1e-3 in the rest.
-    motion_rao_floor : noise.
+    motion_rao_floor : (6,) share of its largest over all headings below which a motion of the source is
+        noise.
+    linear_damping : (6, 6) damping beside radiation, the same at all frequencies.
+    quadratic_damping : (6,) coefficients of v |v| beside radiation.
+    roll_damping : roll damping tabulated by frequency, or None.
+    additional : further matrices by cause.
+    rho, g, depth : kg/m3, m/s2, m (inf: deep).
     speed : forward speed in m/s. Where it is not zero, `added_mass`, `damping`, `additional` and the linear
         and quadratic `roll_damping` are functions of the encounter frequency, given at the values of `omega`;
         forces, motions and everything else stay by wave frequency. The time domain takes zero speed only.
+    length, breadth, draught : m.
+    trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
+    port_starboard_symmetric : whether headings may be mirrored.
+    memory : fitted radiation memory, or None.
+    drift : mean second-order wave loads, or None.
+    origin, source, name : text.
     """
 
     name: str

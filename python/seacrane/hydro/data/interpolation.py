@@ -15,6 +15,12 @@ FloatArray = NDArray[np.float64]
 def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None = None) -> FloatArray:
     """Weights (q, n) such that ``weights @ values`` is the cubic spline through ``values`` at ``query``.
 
+    Parameters
+    ----------
+    knots : (n,) strictly increasing abscissae; for a periodic spline all within one period.
+    query : (q,) abscissae inside the knots' range (anywhere for a periodic spline).
+    period : length of the period; None gives a not-a-knot spline (a lower polynomial below four knots).
+
     Notes
     -----
     Second derivatives follow from continuity of the first (de Boor, A Practical Guide to Splines, ch. IV).

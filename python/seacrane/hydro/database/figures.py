@@ -54,13 +54,15 @@ def matrix_sheet(
 
     Parameters
     ----------
-    abscissa : (n,) Name, unit and values.
+    abscissa : (str, str, ndarray of shape (n,))
+        Name, unit and values.
     curves : dict of ndarray, shape (n, 6, 6) or (6, 6)
         By label, SI. The first decides which entries are drawn; a constant becomes a dotted line.
     symbol : A, B or K.
     units : Of entries between two translations, one translation and one rotation, two rotations.
     title, caption : Heading, and what follows the usual sentence below it.
-    band : Shaded range.
+    band : (float, float), optional
+        Shaded range.
     """
     name, unit_of_abscissa, values = abscissa
     panels = []
@@ -276,7 +278,8 @@ def hydro_figures(
     Parameters
     ----------
     database : Any database.
-    what : Names; all if None.
+    what : str or sequence of str, optional
+        Names; all if None.
     memory : MemoryModel, optional
         Whose curves are drawn over the data; the database's own if None, and none if it has none.
 

@@ -15,7 +15,16 @@ ALONG = 1e-9  # rad: headings this close to 0 or 180 deg are along the ship
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class HullSolution:
-    """Radiation and excitation of a hull about its origin, in the conventions of `HydroDatabase`."""
+    """Radiation and excitation of a hull about its origin, in the conventions of `HydroDatabase`.
+
+    Attributes
+    ----------
+    added_mass, damping : (n, 6, 6).
+    added_mass_zero, added_mass_infinite : (6, 6) limits, or None where the method has none.
+    force : (m, n, 6) complex, per metre of wave amplitude.
+    method : how it was found, in words.
+    trusted_band : (low, high) in rad/s within which the method and its panels can be relied upon.
+    """
 
     added_mass: FloatArray
     damping: FloatArray

@@ -46,6 +46,13 @@ def fit_by_motion(
 ) -> MemoryModel:
     """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
 
+    Parameters
+    ----------
+    database : of zero speed.
+    band : (low, high) in rad/s over which motions are judged.
+    known : (6, 6) infinite-frequency added mass, or None to estimate it.
+    limit : of `MotionError.worst`.
+
     Returns
     -------
     MemoryModel : with `motion`; its ``r2`` is that of its worst pair.

@@ -24,7 +24,14 @@ MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 @one_thread
 def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) -> MemoryModel:
-    """``T^T K T``: every block drives, and is driven by, all motions that its own are made of."""
+    """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
+
+    Parameters
+    ----------
+    model : of the database before it was moved.
+    transform : (6, 6) T, motions at the old point from those at the new one.
+    moved : the database about the new point, against which the quality of each pair is judged anew.
+    """
     blocks = tuple(_moved_block(block, transform) for block in model.blocks)
     matrices = {name: transform.T @ getattr(model, name) @ transform for name in MATRICES}
     passivity = joint_passivity(list(blocks), moved.damping, model.band)

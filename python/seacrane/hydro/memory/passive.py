@@ -38,6 +38,11 @@ def fit_passive(
 
     Parameters
     ----------
+    database : for frequencies, and for the motions by which weak pairs are judged.
+    added_mass, damping : (n, 6, 6), symmetric.
+    entries : (j, k) with memory.
+    known : (6, 6) infinite-frequency added mass, or None to estimate it.
+    trusted : (n,) frequencies over which R2 is judged.
     r2 : that added mass and damping of every pair shall reach, weak pairs (peak of A's variation and B below
         1 % of the geometric mean of their diagonals' peaks) excepted: these shall not change any motion by
         more than 1 % of its largest.
