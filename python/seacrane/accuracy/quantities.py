@@ -75,10 +75,7 @@ def compare(reference: Array, values: Array) -> ErrorMeasures:
 def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None) -> dict[str, Quantity]:
     """The quantities asked for; by default what the scene has of the named ones.
 
-    Raises
-    ------
-    SceneError
-        For a name that is neither one of them nor picks a channel of the scene.
+    Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
     offered = _offered(scene)
     if names is None:

@@ -83,10 +83,7 @@ def motion_rao(
 def excitation_of(linear: LinearModel, given: HydroDatabase | None) -> HydroDatabase:
     """The database whose waves load the vessel of a linear model: by default that of its matrices.
 
-    Raises
-    ------
-    SceneError
-        Without one, and for one of another forward speed than the matrices.
+    Raises SceneError without one, and for one of another forward speed than the matrices.
     """
     if linear.vessel is None:
         raise SceneError(f"scene {linear.scene.name!r}: has no vessel on which waves act; add one")

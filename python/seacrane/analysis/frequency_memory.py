@@ -63,10 +63,7 @@ def frequency_memories(
     database : In place of the vessel's own: the same ship at a forward speed.
     vessel : Body on which waves act.
 
-    Raises
-    ------
-    SceneError
-        For another ``memory``, a database that is missing, or one that is not the vessel's.
+    Raises SceneError for another ``memory``, a database that is missing, or one that is not the vessel's.
     """
     if memory not in KINDS:
         raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")

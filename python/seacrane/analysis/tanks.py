@@ -70,10 +70,7 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     moments : (2, n) Of 1 kg in each tank, N m.
     needed : (2,) N m.
 
-    Raises
-    ------
-    SceneError
-        If the tanks cannot make it: what the fullest, or the emptiest, would have to hold.
+    Raises SceneError if the tanks cannot make it: what the fullest, or the emptiest, would have to hold.
     """
     from scipy.optimize import linprog
 

@@ -24,10 +24,7 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
     Balance
         Of the scene without it.
 
-    Raises
-    ------
-    SceneError
-        If `body` is not the only vessel, or the scene is not at rest.
+    Raises SceneError if `body` is not the only vessel, or the scene is not at rest.
     """
     if body in given_vessels(scene):
         raise SceneError(f"balance: the motion of {body!r} is given: it needs no ballast, leave it out")

@@ -49,10 +49,7 @@ class Study:
 def study_report(study: Study) -> Report:
     """The page about several runs.
 
-    Raises
-    ------
-    OSError
-        If the image of a picture cannot be read.
+    Raises OSError if the image of a picture cannot be read.
     """
     paragraphs = [f"<p>{escape(text)}</p>" for text in (*study.summary, AXES_NOTE)]
     paragraphs += [

@@ -85,10 +85,8 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
     subject
         What they are about.
 
-    Raises
-    ------
-    FileFormatError
-        If a subject holds what its own program never writes, such as notes that are no JSON.
+    Raises FileFormatError if a subject holds what its own program never writes, such as notes that are no
+    JSON.
     """
     body = [f"<h1>{escape(title)}</h1>", lead, *(_block(section, subject) for section in sections)]
     head = (

@@ -14,10 +14,8 @@ def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = Tru
     holds : Files that will be written into it.
     overwrite : Whether those may replace earlier ones.
 
-    Raises
-    ------
-    OSError
-        If it cannot be made, something else has its name, or it holds an earlier one of those files.
+    Raises OSError if it cannot be made, something else has its name, or it holds an earlier one of those
+    files.
     """
     folder = Path(name)
     earlier = [] if overwrite else [file for file in holds if (folder / file).exists()]

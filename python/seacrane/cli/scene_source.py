@@ -112,10 +112,7 @@ def is_result(source: str) -> bool:
 def run_script(path: Path) -> Scene:
     """What the script's function ``scene()`` returns.
 
-    Raises
-    ------
-    SceneError
-        If the script fails (with its line), defines no ``scene()``, or returns something else.
+    Raises SceneError if the script fails (with its line), defines no ``scene()``, or returns something else.
     """
     from seacrane.scene.scene import Scene
 

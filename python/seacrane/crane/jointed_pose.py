@@ -43,10 +43,7 @@ def pose_of(data: JointedData, coordinates: Mapping[str, float]) -> dict[str, Mo
 
     Coordinates that are not given stay at home; those of a loop follow the ones that are given.
 
-    Raises
-    ------
-    SceneError
-        For an unknown coordinate, a value out of its range, or a loop that cannot close.
+    Raises SceneError for an unknown coordinate, a value out of its range, or a loop that cannot close.
     """
     given = _given(data, coordinates)
     start = {joint.name: np.zeros(FREEDOMS[joint.kind]) for joint in data.joints} | given

@@ -62,10 +62,7 @@ def place_cylinder(
     given : Entries of the cylinder.
     force : N, that it holds; with it the pressures may be left out.
 
-    Raises
-    ------
-    SceneError
-        If the points are not within the stroke, or pressures are missing.
+    Raises SceneError if the points are not within the stroke, or pressures are missing.
     """
     settings = {key: value for key, value in given.items() if value is not None}
     what = what_of(given)

@@ -91,11 +91,8 @@ def pick_of(
     held : collection of str, optional
         The channels of a result, of which it must be one.
 
-    Raises
-    ------
-    SceneError
-        For a text that is none, a channel that does not exist, a dimension that it has not, or a name that
-        none of its dimensions holds.
+    Raises SceneError for a text that is none, a channel that does not exist, a dimension that it has not, or
+    a name that none of its dimensions holds.
     """
     if isinstance(channel, Pick):
         text, items = channel.channel, list(channel.names.items())

@@ -40,10 +40,7 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
     tuple of Curve
         Zero and at rest until t = 0 where there is a ramp.
 
-    Raises
-    ------
-    SceneError
-        For a duration of too many periods.
+    Raises SceneError for a duration of too many periods.
     """
 
     def values(times: Array) -> Array:

@@ -339,10 +339,8 @@ def _require_free_names(members: Members, keep: Keep) -> None:
 def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
     """Times at which lifts begin, s, ascending, and the members, those of one sea next to each other.
 
-    Raises
-    ------
-    SceneError
-        As `members_of`, for times in a list or design, negative ones, and those of a lift without stages.
+    Raises SceneError as `members_of`, for times in a list or design, negative ones, and those of a lift
+    without stages.
     """
     if START_TIME not in (over if isinstance(over, Mapping) else members_of(over).axes):
         return (), members_of(over)

@@ -95,10 +95,7 @@ class Growth:
 def growth_of(members: Members, pack: int | None) -> Growth:
     """How an ensemble of these members grows; its seeds are those that there may be.
 
-    Raises
-    ------
-    SceneError
-        For members that are no grid over at least 20 seeds one after another.
+    Raises SceneError for members that are no grid over at least 20 seeds one after another.
     """
     seeds = members.axes.get("seed", ())
     if not members.grid or not seeds:

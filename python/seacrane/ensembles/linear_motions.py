@@ -83,11 +83,8 @@ def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
 class LinearMotions:
     """Several motions at even times, in the sea of any seed: what the constructors of controls share.
 
-    Raises
-    ------
-    SceneError
-        For a scene without a sea of one wave system, a value that makes no sense, or a vessel whose memory is
-        a convolution.
+    Raises SceneError for a scene without a sea of one wave system, a value that makes no sense, or a vessel
+    whose memory is a convolution.
     """
 
     def __init__(

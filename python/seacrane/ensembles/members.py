@@ -58,11 +58,8 @@ class Members:
 def members_of(over: Over) -> Members:
     """The members that `over` asks for.
 
-    Raises
-    ------
-    SceneError
-        For what is no grid, list or design, values that are no numbers or texts, values given twice on an
-        axis, rows of different names, or more than a million members.
+    Raises SceneError for what is no grid, list or design, values that are no numbers or texts, values given
+    twice on an axis, rows of different names, or more than a million members.
     """
     if isinstance(over, LatinHypercube):
         return Members(axes=over.columns(), grid=False)

@@ -79,10 +79,7 @@ def mark_text(indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]]) -> 
 def read_mark(path: Path) -> tuple[list[int], dict[str, list[Noted]] | None]:
     """Members of a pack, and what it left of each; None in a mark that tells no chunks.
 
-    Raises
-    ------
-    FileFormatError
-        If it is no mark.
+    Raises FileFormatError if it is no mark.
     """
     found = json_of(read_whole(path, LARGEST_MARK, "no mark of a pack is"), str(path))
     members = found.get("members") if isinstance(found, dict) else found

@@ -18,10 +18,7 @@ def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
         None: only a file in whose first kB the mark stands is replaced. True: any. False: none.
     mark : What files of this kind begin with.
 
-    Raises
-    ------
-    FileExistsError
-        If there is a file that is to stay.
+    Raises FileExistsError if there is a file that is to stay.
     """
     if overwrite or not path.exists():
         return

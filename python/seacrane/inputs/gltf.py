@@ -43,10 +43,6 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
         .glb, or .gltf with its buffers inside.
     most : Triangles that it may have.
 
-    Returns
-    -------
-    (n, 3, 3) triangle, vertex, xyz.
-
     Raises
     ------
     FileFormatError

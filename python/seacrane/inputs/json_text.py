@@ -22,10 +22,8 @@ def json_of(data: bytes, place: str, **hooks: Any) -> Any:
     **hooks
         Of `json.loads`; what they raise as ValueError is told.
 
-    Raises
-    ------
-    FileFormatError
-        With line and column for what is no JSON; for what is nested too deeply, or is nothing but brackets.
+    Raises FileFormatError with line and column for what is no JSON; for what is nested too deeply, or is
+    nothing but brackets.
     """
     taken = LIST * data.count(b"[") + OBJECT * data.count(b"{") + TEXT * data.count(b'"') // 2
     if taken > LOOSEST * len(data) + SMALL:

@@ -54,10 +54,7 @@ def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None
     values : By spelling.
     scene : Whose joints decide between the units of a displacement and of an angle.
 
-    Raises
-    ------
-    SceneError
-        For a unit that the joint's coordinate has not, or a value that makes no sense.
+    Raises SceneError for a unit that the joint's coordinate has not, or a value that makes no sense.
     """
     found = {}
     for key in keys:

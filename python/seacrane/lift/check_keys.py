@@ -53,10 +53,7 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
 
     Paths of files become absolute, from `folder`.
 
-    Raises
-    ------
-    FileFormatError
-        With file, line, key and the nearest name.
+    Raises FileFormatError with file, line, key and the nearest name.
     """
     document.require_version()
     checker = Checker(document, folder, LIFT_KEYS)

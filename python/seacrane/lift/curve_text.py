@@ -27,10 +27,7 @@ def curve_from(given: Any, unit: str) -> float | Curve:
         Checked.
     unit : Of its values.
 
-    Raises
-    ------
-    SceneError
-        For a curve that makes no sense.
+    Raises SceneError for a curve that makes no sense.
     """
     scale = into_si(unit)
     if isinstance(given, float):

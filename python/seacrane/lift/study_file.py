@@ -90,10 +90,7 @@ class StudyFile:
     def lift(self) -> Lift:
         """The lift.
 
-        Raises
-        ------
-        FileFormatError
-            With the line of what is wrong in it.
+        Raises FileFormatError with the line of what is wrong in it.
         """
         return lift_of(*self._lift_document())
 

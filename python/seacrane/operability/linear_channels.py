@@ -53,10 +53,8 @@ class LinearChannels:
 def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> LinearChannels:
     """The channels of criteria, by differences of what a run records where it begins.
 
-    Raises
-    ------
-    SceneError
-        For a channel or a name that the scene does not have, memory by frequency, or a model without vessel.
+    Raises SceneError for a channel or a name that the scene does not have, memory by frequency, or a model
+    without vessel.
     """
     if model.memories:
         raise SceneError(

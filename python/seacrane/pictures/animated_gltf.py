@@ -40,10 +40,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
     The sea is left out.
 
-    Raises
-    ------
-    SceneError
-        For a run too long for one file.
+    Raises SceneError for a run too long for one file.
     """
     model = _Model(drawing)
     model.bodies()

@@ -76,10 +76,7 @@ def looks(
 ) -> dict[str, Look]:
     """The look of every body, by name.
 
-    Raises
-    ------
-    SceneError
-        For a hull that is none, or of a body that is no vessel.
+    Raises SceneError for a hull that is none, or of a body that is no vessel.
     """
     floating = floating_bodies(scene)
     given = _checked_hulls(hulls or {}, floating)

@@ -75,10 +75,7 @@ def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> 
     time, values : (n,) s, and any unit.
     period, start : s; at least two periods must follow the start.
 
-    Raises
-    ------
-    ValueError
-        If fewer than two periods follow the start.
+    Raises ValueError if fewer than two periods follow the start.
     """
     late = time >= start
     if not late.any() or time[-1] - time[late][0] < 2 * period:

@@ -29,11 +29,8 @@ def strip_of(
 ) -> list[dict[str, Any]]:
     """Panels of the strip: title, unit, and lines over the frames.
 
-    Raises
-    ------
-    SceneError
-        For a channel that the result does not hold, a name along its dimensions that there is not, or more
-        lines than a panel shows.
+    Raises SceneError for a channel that the result does not hold, a name along its dimensions that there is
+    not, or more lines than a panel shows.
     """
     if result is None:
         if channels:

@@ -132,10 +132,7 @@ def is_partial(path: Path) -> bool:
 def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
     """All whole pieces, and the places where they end.
 
-    Raises
-    ------
-    FileFormatError
-        For a file of another kind, or a whole record that is no piece.
+    Raises FileFormatError for a file of another kind, or a whole record that is no piece.
     """
     file.seek(0)
     start = file.read(len(MAGIC))
@@ -245,10 +242,7 @@ class PartialFile:
     def append(self, piece: Piece) -> None:
         """Add a piece, which the disk holds when this returns.
 
-        Raises
-        ------
-        OSError
-            If there is no room; what was there before stays as it was.
+        Raises OSError if there is no room; what was there before stays as it was.
         """
         body = piece.to_bytes()
         head = LENGTH.pack(len(body))

@@ -233,10 +233,7 @@ class ResultFile:
         state : As `state_to_bytes` gives it.
         interrupted : False at the end of the run.
 
-        Raises
-        ------
-        OSError
-            If the disk has no room for them; the files then are as they were before.
+        Raises OSError if the disk has no room for them; the files then are as they were before.
         """
         if result is not None:
             new = slice(int(np.searchsorted(result.time, self._last_time, "right")), None)
@@ -283,10 +280,7 @@ class ResultFile:
 
         A run that stopped before its end leaves an older result alone, unless it has gone on with it.
 
-        Raises
-        ------
-        OSError
-            If there is no room; the partial file then holds everything.
+        Raises OSError if there is no room; the partial file then holds everything.
         """
         if not reached_end and self.path.exists() and self._source is None:
             return self._partial.path

@@ -82,10 +82,7 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
     **names : str
         As of `Result.select`, such as ``body="payload"``.
 
-    Raises
-    ------
-    KeyError, ValueError
-        As `Result.select`.
+    Raises KeyError or ValueError as `Result.select`.
     """
     result.select(channel, **names)  # which refuses what is not there
     curves = [

@@ -87,10 +87,7 @@ class Course:
 def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
     """Run a stage from a state; returns what ended it, "" for an interruption.
 
-    Raises
-    ------
-    SimulationError
-        For a stage whose conditions are not met within its `maximum_duration`.
+    Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
         course.calls.begin(replayed=False)

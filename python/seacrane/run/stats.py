@@ -97,10 +97,7 @@ def stats_of(
 def origin_settings(scene: Description) -> dict[str, Any]:
     """Of vessels and sea, by the names of a result's settings; by body where several vessels differ.
 
-    Raises
-    ------
-    SceneError
-        For a value that is not plain data.
+    Raises SceneError for a value that is not plain data.
     """
     found: dict[str, dict[str, Any]] = {}
     for vessel in scene.vessels.values():

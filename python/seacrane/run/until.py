@@ -53,10 +53,7 @@ class Level:
     def series(self, run: Run, arrays: Mapping[str, Array]) -> Array:
         """Its numbers in channels of a run, by the names of a result.
 
-        Raises
-        ------
-        SceneError
-            Where the scene has no such channel, or no such name along it.
+        Raises SceneError where the scene has no such channel, or no such name along it.
         """
         if self.channel not in arrays:
             raise SceneError(f"until {self.text}: this scene has no channel {self.channel!r}; it has "

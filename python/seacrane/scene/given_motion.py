@@ -24,10 +24,7 @@ MOST_OUTSIDE = 0.02  # of the energy of the waves
 def raos_of(database: HydroDatabase) -> MotionRaos:
     """The displacement RAOs that a database's own file holds.
 
-    Raises
-    ------
-    SceneError
-        For a database of a ship under way.
+    Raises SceneError for a database of a ship under way.
     """
     if database.speed != 0.0:
         raise SceneError(

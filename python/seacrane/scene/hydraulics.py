@@ -230,10 +230,7 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     scene : Without the cylinder.
     given : Entries of the cylinder.
 
-    Raises
-    ------
-    SceneError
-        If the scene is not at rest as described.
+    Raises SceneError if the scene is not at rest as described.
     """
     return _forces(scene, what_of(given), [given])[given["name"]]
 

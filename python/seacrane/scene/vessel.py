@@ -238,10 +238,6 @@ def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, f
     Parameters
     ----------
     used : (6, 6) `additional_stiffness` of the model that a vessel has.
-
-    Returns
-    -------
-    (float, float, float), or None without such causes, or where they take nothing.
     """
     if not database.additional:
         return None

@@ -199,10 +199,7 @@ def locked(scene: Scene) -> Scene:
 def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     """The vessel's six motions (n, 6) prescribed; nothing acts back on it.
 
-    Raises
-    ------
-    SceneError
-        For a scene of several vessels.
+    Raises SceneError for a scene of several vessels.
     """
     if len(scene.vessels) != 1:
         raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")

@@ -52,10 +52,7 @@ class Bench:
 def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference:
     """Tight runs in two formulations and with two methods; the first is the reference.
 
-    Raises
-    ------
-    SceneError
-        If fewer than two of them work: a reference without a second opinion is none.
+    Raises SceneError if fewer than two of them work: a reference without a second opinion is none.
     """
 
     def run(method: Method) -> Mapping[str, Array] | str:

@@ -309,10 +309,6 @@ def save_hydro_figures(
     folder : Existing folder.
     memory : MemoryModel, optional
         Whose curves are drawn over the data; the database's own if None, and none if it has none.
-
-    Returns
-    -------
-    list of Picture
     """
     sheets = {stem: make(database, memory or database.memory) for stem, make in SHEETS.items()}
     return [save_sheet(sheet, folder, stem) for stem, sheet in sheets.items() if sheet.panels]

@@ -311,9 +311,7 @@ def strip_solution(
     -----
     SubmergedPartWarning : a bulb ahead of the stem, or the like.
 
-    Raises
-    ------
-    ValueError : fewer than five stations, or a section that is not one outline from waterline to keel.
+    Raises ValueError: fewer than five stations, or a section that is not one outline from waterline to keel.
     """
     if stations < 5:
         raise ValueError(f"hull {hull.name!r}: {stations} stations; give 5 or more, 20 to 40 for a ship")

@@ -68,9 +68,7 @@ class ForceControl:
 def read_listing(path: Path) -> Listing:
     """Read the head of the listing and the periods it goes through.
 
-    Raises
-    ------
-    FileFormatError : something needed is missing, or the body is placed away from the origin.
+    Raises FileFormatError: something needed is missing, or the body is placed away from the origin.
     """
     lines = _lines(path)
     text = "\n".join(lines)

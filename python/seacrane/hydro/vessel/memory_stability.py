@@ -32,9 +32,7 @@ def growth_rate(vessel: VesselParameters) -> float:
 def free_vessel_system(vessel: VesselParameters) -> FloatArray:
     """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states.
 
-    Raises
-    ------
-    TypeError : the memory is a convolution, which has no states.
+    Raises TypeError: the memory is a convolution, which has no states.
     """
     model = vessel.memory
     if not isinstance(model, MemoryModel):
