@@ -114,14 +114,6 @@ def lower_ends(scene: Description) -> list[Place]:
     return ends
 
 
-def weight_on(scene: Description, suspension: Suspension) -> float | None:
-    """Weight (N) of all that hangs on it; None where something else carries a part of that.
-
-    A seat or a free joint does not carry it for good, and does not count.
-    """
-    return _Ties(scene).weight(suspension)
-
-
 def weights_on(scene: Description) -> dict[str, tuple[float, int]]:
     """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
     ties, found = _Ties(scene), {}

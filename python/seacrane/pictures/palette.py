@@ -24,7 +24,6 @@ WIRES = {
 }
 SLACK = "#e0701a"
 TRACKS = {"tip": "#ffffff", "payload": "#ffe14d"}
-SKY = "#dfeaf2"
 
 
 def body_colour(part: str, role: str, number: int) -> str:
