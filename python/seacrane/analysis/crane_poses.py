@@ -48,7 +48,7 @@ def places_of(roles: CraneRoles) -> dict[str, Place]:
 
 
 def drive_name(place: Place) -> str:
-    """Of the driver that holds a coordinate in a posed scene."""
+    """The name of the driver that holds a coordinate in a posed scene."""
     return f"{'.'.join(place)} posed"
 
 

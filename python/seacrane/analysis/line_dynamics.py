@@ -58,7 +58,7 @@ class LineDynamics:
 def line_dynamics(
     scene: Description, model: _core.Model, values: Array, time: float
 ) -> dict[str, LineDynamics]:
-    """Those of all lines of a scene.
+    """The dynamics of all lines of a scene.
 
     Parameters
     ----------

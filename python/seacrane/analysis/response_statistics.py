@@ -219,7 +219,7 @@ class _Response:
 
 
 def _weights(omega: Array) -> Array:
-    """Of the trapezoidal rule."""
+    """Weights of the trapezoidal rule."""
     steps = np.diff(omega)
     return np.asarray(0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)))
 
@@ -227,7 +227,7 @@ def _weights(omega: Array) -> Array:
 def _responses(
     linear: LinearModel, database: HydroDatabase, headings: Array, output: Array
 ) -> Iterator[_Response]:
-    """Of each direction; at rest all share their frequencies, and what the ship makes of a load."""
+    """Responses to each direction; at rest all share their frequencies, and what the ship makes of a load."""
     if database.speed != 0.0:
         about = _about_resonances(linear, 0.0, float(np.inf))
         for heading in headings:

@@ -45,7 +45,7 @@ class Growing:
 
 
 def growth_in_words(value: complex) -> str:
-    """Of an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
+    """Words for an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
     doubling = f"grows, doubling in {np.log(2.0) / value.real:.3g} s"
     if value.imag == 0.0:
         return doubling

@@ -129,6 +129,6 @@ def _installed(name: str) -> str:
 
 
 def _numbers(text: str) -> tuple[int, ...]:
-    """Of a version's release: 2.10.1rc1 is (2, 10, 1)."""
+    """The numbers of a version's release: 2.10.1rc1 is (2, 10, 1)."""
     release = re.match(r"[\d.]*", text)
     return tuple(int(number) for number in NUMBER.findall(release[0] if release else ""))

@@ -105,7 +105,7 @@ def _areas(
     rod: Iterable[Member],
     entries: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """Those of the data file, or of the bore and the rod of its members."""
+    """The areas of the data file, or of the bore and the rod of its members."""
     if areas is not None:
         return {"full_area": areas[0], "rod_side_area": areas[1]}
     if "full_area" in entries and "rod_side_area" in entries:

@@ -77,7 +77,7 @@ def static_force(
 
 
 def _strokes(crane: JointedCrane, coordinates: Mapping[str, float]) -> dict[str, float]:
-    """Of all cylinders at a pose, from home, m."""
+    """The strokes of all cylinders at a pose, from home, m."""
     moved = pose_of(crane.data, coordinates)
     found = {}
     for label in crane.data.cylinders:

@@ -130,7 +130,7 @@ def _motions(data: JointedData, values: Mapping[str, Array]) -> dict[str, Moved]
 
 
 def _motion(joint: JointData, values: Array) -> Moved:
-    """Of the second body relative to the first one."""
+    """The motion of the second body relative to the first one."""
     if joint.kind == "prismatic":
         assert joint.axis is not None
         return Moved(np.eye(3), values[0] * joint.axis)

@@ -24,7 +24,7 @@ LARGEST_HOSE = 100.0  # times the swept volume, likewise
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
-    """Those of a scene, by name."""
+    """The hydraulic cylinders of a scene, by name."""
     return {name: load for name, load in scene.loads.items() if isinstance(load, _core.HydraulicCylinder)}
 
 
@@ -120,7 +120,7 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
 
 
 def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[float, float]:
-    """Of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
+    """The pressures of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
 
     The rod side keeps the pressure that it is described with, unless the full side's would fall below the
     tank's.
@@ -135,7 +135,7 @@ def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[
 
 
 def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
-    """Of both chambers, Pa, that hold a force: the one that carries nothing has the back pressure."""
+    """Pressures of both chambers, Pa, that hold a force: one that carries nothing has the back pressure."""
     full, ring = (number_of(f"{what}: {area}", settings[area]) for area in ("full_area", "rod_side_area"))
     if not (full > 0.0 and ring > 0.0):
         raise SceneError(f"{what}: areas are {full:g} and {ring:g} m2; make both positive")

@@ -54,7 +54,7 @@ class Laid:
 
     @property
     def length(self) -> float:
-        """Of all of it, m."""
+        """The length of all of it, m."""
         straight = np.linalg.norm(self.ends - self.starts, axis=1).sum()
         return float(
             straight + sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True))
@@ -92,7 +92,7 @@ def laid(line: _core.Line, pose_of: Callable[[str], Pose]) -> Laid:
 
 
 def described_poses(scene: Description) -> Callable[[str], Pose]:
-    """Those that bodies are described with; whatever is no body stands still, as the ground."""
+    """The poses that bodies are described with; whatever is no body stands still, as the ground."""
 
     def pose(body: str) -> Pose:
         if body not in scene.bodies:

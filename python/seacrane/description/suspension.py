@@ -176,7 +176,7 @@ def _of_joint(name: str, joint: _core.Joint, rung: str) -> Suspension:
 
 
 def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[str]) -> Suspension:
-    """Of a line, or of the segments of one with mass from its first end on."""
+    """What hangs on the ends of a line, or of the segments of one with mass from its first end on."""
     (highest, highest_line), (lowest, last) = next(iter(segments.items())), list(segments.items())[-1]
     path, hooked = path_of(last), hooked_body(last)
     spans = [pair for pair in pairwise(path) if (pair[0][0] == hooked) != (pair[1][0] == hooked)]
@@ -281,7 +281,7 @@ def _on_crane(scene: Description, roles: CraneRoles, every: list[Suspension], ti
 
 
 def _lowest(scene: Description, one: Suspension, every: list[Suspension], below: list[str]) -> str:
-    """Of the bodies on a suspension the heaviest that carries none of the others."""
+    """Among the bodies on a suspension, the heaviest that carries none of the others."""
     carrying = {other.upper[0] for other in every if other.name != one.name}
     lowest = [body for body in below if body not in carrying] or below or [one.lower[0]]
     return max(lowest, key=lambda body: scene.bodies[body].mass if body in scene.bodies else 0.0)

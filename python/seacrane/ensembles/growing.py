@@ -51,12 +51,12 @@ class Growth:
         return math.prod(len(values) for values in self.others.values())
 
     def members(self, batches: int) -> Members:
-        """Those of so many batches."""
+        """The members of so many batches."""
         seeds = tuple(range(self.first, self.first + batches * BATCH))
         return Members(axes={"seed": seeds, **self.others}, grid=True)
 
     def holding(self, index: int) -> Members:
-        """Those of whole batches up to that of a member."""
+        """The members of whole batches up to that of a member."""
         return self.members(index // (BATCH * self.cells) + 1)
 
     def batches_in(self, packs: Iterable[int]) -> int:

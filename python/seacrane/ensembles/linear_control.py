@@ -34,7 +34,7 @@ class _Control(ABC):
 
     @abstractmethod
     def series(self, seed: int) -> Array:
-        """Of a seed at `times`, shape (n,)."""
+        """The series of a seed at `times`, shape (n,)."""
 
     def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
         """The largest ("maximum") or smallest ("minimum") value of each seed."""

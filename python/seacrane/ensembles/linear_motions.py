@@ -50,7 +50,7 @@ class Motion:
     point: ArrayLike | None = None
 
     def row(self, linear: LinearModel) -> Array:
-        """Of the states of a linear model."""
+        """The weights of the states of a linear model."""
         body = linear.scene.bodies.get(self.body)
         place = self.point if self.point is not None or body is None else body.center_of_mass
         rows = linear.output(body=self.body, point=(0.0, 0.0, 0.0) if place is None else place)

@@ -68,7 +68,7 @@ class Study:
             require_same_sea(self.source, words)
 
     def parts(self, values: Values) -> tuple[Values, Values]:
-        """Of the values of a member, words of the sea and the others."""
+        """From the values of a member, words of the sea and the others."""
         sea = {name: value for name, value in values.items() if name in WORDS}
         return sea, {name: value for name, value in values.items() if name not in WORDS}
 
@@ -84,7 +84,7 @@ class Study:
         return made
 
     def stages_of(self, scene: Scene, values: Values) -> list[Stage]:
-        """Of a member, its stages with their own values."""
+        """A member's stages with their own values."""
         given = self.stages(scene) if callable(self.stages) else self.stages
         return with_stage_values(given, values)
 

@@ -81,7 +81,7 @@ class Target:
 
     @property
     def _share(self) -> float:
-        """Of values that are smaller than the statistic: by Gumbel's distribution, or a symmetric one."""
+        """Share of values below the statistic, by Gumbel's distribution or a symmetric one."""
         return float(np.exp(-np.exp(-REDUCED[self.number]))) if self.gumbel else 0.5
 
     def length(self, values: Array, share: float) -> float:

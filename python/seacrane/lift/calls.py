@@ -116,7 +116,7 @@ def require_unit_of_channel(
 
 
 def _unit_of_own(scene: Scene, channel: str, names: Mapping[str, str]) -> str:
-    """Of a channel of one's own, which its expression says; no text for others."""
+    """The unit of a channel of one's own, which its expression says; no text for others."""
     if channel.partition("[")[0].strip() != OWN:
         return ""
     name = pick_of("limit state", channel, names).names.get("expression", "")

@@ -264,7 +264,7 @@ def _finite(values: Array) -> Array:
 
 
 def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExtremes | None:
-    """Of largest values; None for too few."""
+    """Statistics of largest values; None for too few."""
     if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
         return None
     with warnings.catch_warnings():

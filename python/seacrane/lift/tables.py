@@ -115,7 +115,7 @@ READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # 
 
 
 def _vessel_keys() -> tuple[Key, ...]:
-    """Of `add_vessel` with a database, and of reading that."""
+    """The keys of `add_vessel` with a database, and of reading that."""
     mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
     matrix = "Stiffness of the mooring about the reference point, vessel's axes."
     keys = keys_of(
@@ -140,7 +140,7 @@ def _vessel_keys() -> tuple[Key, ...]:
 
 
 def _given_vessel_keys() -> tuple[Key, ...]:
-    """Of `add_given_vessel`, whose motion is one of four keys."""
+    """The keys of `add_given_vessel`, whose motion is one of four keys."""
     motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
     history = keys_of(
         MotionHistory, more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions}
@@ -168,7 +168,7 @@ def _given_vessel_keys() -> tuple[Key, ...]:
 
 
 def _rao_keys() -> tuple[Key, ...]:
-    """Of `MotionRaos`, whose values are written heading by heading."""
+    """The keys of `MotionRaos`, whose values are written heading by heading."""
     columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
     at_heading = (
         Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
@@ -187,7 +187,7 @@ def _rao_keys() -> tuple[Key, ...]:
 
 
 def _joint_keys() -> tuple[Key, ...]:
-    """Of `add_joint`, and the parameters of all kinds of joints."""
+    """The keys of `add_joint`, and the parameters of all kinds of joints."""
     frame = {"type": "table", "keys": fields_of(_core.Frame)}
     places = {key: POINT for key in ("point", "second_point")} | {
         key: DIRECTION for key in ("axis", "second_axis")

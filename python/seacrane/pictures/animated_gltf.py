@@ -175,7 +175,7 @@ def _xyzw(quaternion: Array) -> Array:
 
 
 def _linear(value: float) -> float:
-    """Of sRGB."""
+    """Linear colours of sRGB ones."""
     return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 6)
 
 
@@ -199,7 +199,7 @@ def _shortest(start: Array, ends: Array) -> Array:
 
 
 def _product(p: Array, q: Array) -> Array:
-    """Of quaternions (n, 4) with one (4,), which turns first."""
+    """Products of quaternions (n, 4) with one (4,), which turns first."""
     v, w = p[:, :3], p[:, 3:]
     vector = w * q[:3] + q[3] * v + np.cross(v, q[:3])
     return np.column_stack([vector, w[:, 0] * q[3] - v @ q[:3]])

@@ -115,7 +115,7 @@ class Drawing:
         return 0.002 * self.radius
 
     def radius_of(self, wire: Mapping[str, Any]) -> float:
-        """Of a wire as drawn, m."""
+        """The radius of a wire as drawn, m."""
         return max(self.wire_radius, float(wire["radius"]))
 
     def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:

@@ -52,7 +52,7 @@ COLOURS = {
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Look:
-    """Of one body.
+    """The looks of one body.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ def looks(
 
 
 def _on_lines(scene: Description, holding: Set[str]) -> Iterator[str]:
-    """Of each elastic line the last body on its path that is none of those that hold lines."""
+    """For each elastic line the last body on its path that is none of those that hold lines."""
     for line in lines_of(scene.loads).values():
         free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
         yield from free[-1:]

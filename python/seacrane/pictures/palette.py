@@ -27,7 +27,7 @@ TRACKS = {"tip": "#ffffff", "payload": "#ffe14d"}
 
 
 def body_colour(part: str, role: str, number: int) -> str:
-    """Of a part, else of its body's role, else one of the plain ones by the body's number."""
+    """The colour of a part, else of its body's role, else one of the plain ones by the body's number."""
     return BODIES.get(part) or BODIES.get(role) or PLAIN[number % len(PLAIN)]
 
 

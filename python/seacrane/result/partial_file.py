@@ -70,7 +70,7 @@ class Piece:
 
     @property
     def dims(self) -> dict[str, tuple[str, ...]]:
-        """Of each channel."""
+        """The dimensions of each channel."""
         return {name: CHANNELS[name].dims_of(array.ndim) for name, array in self.arrays.items()
                 if name != "time"}  # fmt: skip
 

@@ -49,7 +49,7 @@ class Contents:
     scene: bytes
 
     def shape(self, dims: Sequence[str]) -> tuple[int, ...]:
-        """Of one output of a channel."""
+        """The shape of one output of a channel."""
         return tuple(len(self.coords[dim]) for dim in dims[1:])
 
     @property

@@ -311,7 +311,7 @@ class ResultFile:
         write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
 
     def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
-        """Of all pieces of the run: counters and simulated time of the one before are added."""
+        """The stats of all pieces of the run: counters and simulated time of the one before are added."""
         out = dict(stats)
         for name in ("simulated_s", *COUNTERS):
             if name in self._before and name in stats:

@@ -101,7 +101,7 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
 
 
 def _unit(result: Record, channel: str, names: tuple[str, ...]) -> str:
-    """Of one curve."""
+    """The unit of one curve."""
     if channel == "limit_force":
         return _unit_of_limit(result, names[-1])
     return unit_of(channel, names)
@@ -130,7 +130,7 @@ def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
 
 
 def beyond_rounding(found: Iterable[Trace]) -> list[Trace]:
-    """Those that are not zero up to rounding, beside the largest of the same unit."""
+    """The curves that are not zero up to rounding, beside the largest of the same unit."""
     every = list(found)
     largest: dict[str, float] = {}
     for one in every:

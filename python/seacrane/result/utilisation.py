@@ -78,7 +78,7 @@ class Utilisation(Sequence[Utilised]):
 
     @property
     def largest(self) -> float:
-        """Of all that are known; NaN where none is."""
+        """The largest of all that are known; NaN where none is."""
         known = [state.utilisation for state in self.states if not math.isnan(state.utilisation)]
         return max(known, default=math.nan)
 
@@ -113,7 +113,7 @@ def utilisation_of(
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilisation:
-    """Of the limit states that a run noted, by its channels; FileFormatError for notes that no run writes."""
+    """Utilisation of the limit states that a run noted; FileFormatError for notes that no run writes."""
     try:
         return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in limit_states))
     except (LookupError, TypeError, ValueError, AttributeError) as error:

@@ -37,7 +37,7 @@ class _Growth:
     rings: list[bool]
 
     def fastest(self, most: float) -> float:
-        """Of the rates (1/s) that a run can have had."""
+        """The fastest of the rates (1/s) that a run can have had."""
         return max((rate for rate in self.rates if rate <= most), default=-math.inf)
 
     def words(self, one: int) -> str:

@@ -222,7 +222,7 @@ def _bounded(
 def _worst_error(
     line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
 ) -> tuple[float, str]:
-    """Of a line's tension, of what the source makes of it that is named."""
+    """The error of a line's tension, of what the source makes of it that is named."""
     own = now[line.name]
     swing = np.array([2.0 * max(now[name].swing for name in own.coupled)])  # of the tension of what swings
     every = [*sources, ("the swing of its load", swing, np.ones(1))]

@@ -162,7 +162,7 @@ class _Looks:
         return bool(self.hits())
 
     def hits(self) -> list[_Hit]:
-        """Those that are met by now, in the outputs, at events or at this instant."""
+        """The bounds that are met by now, in the outputs, at events or at this instant."""
         found = (_found(self._run, one) or _found_now(self._run, one) for one in self._conditions)
         return [hit for hit in found if hit is not None]
 

@@ -471,7 +471,7 @@ def _options(run: Run) -> _core.RunOptions:
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:
-    """Those from a start (s) to before now: a run that goes on from there tells of what bursts then."""
+    """Ruptures from a start (s) to before now: a run that goes on from there tells of what bursts then."""
     return [
         Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
         for name, cylinder in hydraulic_cylinders(scene).items()

@@ -118,7 +118,7 @@ def add_heave_compensation(
 
 
 def _ratio(scene: Description, what: str, winch: str | None, actuator: str | None, direction: Any) -> float:
-    """Of what follows to the stroke, by the kinematics of the described pose."""
+    """The ratio of what follows to the stroke, by the kinematics of the described pose."""
     if winch is not None:
         line = lines_of(scene.loads).get(winch)
         if line is None or not line.winch:

@@ -236,7 +236,7 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
 
 
 def holding_forces(scene: Description) -> dict[str, float]:
-    """Likewise of the hydraulic cylinders that a scene has, by name."""
+    """The forces of the hydraulic cylinders that a scene has, by name."""
     return _forces(scene, f"scene {scene.name!r}", [])
 
 

@@ -89,7 +89,7 @@ def _wrenches(matrix: Array) -> Array:
 
 
 def _without_twist(what: str, wrenches: Array) -> Array:
-    """The same squares, by wrenches whose force and moment are at right angles: springs along lines.
+    """The given squares, by wrenches whose force and moment are at right angles: springs along lines.
 
     Rotating two of them among each other leaves the sum of their twists f . m, which has to be zero.
     """

@@ -89,7 +89,7 @@ class Row:
         return self.errors[quantity].largest if quantity in self.errors else UNKNOWN
 
     def relative_error(self, quantity: str) -> float:
-        """The same over the motion; NaN where it rests."""
+        """The error over the motion; NaN where it rests."""
         return self._over_motion(quantity, self.error(quantity))
 
     def relative_uncertainty(self, quantity: str) -> float:

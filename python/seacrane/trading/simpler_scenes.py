@@ -119,7 +119,7 @@ def full_memory_name(scene: Scene, name: str) -> str:
 
 
 def _database(scene: Scene) -> HydroDatabase | None:
-    """Of the one vessel, where that is from one."""
+    """The database of the one vessel, where that is from one."""
     (vessel,) = scene.vessels.values()
     return vessel.database if isinstance(vessel.database, HydroDatabase) else None
 

@@ -182,7 +182,7 @@ def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:
 
 
 def _roll(linear: LinearModel, body: str, times: Array) -> Array:
-    """Of a vessel about its own axis, rad."""
+    """The roll of a vessel about its own axis, rad."""
     heading = heading_of(linear.scene.bodies[body].quaternion)
     rotation = response_summed(linear, body=body).at(times)[:, 3:]
     return np.asarray(np.cos(heading) * rotation[:, 0] + np.sin(heading) * rotation[:, 1])

@@ -124,7 +124,7 @@ class _Heeled:
             )
 
     def under(self, turn: FloatArray, sinkage: float) -> Hydrostatics:
-        """Of what is under water, in axes of the water."""
+        """The properties of what is under water, in axes of the water."""
         placed = self.triangles @ turn.T - np.array([0.0, 0.0, sinkage])
         wet = cut_panels(placed[:, [0, 1, 2, 2]], axis=2, side=-1, tolerance=1e-12 * self.length)
         if not len(wet):

@@ -25,7 +25,7 @@ def largest_growth_rate(database: HydroData, model: MemoryModel) -> float:
 
 @one_thread
 def growth_rate(vessel: VesselParameters) -> float:
-    """The same of a vessel of the time domain, whose memory it holds."""
+    """The growth rate of a vessel of the time domain, whose memory it holds."""
     return float(np.linalg.eigvals(free_vessel_system(vessel)).real.max())
 
 
