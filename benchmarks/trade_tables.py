@@ -38,7 +38,7 @@ WORDS = {
     ("per-pair", "table", "payload as weight"): "payload as a constant weight",
     ("per-pair", "table", "frequency domain"): "frequency domain at the start pose",
 }
-QUANTITIES = ("payload_position", "roll", "hook_tension", "cylinder_force")
+QUANTITIES = ("payload_position", "roll", "hook_load", "cylinder_force")
 SMALL = {"payload, m": 1.0, "roll, rad": 1.0, "hook tension, N": 1.0, "cylinder force, N": 1.0}
 LARGE = {
     "payload, m": 1.0,

@@ -16,7 +16,9 @@ linear = linear_model(scene)
 print(natural_modes(linear).table())
 
 statistics = {
-    body: response_statistics(linear, spectrum=jonswap(hs=0.5, tp=11.0), heading=np.radians(180.0), body=body)
+    body: response_statistics(
+        linear, spectrum=jonswap(hs=0.5, tp=11.0), direction=np.radians(180.0), body=body
+    )
     for body in ("vessel", "payload")
 }
 print("\nHs 0.5 m, Tp 11 s, head sea; most probable largest amplitude of three hours")

@@ -24,7 +24,7 @@ statics = hull.hydrostatics
 print(f"volume {statics.volume:.0f} m3, wetted surface {statics.wetted_surface:.0f} m2")
 print(f"GM {statics.metacentric_height(5.0):.2f} m with the centre of gravity 5 m above the waterline")
 
-database = hydro_from_hull(hull, centre_of_gravity=[0.0, 0.0, 5.0], roll_damping_fraction=0.05)
+database = hydro_from_hull(hull, center_of_gravity=[0.0, 0.0, 5.0], roll_damping_fraction=0.05)
 for motion, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
     frequency = natural_frequency(database, motion)
     if frequency is not None:
@@ -37,7 +37,7 @@ scene.add_vessel(database)
 print("\nHs 2 m, Tp 8 s: significant double amplitudes")
 for degrees in (180.0, 135.0, 90.0):
     found = response_statistics(
-        scene, spectrum=jonswap(hs=2.0, tp=8.0), heading=np.radians(degrees), body="vessel"
+        scene, spectrum=jonswap(hs=2.0, tp=8.0), direction=np.radians(degrees), body="vessel"
     ).significant_double_amplitude
     roll, pitch = np.degrees(found[3:5])
     print(f"{degrees:5.0f} deg: heave {found[2]:.2f} m, roll {roll:.2f} deg, pitch {pitch:.2f} deg")

@@ -30,7 +30,7 @@ def reference_vessel(scene: Scene) -> LinearVessel:
         {"inputs": b.inputs, "outputs": b.outputs, "A": b.a, "B": b.b, "C": b.c, "D": b.d}
         for b in element.memory
     ]
-    mass = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia) + np.array(element.added_mass)
+    mass = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia) + np.array(element.added_mass)
     return LinearVessel(mass, damping, restoring, MemoryModel.from_record({"blocks": blocks}))
 
 

@@ -128,7 +128,7 @@ def test_a_tank_that_would_run_dry_is_named() -> None:
 
 
 def test_what_makes_no_ballast_is_refused() -> None:
-    with pytest.raises(SceneError, match="the vessels are none; name one as body"):
+    with pytest.raises(SceneError, match="the vessels are none; name one as vessel"):
         Scene().add_ballast()
     with pytest.raises(SceneError, match=r"vessel 'hull' carries no body.*give tanks"):
         barge().add_ballast()

@@ -21,7 +21,7 @@ def strip() -> HydroDatabase:
     """Few stations of the shipped hull: its band begins where a wave is as long as the ship."""
     return hydro_from_hull(
         shipped_hull(),
-        centre_of_gravity=[0.0, 0.0, 1.878390],
+        center_of_gravity=[0.0, 0.0, 1.878390],
         mass=14.0e6,
         omega=np.arange(0.3, 2.0, 0.1),
         heading=np.radians([0.0, 45.0, 90.0, 135.0, 180.0]),
@@ -78,7 +78,7 @@ def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
         warnings.simplefilter("always")
         scene.add_sea(hs=2.0, tp=tp, direction_deg=90.0, seed=1)
         spectrum = jonswap(hs=2.0, tp=tp)
-        response_statistics(scene, spectrum=spectrum, heading=0.5 * np.pi, body="vessel")
+        response_statistics(scene, spectrum=spectrum, direction=0.5 * np.pi, body="vessel")
     told = [str(one.message) for one in seen if one.category is BelowBandWarning]
     assert len(told) == 2 * named
     assert all("0.73" in one and "method='capytaine'" in one for one in told)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import HydroDatabase, Kept, Scene, SceneError, ensemble, simulate
+from seacrane import HydroDatabase, Scene, SceneError, ensemble, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
@@ -63,16 +63,18 @@ def database() -> HydroDatabase:
     return shipped_database()
 
 
-@pytest.mark.parametrize(("axis", "derivative"), [("z", 0), ("y", 1), ("x", 2)])
-def test_the_control_is_the_run_in_small_waves(axis: str, derivative: int, database: HydroDatabase) -> None:
+@pytest.mark.parametrize(
+    "channel", ["position[vessel, z]", "velocity[vessel, y]", "acceleration[vessel, x]", "heel[vessel]"]
+)
+def test_the_control_is_the_run_in_small_waves(channel: str, database: HydroDatabase) -> None:
     """From rest on, with the transient of the start."""
     scene = vessel(hs=0.02, memory="passive", mooring_period=None)
-    control = LinearControl(scene, body="vessel", axis=axis, t_end=40.0, after=3.0, derivative=derivative)
-    channel = ("position", "velocity", "acceleration")[derivative]
-    run = simulate(with_sea(scene, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
+    control = LinearControl(scene, channel, t_end=40.0, after=3.0)
+    name = channel.partition("[")[0]
+    run = simulate(with_sea(scene, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[name])
     late = run.time >= 3.0
-    motion = run.select(channel, body="vessel", axis=axis)
-    moved = motion[late] - (motion[0] if derivative == 0 else 0.0)
+    motion = run.curve(channel)
+    moved = motion[late] - (motion[0] if channel.startswith("position") else 0.0)
     assert np.allclose(control.times, run.time[late])
     assert np.abs(control.series(5) - moved).max() < 0.01 * moved.std()
     largest, smallest = (control.extremes([5], what=what)[0] for what in ("maximum", "minimum"))
@@ -95,13 +97,12 @@ def lifted() -> Scene:
 def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> None:
     """With 20 seeds and the control as well as with three times as many."""
     scene = lifted()
-    at: dict[str, Any] = {"body": "payload", "axis": "y"}
-    swing = Kept(channel="position", what="maximum", names=at, after=10.0)
+    swing = "position[payload, y]"
     runs = ensemble(
-        scene, over={"seed": range(1, 21)}, keep={"swing": swing}, t_end=60.0,
+        scene, over={"seed": range(1, 21)}, keep={"swing": f"{swing[:-1]}, after=10].max"}, t_end=60.0,
         rtol=1e-2, dt_out=0.5,
     )  # fmt: skip
-    control = LinearControl(scene, **at, t_end=60.0, after=10.0, dt=0.5)
+    control = LinearControl(scene, swing, t_end=60.0, after=10.0, dt_out=0.5)
     found = controlled_mean(
         runs.dataset.swing,
         controls=control.extremes(range(1, 21)),
@@ -117,7 +118,7 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
 def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt": 0.25}
+    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
         sea = with_sea(scene, {"seed": 2, "hs": hs})
@@ -125,7 +126,7 @@ def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) ->
         load = run["hook_load"][run.time >= 5.0 - 1e-9, 0]
         assert np.allclose(control.times, run.time[run.time >= 5.0 - 1e-9])
         assert (control.series(2) - load).std() < known * load.std()
-    acceleration = LinearControl(scene, body="payload", axis="z", derivative=2, words={"hs": 1.0}, **given)
+    acceleration = LinearControl(scene, "acceleration[payload, z]", words={"hs": 1.0}, **given)
     plain = 2e4 * (scene.gravity + acceleration.series(2))
     assert (control.series(2) - load).std() < 0.5 * (plain - load).std()
 
@@ -149,16 +150,18 @@ def test_bad_numbers_are_named(given: dict[str, Any], message: str) -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"axis": "w"}, "axis is 'w'; choose from x, y, z, roll, pitch, yaw"),
-        ({"derivative": 3}, "derivative is 3"),
+        ({"channel": "position[vessel, w]"}, "position has no 'w'; its dimensions are body, axis"),
+        ({"channel": "position[vessel]"}, "position.body=vessel.: name its axis"),
+        ({"channel": "hook_load"}, "hook_load is no motion of a body; choose from position"),
         ({"words": {"seed": 3}}, "'seed' is no word of the sea beside its seed"),
         ({"after": 50.0}, "t_end is 40 s, after 50 s"),
-        ({"body": "vesel"}, "body 'vesel' does not exist"),
+        ({"channel": "heel"}, "heel: name its body"),
+        ({"channel": "heel[vesel]"}, "body 'vesel' does not exist"),
         ({"scene": Scene(name="dry")}, "scene 'dry' has no sea"),
     ],
 )
 def test_a_control_that_makes_no_sense(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
-    usual: dict[str, Any] = {"scene": vessel(memory="none"), "body": "vessel", "axis": "z", "t_end": 40.0}
+    usual: dict[str, Any] = {"scene": vessel(memory="none"), "channel": "position[vessel, z]", "t_end": 40.0}
     asked = {**usual, **given}
     with pytest.raises(SceneError, match=message):
         LinearControl(asked.pop("scene"), **asked)
@@ -173,4 +176,4 @@ def test_a_link_that_is_none_is_named(database: HydroDatabase) -> None:
 
 def test_a_convolution_is_refused(database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match="is a convolution"):
-        LinearControl(vessel(memory="convolution"), body="vessel", axis="z", t_end=10.0)
+        LinearControl(vessel(memory="convolution"), "position[vessel, z]", t_end=10.0)

@@ -139,7 +139,7 @@ def test_a_ship_adrift_moves_as_momentum_says(adrift: Result) -> None:
     step = adrift.time[1] - adrift.time[0]
     moved = step * (np.sum(momentum, axis=0) - 0.5 * (momentum[0] + momentum[-1]))
     p = vessel_parameters(shipped_database())
-    mass = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia) + p.memory.frequency_response([1e-4])[0][0]
+    mass = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia) + p.memory.frequency_response([1e-4])[0][0]
     hull = mass @ adrift["vessel_motion"][-1]
     np.testing.assert_allclose(hull[:2], -moved[:2], rtol=0.01)
     # The hull's moment holds products of 4 deg of heel with surge and roll: second order, 3 % of it.
@@ -189,7 +189,7 @@ def test_oscillation_is_what_the_frequency_domain_gives_for_the_decks_load() -> 
     p = vessel_parameters(shipped_database())
     added_mass, damping = p.memory.frequency_response([omega])
     heeled = rotation_matrix(np.mean(run["quaternion"][late, 0], axis=0))
-    center, inertia = heeled @ p.centre_of_mass, heeled @ p.inertia @ heeled.T
+    center, inertia = heeled @ p.center_of_mass, heeled @ p.inertia @ heeled.T
     mass = rigid_mass_matrix(p.mass, center, inertia) + added_mass[0]
     impedance = -(omega**2) * mass + 1j * omega * (damping[0] + p.linear_damping) + p.restoring
     expected = np.linalg.solve(impedance, load)

@@ -55,7 +55,7 @@ def test_vessel_alone_moves_as_its_matrices_say(heading_deg: float) -> None:
     expected = reference_vessel(scene).response(OMEGA, force)
     linear = linear_model(scene)
     for point in ((0.0, 0.0, 0.0), TIP):
-        rao = motion_rao(linear, omega=OMEGA, heading=heading, body="vessel", point=point)
+        rao = motion_rao(linear, omega=OMEGA, direction=heading, body="vessel", point=point)
         np.testing.assert_array_less(np.abs(rao / moved_by(expected, point) - 1.0), 1e-6)
 
 
@@ -69,7 +69,7 @@ def test_heading_is_seen_from_a_turned_vessel() -> None:
         name="vessel", mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
         quaternion=(np.cos(yaw / 2.0), 0.0, 0.0, np.sin(yaw / 2.0)),
     )  # fmt: skip
-    raos = [motion_rao(s, omega=OMEGA, heading=2.0, body="vessel") for s in (straight, turned)]
+    raos = [motion_rao(s, omega=OMEGA, direction=2.0, body="vessel") for s in (straight, turned)]
     turn = np.array([[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
     expected = raos[0] @ np.kron(np.eye(2), turn).T
     np.testing.assert_allclose(raos[1], expected, atol=1e-6 * np.max(np.abs(expected)))
@@ -150,7 +150,7 @@ def test_statistics_are_those_of_the_components() -> None:
     scene.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, count=4000)
     summed = response_summed(linear, body="vessel", point=TIP, waves=scene.waves)
     statistics = response_statistics(
-        linear, spectrum=jonswap(hs=2.0, tp=8.0), heading=heading, body="vessel", point=TIP
+        linear, spectrum=jonswap(hs=2.0, tp=8.0), direction=heading, body="vessel", point=TIP
     )
     np.testing.assert_allclose(statistics.std[2:5], summed.std[2:5], rtol=0.01)
     assert 0.98 < statistics.wave_energy_share <= 1.0 + 1e-9
@@ -161,7 +161,7 @@ def test_statistics_are_those_of_the_components() -> None:
 def test_most_probable_largest_value_in_simulated_storms() -> None:
     """The largest heave of 400 Gaussian records of half an hour with the response spectrum."""
     statistics = response_statistics(
-        cases.vessel(hs=0.0), spectrum=jonswap(hs=2.0, tp=8.0), heading=np.pi,
+        cases.vessel(hs=0.0), spectrum=jonswap(hs=2.0, tp=8.0), direction=np.pi,
         body="vessel", duration=1800.0,
     )  # fmt: skip
     cycles = 1800.0 / statistics.mean_period[2]
@@ -195,7 +195,7 @@ def test_undamped_resonance_is_named() -> None:
     scene.add_body(name="pendulum", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 60.0, 0.0))
     scene.add_joint(kind="spherical", name="hook", first="ground", second="pendulum", point=(0.0, 60.0, 9.0))
     with pytest.warns(UserWarning, match=r"mode 'pendulum .*no finite value"):
-        response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), heading=0.0, body="vessel")
+        response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), direction=0.0, body="vessel")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         natural_modes(scene)
@@ -214,18 +214,18 @@ def test_what_cannot_be_linearised_says_why(lift: LinearModel) -> None:
     with pytest.raises(SceneError, match=r"values, scene .* finite ones"):
         linear_model(lift.scene, state=state)
     with pytest.raises(SceneError, match="body 'hook' does not exist"):
-        motion_rao(lift, omega=0.5, heading=0.0, body="hook")
+        motion_rao(lift, omega=0.5, direction=0.0, body="hook")
     with pytest.raises(SceneError, match="has no vessel"):
-        motion_rao(crane_with_payload(), omega=0.5, heading=0.0, body="payload")
+        motion_rao(crane_with_payload(), omega=0.5, direction=0.0, body="payload")
     with pytest.raises(ValueError, match="outside"):
-        motion_rao(lift, omega=50.0, heading=0.0, body="vessel")
+        motion_rao(lift, omega=50.0, direction=0.0, body="vessel")
     with pytest.raises(SceneError, match="has no waves"):
         response_summed(cases.vessel(hs=0.0), body="vessel")
     with pytest.raises(SceneError, match="duration is -1"):
         response_statistics(
             lift,
             spectrum=jonswap(hs=1.0, tp=8.0),
-            heading=0.0,
+            direction=0.0,
             body="vessel",
             duration=-1.0,
         )

@@ -43,7 +43,7 @@ def rao_of_vessel(database: HydroDatabase, heading: int) -> Array:
         warnings.simplefilter("ignore")
         scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
     return motion_rao(
-        scene, database=database, omega=database.omega, heading=database.heading[heading], body="vessel",
+        scene, database=database, omega=database.omega, direction=database.heading[heading], body="vessel",
         memory="database",
     )  # fmt: skip
 
@@ -77,7 +77,7 @@ def test_tanks_and_masses_beyond_a_rigid_body_are_in_it(shared: Path) -> None:
 def test_any_fitted_memory_gives_the_same() -> None:
     """What the scene's own memory is does not matter, nor whether a state is given."""
     database, omega = shipped_database(), [0.45, 0.55, 0.9]
-    options = {"database": database, "omega": omega, "heading": 2.0, "body": "vessel", "memory": "database"}
+    options = {"database": database, "omega": omega, "direction": 2.0, "body": "vessel", "memory": "database"}
     scenes = [
         cases.vessel(hs=0.0, memory=kind, mooring_period=None) for kind in ("none", "per-pair", "convolution")
     ]
@@ -97,7 +97,7 @@ def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
     period = 2.0 * np.pi / omega
     run = simulate(scene, t_end=500.0, dt_out=period / 16.0, rtol=1e-9, channels=["vessel_motion"])
     found = complex_amplitude(run, omega, start=500.0 - 6.0 * period) / 1e-4
-    options = {"database": database, "omega": omega, "heading": np.radians(120.0), "body": "vessel"}
+    options = {"database": database, "omega": omega, "direction": np.radians(120.0), "body": "vessel"}
     by_kernel = motion_rao(calm, **options)
     by_data = motion_rao(calm, memory="database", **options)
     np.testing.assert_allclose(found, by_kernel, rtol=2e-3)
@@ -107,7 +107,7 @@ def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
 
 def roll_at_resonance(scene: Scene, database: HydroDatabase, **options: object) -> complex:
     omega = np.linspace(0.45, 0.62, 86)
-    rao = motion_rao(scene, omega=omega, heading=BEAM, body="vessel", **options)
+    rao = motion_rao(scene, omega=omega, direction=BEAM, body="vessel", **options)
     return complex(rao[int(np.abs(rao[:, 3]).argmax()), 3])
 
 
@@ -164,7 +164,7 @@ def test_modes_of_a_lift_are_all_there() -> None:
 def test_statistics_take_it_too() -> None:
     database = shipped_database()
     scene = cases.vessel(hs=0.0, memory="convolution")
-    options = {"database": database, "spectrum": jonswap(hs=2.0, tp=10.0), "heading": 2.0, "body": "vessel"}
+    options = {"database": database, "spectrum": jonswap(hs=2.0, tp=10.0), "direction": 2.0, "body": "vessel"}
     fitted, own = (response_statistics(scene, memory=kind, **options).std for kind in ("scene", "database"))
     np.testing.assert_allclose(fitted, own, rtol=5e-3)
 
@@ -184,4 +184,4 @@ def test_what_does_not_fit_is_refused_by_name(shared: Path) -> None:
     with pytest.raises(SceneError, match="whose past is not in x"):
         linear.full_state(np.zeros(len(linear.a)))
     with pytest.raises(SceneError, match="a LinearModel has its memory already"):
-        motion_rao(linear, database=database, omega=0.5, heading=0.0, body="vessel", memory="database")
+        motion_rao(linear, database=database, omega=0.5, direction=0.0, body="vessel", memory="database")

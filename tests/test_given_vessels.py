@@ -109,7 +109,7 @@ def test_a_table_of_raos_moves_the_ship_as_its_database(database: HydroDatabase)
     alone.add_vessel(database)
     omega = np.linspace(0.2, 2.5, 231)
     heading = database.heading
-    values = motion_rao(alone, omega=omega, heading=heading[:, None] + 0.0 * omega, body="vessel")
+    values = motion_rao(alone, omega=omega, direction=heading[:, None] + 0.0 * omega, body="vessel")
     table = MotionRaos(omega=omega, heading=heading, values=values)
     scene = given(table)
     scene.add_sea(**WAVES)

@@ -36,7 +36,7 @@ def ship() -> Hull:
 
 @cache
 def ship_database() -> HydroDatabase:
-    return hydro_from_hull(ship(), centre_of_gravity=[0.0, 0.0, -1.0], roll_damping_fraction=0.05)
+    return hydro_from_hull(ship(), center_of_gravity=[0.0, 0.0, -1.0], roll_damping_fraction=0.05)
 
 
 @cache
@@ -66,7 +66,7 @@ def test_long_waves_lift_and_tilt_the_hull_as_hydrostatics_says() -> None:
     """F3 tends to C33 a, F5 to C55 times the slope: pressure over sections against the panels' waterplane."""
     omega = np.array([0.02, 0.03])
     database = hydro_from_hull(
-        ship().moved(6.0), centre_of_gravity=[6.0, 0.0, -1.0], omega=omega, heading=np.radians([0.0, 90.0])
+        ship().moved(6.0), center_of_gravity=[6.0, 0.0, -1.0], omega=omega, heading=np.radians([0.0, 90.0])
     )
     k = omega[0] ** 2 / G
     statics = ship().moved(6.0).hydrostatics
@@ -77,7 +77,7 @@ def test_long_waves_lift_and_tilt_the_hull_as_hydrostatics_says() -> None:
     # Beam sea to port: slope -i k about x times the hydrostatic stiffness with the weight at the origin, and
     # the water's acceleration i k g on the added mass.
     stiffness = (
-        RHO * G * statics.waterplane_inertia_roll + RHO * G * statics.volume * statics.centre_of_buoyancy[2]
+        RHO * G * statics.waterplane_inertia_roll + RHO * G * statics.volume * statics.center_of_buoyancy[2]
     )
     assert force[1, 3] == pytest.approx(1j * k * (G * database.added_mass[0, 3, 1] - stiffness), rel=1e-2)
     # Following sea: surge of the displaced water, m g times the slope.
@@ -133,9 +133,9 @@ def test_offsets_mesh_and_parametric_hull_give_one_database() -> None:
     panels = parametric.panels
     mesh = Hull.from_mesh(vertices=panels.reshape(-1, 3), faces=np.arange(4 * len(panels)).reshape(-1, 4))
     grid: dict[str, Any] = {"omega": np.linspace(0.4, 2.4, 6), "heading": np.radians([90.0, 135.0, 180.0])}
-    centre = [float(parametric.hydrostatics.centre_of_buoyancy[0]), 0.0, 0.0]
+    centre = [float(parametric.hydrostatics.center_of_buoyancy[0]), 0.0, 0.0]
     one, other, third = (
-        hydro_from_hull(hull, centre_of_gravity=centre, **grid)
+        hydro_from_hull(hull, center_of_gravity=centre, **grid)
         for hull in (parametric, Hull.from_offsets(table), mesh)
     )
     for name in ("added_mass", "damping", "force", "infinite_frequency_added_mass"):
@@ -150,7 +150,7 @@ def test_stations_converge() -> None:
     omega, heading = np.array([0.6, 1.0]), np.radians([90.0, 135.0])
     found = [
         hydro_from_hull(
-            ship(), centre_of_gravity=[0.0, 0.0, -1.0], omega=omega, heading=heading, stations=n
+            ship(), center_of_gravity=[0.0, 0.0, -1.0], omega=omega, heading=heading, stations=n
         ).damping[:, [1, 2, 4], [1, 2, 4]]
         for n in (9, 17, 33)
     ]
@@ -164,10 +164,10 @@ def test_stations_converge() -> None:
         ({"method": "magic"}, "strip or capytaine"),
         ({"speed": 3.0}, "zero speed"),
         ({"roll_damping_fraction": -0.1}, "roll_damping_fraction"),
-        ({"centre_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5 m"),
-        ({"centre_of_gravity": [0.0, 0.0]}, "three finite numbers"),
-        ({"centre_of_gravity": [0.0, 0.0, np.nan]}, "three finite numbers"),
-        ({"centre_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"),
+        ({"center_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5 m"),
+        ({"center_of_gravity": [0.0, 0.0]}, "three finite numbers"),
+        ({"center_of_gravity": [0.0, 0.0, np.nan]}, "three finite numbers"),
+        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"),
         ({"radii_of_gyration": [1.0, 2.0, -3.0]}, "three positive numbers"),
         ({"mass": 0.0}, "mass is 0.0"),
         ({"rho": np.nan}, "rho is nan"),
@@ -183,7 +183,7 @@ def test_stations_converge() -> None:
     ],
 )
 def test_bad_values_are_refused(options: dict[str, Any], message: str) -> None:
-    small = {"centre_of_gravity": [0.0, 0.0, -1.0], "omega": [0.5, 1.0], "heading": [0.0, 1.5]}
+    small = {"center_of_gravity": [0.0, 0.0, -1.0], "omega": [0.5, 1.0], "heading": [0.0, 1.5]}
     with pytest.raises(ValueError, match=message):
         hydro_from_hull(barge(), **{**small, **options})
 
@@ -191,9 +191,9 @@ def test_bad_values_are_refused(options: dict[str, Any], message: str) -> None:
 def test_a_hull_that_would_not_float_as_drawn_warns() -> None:
     small: dict[str, Any] = {"omega": [0.5, 1.0], "heading": [0.0, 1.5]}
     with pytest.warns(FloatingPositionWarning, match=r"\+20\.0 % off the displaced"):
-        hydro_from_hull(barge(), centre_of_gravity=[0, 0, -1.0], mass=1.2 * RHO * 1600.0, **small)
+        hydro_from_hull(barge(), center_of_gravity=[0, 0, -1.0], mass=1.2 * RHO * 1600.0, **small)
     with pytest.warns(FloatingPositionWarning, match=r"\+1 m forward.*trim by"):
-        hydro_from_hull(barge(), centre_of_gravity=[1.0, 0, -1.0], **small)
+        hydro_from_hull(barge(), center_of_gravity=[1.0, 0, -1.0], **small)
 
 
 def test_a_bulb_left_out_by_strip_theory_warns() -> None:
@@ -201,13 +201,13 @@ def test_a_bulb_left_out_by_strip_theory_warns() -> None:
     vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
     hull = Hull.from_mesh(vertices=vertices, faces=faces).at_centre_of_buoyancy()
     with pytest.warns(SubmergedPartWarning, match=r"% of the volume hangs apart"):
-        hydro_from_hull(hull, centre_of_gravity=[0, 0, -1.0], omega=[0.5, 1.0], heading=[0.0, 1.5])
+        hydro_from_hull(hull, center_of_gravity=[0, 0, -1.0], omega=[0.5, 1.0], heading=[0.0, 1.5])
 
 
 def test_without_capytaine_the_error_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "capytaine", None)
     with pytest.raises(ImportError, match=r"seacrane\[hydro\]"):
-        hydro_from_hull(barge(), centre_of_gravity=[0, 0, -1.0], method="capytaine")
+        hydro_from_hull(barge(), center_of_gravity=[0, 0, -1.0], method="capytaine")
 
 
 def test_the_default_frequencies_resolve_the_resonances() -> None:

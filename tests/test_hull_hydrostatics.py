@@ -20,7 +20,7 @@ def values(statics: Hydrostatics) -> np.ndarray:
     return np.array(
         [
             statics.volume,
-            statics.centre_of_buoyancy[2],
+            statics.center_of_buoyancy[2],
             statics.waterplane_area,
             statics.waterplane_inertia_roll,
             statics.waterplane_inertia_pitch,
@@ -53,9 +53,9 @@ def test_wedge_from_keel_first_offsets() -> None:
     table = OffsetTable(x=[0.0, 30.0], sections=([[0.0, -5.0], [7.0, 2.0]],) * 2)
     statics = Hull.from_offsets(table).hydrostatics
     assert statics.volume == pytest.approx(30.0 * 25.0, rel=1e-12)
-    assert statics.centre_of_buoyancy == pytest.approx([15.0, 0.0, -5.0 / 3.0], rel=1e-12)
+    assert statics.center_of_buoyancy == pytest.approx([15.0, 0.0, -5.0 / 3.0], rel=1e-12)
     assert statics.waterplane_inertia_roll == pytest.approx(30.0 * 1000.0 / 12.0, rel=1e-12)
-    assert statics.centre_of_flotation == pytest.approx(15.0)
+    assert statics.center_of_flotation == pytest.approx(15.0)
     ends, sides = 2.0 * 25.0, 2.0 * 30.0 * np.sqrt(50.0)
     assert statics.wetted_surface == pytest.approx(ends + sides, rel=1e-12)
 
@@ -85,7 +85,7 @@ def test_sphere_cap(draught: float) -> None:
             statics.volume / volume,
             statics.waterplane_area / area,
             statics.wetted_surface / (2.0 * np.pi * radius * draught),
-            1.0 + (statics.centre_of_buoyancy[2] - centre + below) / radius,
+            1.0 + (statics.center_of_buoyancy[2] - centre + below) / radius,
             1.0 + (statics.metacentre_transverse - centre) / radius,
             1.0 + (statics.metacentre_longitudinal - centre) / radius,
         ]
@@ -154,11 +154,11 @@ def test_moving_the_origin_moves_the_moments() -> None:
     hull = Hull.from_offsets(wigley_offsets(*SHIP, 6))
     away = hull.moved(7.0)
     before, after = hull.hydrostatics, away.hydrostatics
-    assert after.centre_of_buoyancy[0] - before.centre_of_buoyancy[0] == pytest.approx(7.0)
+    assert after.center_of_buoyancy[0] - before.center_of_buoyancy[0] == pytest.approx(7.0)
     steiner = 14.0 * before.waterplane_moment_x + 49.0 * before.waterplane_area
     assert after.waterplane_inertia_pitch - before.waterplane_inertia_pitch == pytest.approx(steiner)
     assert after.metacentre_longitudinal == pytest.approx(before.metacentre_longitudinal)
-    assert away.at_centre_of_buoyancy().hydrostatics.centre_of_buoyancy[0] == pytest.approx(0.0, abs=1e-12)
+    assert away.at_centre_of_buoyancy().hydrostatics.center_of_buoyancy[0] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_restoring_is_what_the_heeled_and_trimmed_box_shows() -> None:
@@ -166,7 +166,7 @@ def test_restoring_is_what_the_heeled_and_trimmed_box_shows() -> None:
     vertices, faces = box(length=40.0, breadth=10.0, bottom=-4.0, top=6.0)
     vertices = vertices + np.array([2.0, 0.0, 0.0])
     upright = Hull.from_mesh(vertices=vertices, faces=faces).hydrostatics
-    c = upright.restoring(rho=RHO, g=G, centre_of_gravity_z=-1.0, centre_of_gravity_x=1.2, mass=1.5e6)
+    c = upright.restoring(rho=RHO, g=G, center_of_gravity_z=-1.0, center_of_gravity_x=1.2, mass=1.5e6)
     angle = 1e-4
     turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
 
@@ -175,7 +175,7 @@ def test_restoring_is_what_the_heeled_and_trimmed_box_shows() -> None:
         wet = Hull.from_mesh(vertices=vertices @ rotation.T, faces=faces).hydrostatics
         gravity = rotation @ np.array([1.2, 0.0, -1.0])
         buoyancy, weight = RHO * G * wet.volume, 1.5e6 * G
-        return buoyancy - weight, -wet.centre_of_buoyancy[0] * buoyancy + gravity[0] * weight
+        return buoyancy - weight, -wet.center_of_buoyancy[0] * buoyancy + gravity[0] * weight
 
     up, moment = (np.array(load(turn)) - np.array(load(turn.T))) / (2.0 * angle)
     assert -up == pytest.approx(c[2, 4], rel=1e-5)

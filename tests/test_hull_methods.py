@@ -47,7 +47,7 @@ def strip() -> HydroDatabase:
     """The shipped hull at the shipped frequencies of the band."""
     return hydro_from_hull(
         SHIPPED,
-        centre_of_gravity=[0.0, 0.0, 1.878390],
+        center_of_gravity=[0.0, 0.0, 1.878390],
         mass=14.0e6,
         omega=panel().omega[inside()],
         heading=panel().heading[::9],
@@ -106,9 +106,9 @@ def slender() -> Hull:
 def test_capytaine_gives_the_same_kind_of_database() -> None:
     pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     grid = {"omega": [0.05, 0.9, 1.1], "heading": np.radians([0.0, 90.0, 120.0])}
-    centre = [float(slender().hydrostatics.centre_of_buoyancy[0]), 0.0, -1.5]
-    one = hydro_from_hull(slender(), centre_of_gravity=centre, method="capytaine", **grid)
-    other = hydro_from_hull(slender(), centre_of_gravity=centre, method="strip", **grid)
+    centre = [float(slender().hydrostatics.center_of_buoyancy[0]), 0.0, -1.5]
+    one = hydro_from_hull(slender(), center_of_gravity=centre, method="capytaine", **grid)
+    other = hydro_from_hull(slender(), center_of_gravity=centre, method="strip", **grid)
     assert "Capytaine 3" in one.source
     assert one.zero_frequency_added_mass is not None
     np.testing.assert_array_equal(one.restoring, other.restoring)
@@ -128,13 +128,13 @@ def test_capytaine_one_heading_one_frequency_and_too_many_panels() -> None:
     pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     hull = slender().at_centre_of_buoyancy()
     single = hydro_from_hull(
-        hull, centre_of_gravity=[0.0, 0.0, -1.5], method="capytaine", omega=[1.0], heading=[1.0]
+        hull, center_of_gravity=[0.0, 0.0, -1.5], method="capytaine", omega=[1.0], heading=[1.0]
     )
     assert single.force.shape == (1, 1, 6)
     fine = hull.remeshed(stations=170, girth=24)
     with pytest.raises(ValueError, match="too many for Capytaine"):
         hydro_from_hull(
-            fine, centre_of_gravity=[0.0, 0.0, -1.5], method="capytaine", omega=[1.0], heading=[1.0]
+            fine, center_of_gravity=[0.0, 0.0, -1.5], method="capytaine", omega=[1.0], heading=[1.0]
         )
 
 
@@ -151,7 +151,7 @@ def test_the_difference_to_strip_theory_is_that_of_the_ends() -> None:
         both = [
             hydro_from_hull(
                 hull,
-                centre_of_gravity=[0.0, 0.0, 1.0],
+                center_of_gravity=[0.0, 0.0, 1.0],
                 method=method,
                 omega=omega,
                 heading=heading,
@@ -174,7 +174,7 @@ def test_capytaine_reproduces_the_shipped_database() -> None:
     i = int(np.abs(panel().omega - 1.0).argmin())
     found = hydro_from_hull(
         hull,
-        centre_of_gravity=[0.0, 0.0, 1.878390],
+        center_of_gravity=[0.0, 0.0, 1.878390],
         mass=14.0e6,
         method="capytaine",
         omega=panel().omega[[i]],
@@ -192,7 +192,7 @@ def test_the_mesh_is_checked_when_asked_for() -> None:
     box = OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 0.0], [5.0, -4.0], [0.0, -4.0]],) * 2)
     coarse = Hull.from_offsets(box).remeshed(stations=14, girth=5)
     some: dict[str, Any] = {
-        "centre_of_gravity": (0.0, 0.0, -1.5),
+        "center_of_gravity": (0.0, 0.0, -1.5),
         "omega": [0.5, 0.8, 1.1],
         "heading": [0.0, 1.5, 3.1],
     }
@@ -222,4 +222,4 @@ def test_a_mesh_that_has_not_converged_is_named(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(hull_database, "strip_solution", off)
     hull = Hull.from_offsets(wigley_offsets(100.0, 10.0, 5.0, 24))
     with pytest.warns(MeshConvergenceWarning, match=r"these change, by their largest: .*B33 (9|10|11)\.\d%"):
-        hydro_from_hull(hull, centre_of_gravity=(0, 0, -2), omega=[0.5, 0.8], heading=[0.0, 3.1], check=True)
+        hydro_from_hull(hull, center_of_gravity=(0, 0, -2), omega=[0.5, 0.8], heading=[0.0, 3.1], check=True)

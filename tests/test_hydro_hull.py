@@ -29,7 +29,7 @@ def test_the_solved_mesh_encloses_the_volume_with_its_centre_at_the_origin(stati
     hull = HULL.scaled_to_volume(VOLUME, stations=stations, girth=girth)
     statics = panel_hydrostatics(hull.panels(stations=stations, girth=girth))
     assert statics.volume == pytest.approx(VOLUME, rel=1e-12)
-    assert statics.centre_of_buoyancy[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert statics.center_of_buoyancy[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
 
 
 def test_main_dimensions() -> None:
@@ -58,8 +58,8 @@ def test_hydrostatics_of_a_box_in_closed_form() -> None:
     faces.append([(*corner[i], z) for i in (0, 3, 2, 1)])
     statics = panel_hydrostatics(np.array(faces))
     assert statics.volume == pytest.approx(1600.0)
-    assert statics.centre_of_buoyancy == pytest.approx([0.0, 0.0, -2.0], abs=1e-12)
-    restoring = statics.restoring(rho=RHO, g=G, centre_of_gravity_z=1.0)
+    assert statics.center_of_buoyancy == pytest.approx([0.0, 0.0, -2.0], abs=1e-12)
+    restoring = statics.restoring(rho=RHO, g=G, center_of_gravity_z=1.0)
     weight = RHO * G * 1600.0
     assert restoring[2, 2] == pytest.approx(RHO * G * 400.0)
     assert restoring[3, 3] == pytest.approx(weight * (100.0 / 48.0 - 3.0))
@@ -71,7 +71,7 @@ def test_heave_pitch_coupling_has_the_sign_of_the_waterplane_lever() -> None:
     hull = HULL.scaled_to_volume(VOLUME, stations=16, girth=5)
     statics = panel_hydrostatics(hull.panels(stations=16, girth=5))
     assert statics.waterplane_moment_x < 0.0
-    assert statics.restoring(rho=RHO, g=G, centre_of_gravity_z=0.0)[2, 4] > 0.0
+    assert statics.restoring(rho=RHO, g=G, center_of_gravity_z=0.0)[2, 4] > 0.0
 
 
 def test_the_mesh_converges_to_the_smooth_hull_at_second_order() -> None:

@@ -37,7 +37,7 @@ def test_the_shipped_vessel() -> None:
         warnings.simplefilter("error")
         vessel = vessel_parameters(shipped_database())
     assert vessel.mass == pytest.approx(14.0e6)
-    assert vessel.centre_of_mass[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert vessel.center_of_mass[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
     gyration = np.sqrt(np.diag(vessel.inertia) / vessel.mass)
     assert gyration == pytest.approx([0.36 * 25.0, 0.25 * 115.0, 0.25 * 115.0])
     assert np.array_equal(vessel.restoring, shipped_database().restoring)
@@ -47,7 +47,7 @@ def test_the_shipped_vessel() -> None:
 def test_mass_matrix_is_split_and_rebuilt(supply: HydroDatabase) -> None:
     for database in (shipped_database(), supply):
         vessel = vessel_parameters(database)
-        rebuilt = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+        rebuilt = rigid_mass_matrix(vessel.mass, vessel.center_of_mass, vessel.inertia)
         assert rebuilt == pytest.approx(database.mass_matrix, rel=1e-9, abs=1.0)
 
 
@@ -72,7 +72,7 @@ def test_taking_out_a_part_undoes_adding_it() -> None:
     loaded = dataclasses.replace(base, mass_matrix=mass_matrix, restoring=restoring)
     vessel, bare = vessel_parameters(loaded, take_out=[CRANE]), vessel_parameters(base)
     assert vessel.mass == pytest.approx(bare.mass)
-    assert vessel.centre_of_mass == pytest.approx(bare.centre_of_mass, abs=1e-9)
+    assert vessel.center_of_mass == pytest.approx(bare.center_of_mass, abs=1e-9)
     assert vessel.inertia == pytest.approx(bare.inertia, rel=1e-9, abs=1e-3)
     assert vessel.restoring == pytest.approx(bare.restoring, rel=1e-9, abs=1e-3)
 

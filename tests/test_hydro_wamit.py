@@ -200,7 +200,7 @@ def test_vessel_of_the_time_domain_keeps_the_inertia(database: HydroDatabase) ->
     vessel = vessel_parameters(database, memory=memory)
     moments = np.linalg.eigvalsh(vessel.inertia)
     assert 0.98 * (moments[0] + moments[1]) < moments[2] < moments[0] + moments[1]
-    rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+    rigid = rigid_mass_matrix(vessel.mass, vessel.center_of_mass, vessel.inertia)
     total = rigid + vessel.added_mass - memory.added_mass
     scale = np.sqrt(np.diagonal(database.mass_matrix))
     assert np.all(np.abs(total - database.mass_matrix) <= 1e-12 * np.outer(scale, scale))

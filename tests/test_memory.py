@@ -114,7 +114,7 @@ def kernel_on_grid(memory: ReferenceMemory, count: int) -> Array:
 def radiation_from_balance(waves: VesselRun) -> Array:
     """Load -(A_inf u' + mu) on the vessel, as what the rigid-body equations leave of the recorded motion."""
     p = vessel_parameters(shipped_database())
-    center = rotate_back(waves.yaw, waves.rotation @ p.centre_of_mass)
+    center = rotate_back(waves.yaw, waves.rotation @ p.center_of_mass)
     w, lever = waves.twist[:, 3:], center
     roll, pitch = waves.motion[:, 3], waves.motion[:, 4]
     c = p.restoring[2:5, 2:5]
@@ -182,5 +182,5 @@ def test_memory_states_count_and_leave() -> None:
 def test_rigid_mass_matrix_of_the_paper() -> None:
     """Equation (12): the vessel's mass matrix about {0} is that of the database."""
     p = vessel_parameters(shipped_database())
-    found = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia)
+    found = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia)
     np.testing.assert_allclose(found, shipped_database().mass_matrix, rtol=1e-12, atol=1e-3)

@@ -70,10 +70,11 @@ def test_the_linear_model_finds_the_same_differences(tp: float, heading: float) 
     scene = cases.vessel(hs=0.0, memory="by-motion")
     omega = np.linspace(*model.band, 400)
     options = {"database": database, "omega": omega, "body": "vessel"}
-    own, data = (motion_rao(scene, heading=heading, memory=kind, **options) for kind in ("scene", "database"))
+    asked = options | {"direction": heading}
+    own, data = (motion_rao(scene, memory=kind, **asked) for kind in ("scene", "database"))
     largest = np.max(
         [
-            _std(motion_rao(scene, heading=h, memory="database", **options), omega, tp)
+            _std(motion_rao(scene, direction=h, memory="database", **options), omega, tp)
             for h in database.heading[::6]
         ],
         axis=0,

@@ -157,9 +157,9 @@ CALLS: dict[str, Callable[[], object]] = {
     "statics": lambda: statics(ship()),
     "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel_deg": 6.0}),
     "natural modes": lambda: natural_modes(ship()),
-    "motion RAO": lambda: motion_rao(ship(), omega=[0.5, 1.0], heading=2.0, body="vessel"),
+    "motion RAO": lambda: motion_rao(ship(), omega=[0.5, 1.0], direction=2.0, body="vessel"),
     "statistics": lambda: response_statistics(
-        ship(), spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
+        ship(), spectrum=jonswap(hs=2.0, tp=8.0), direction=2.0, body="vessel"
     ),
     "run": lambda: simulate(cases.case2(), 1.0),
     "fit of a memory": fit,

@@ -76,7 +76,7 @@ def test_hs_is_what_the_linear_statistics_say(database: HydroDatabase) -> None:
     """2 sqrt(m0) per metre of Hs, from the other implementation of the response."""
     motion = response_statistics(
         linear_model(vessel()), spectrum=jonswap(hs=1.0, tp=9.0),
-        heading=np.radians(135.0), body="vessel",
+        direction=np.radians(135.0), body="vessel",
     )  # fmt: skip
     found = by_frequency(vessel(), [PITCH], database)
     assert float(found.dataset["allowable_hs"][0, 0]) == pytest.approx(

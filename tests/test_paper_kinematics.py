@@ -92,7 +92,7 @@ def paper_acceleration(position: Array, memory_load: Array, *, as_printed: bool 
     p, vessel = vessel_parameters(shipped_database()), cases.vessel(kinematics="paper").vessels["vessel"]
     to_rates = np.linalg.inv(equation_20(PHI, as_printed=as_printed))
     eta_rate = np.concatenate([ORIGIN_RATE, RATE])
-    total = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia) + p.added_mass
+    total = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia) + p.added_mass
     wide = np.zeros((6, 6))
     wide[:3, :3], wide[3:, 3:] = np.eye(3), to_rates
     turning = to_rates @ equation_22(PHI, RATE, as_printed=as_printed) @ RATE

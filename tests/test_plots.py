@@ -148,7 +148,7 @@ def test_an_rao_is_that_of_the_frequency_domain() -> None:
     scene = cases.vessel(hs=0.0, memory="none")
     omega = np.array([0.5, 0.8])
     sheet = rao_sheet(scene, "vessel", (0.0, 0.0, 0.0), (90.0, 180.0), omega)
-    rao = np.abs(motion_rao(scene, omega=omega, heading=np.pi / 2, body="vessel"))
+    rao = np.abs(motion_rao(scene, omega=omega, direction=np.pi / 2, body="vessel"))
     panels = {panel.quantity: panel for panel in sheet.panels}
     np.testing.assert_allclose(panels["about x"].lines[0].values, np.degrees(rao[:, 3]))
     np.testing.assert_allclose(panels["z"].lines[0].values, rao[:, 2])

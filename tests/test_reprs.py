@@ -78,7 +78,7 @@ def with_arrays() -> dict[str, Any]:
     scene, database, hull = cases.case2(), shipped_database(), shipped_hull()
     memory = database.memory
     assert memory is not None
-    statistics = response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel")
+    statistics = response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), direction=2.0, body="vessel")
     things: list[Any] = [
         database, memory, memory.blocks[0], hull, linear_model(scene), natural_modes(scene), statistics,
         KnuckleBoomCrane.load(), retardation_functions(database=database),

@@ -206,7 +206,7 @@ def test_another_database_of_a_vessel_is_refused_by_both_digests() -> None:
     told = f"vessel 'vessel' is from database 'hull_115' .{digests(shipped_database(), other)}"
     for call in (
         lambda: scene.replace("vessel", kind="vessel", database=other),
-        lambda: motion_rao(scene, omega=0.5, heading=0.0, body="vessel", database=other),
+        lambda: motion_rao(scene, omega=0.5, direction=0.0, body="vessel", database=other),
         lambda: linear_model(scene, memory="database", database=other),
         lambda: natural_modes(scene, memory="database", database=other),
     ):
@@ -216,7 +216,7 @@ def test_another_database_of_a_vessel_is_refused_by_both_digests() -> None:
 
 def test_the_same_database_read_again_is_no_other() -> None:
     scene, same = afloat(), replace(shipped_database())
-    given = {"omega": [0.5, 0.7], "heading": 1.0, "body": "vessel"}
+    given = {"omega": [0.5, 0.7], "direction": 1.0, "body": "vessel"}
     np.testing.assert_array_equal(motion_rao(scene, **given), motion_rao(scene, database=same, **given))
 
 
@@ -232,7 +232,7 @@ def test_the_same_database_read_again_is_no_other() -> None:
         lambda scene, database: trade(scene, 1.0, database=database),
         lambda scene, database: plot_rao(scene, body="vessel", database=database),
         lambda scene, database: model_error(scene, body="vessel", times=[0, 1], database=database),
-        lambda scene, database: LinearControl(scene, database=database, body="vessel", axis="z", t_end=9.0),
+        lambda scene, database: LinearControl(scene, database=database, channel="heel[vessel]", t_end=9.0),
         lambda scene, database: HookLoadControl(scene, database=database, t_end=9.0),
         lambda scene, database: allowable_hs(scene, criteria=[], tp=8, direction_deg=0, database=database),
     ],
@@ -248,10 +248,10 @@ def test_scripts_of_0_2_are_told_that_the_scene_keeps_it(call: Callable[..., Any
 @pytest.mark.filterwarnings("ignore:.*damping ratio")  # the fluid memory is left out
 def test_linear_answers_take_the_databases_of_the_scene() -> None:
     scene = afloat(rich())
-    rao = motion_rao(scene, omega=0.7, heading=np.pi, body="vessel")
+    rao = motion_rao(scene, omega=0.7, direction=np.pi, body="vessel")
     assert np.abs(rao[2]) > 0.01
     assert (
-        response_statistics(scene, spectrum=jonswap(hs=1.0, tp=8.0), heading=np.pi, body="vessel").std[2]
+        response_statistics(scene, spectrum=jonswap(hs=1.0, tp=8.0), direction=np.pi, body="vessel").std[2]
         > 0.0
     )
     by_database = linear_model(scene, memory="database")
@@ -275,7 +275,7 @@ def test_drift_and_positions_take_the_database_of_the_scene() -> None:
 def test_controls_and_the_error_of_a_memory_take_the_database_of_a_loaded_scene(tmp_path: Path) -> None:
     cases.case2(hs=0.5, count=20).save(tmp_path / "scene.json")
     scene = Scene.load(tmp_path / "scene.json")
-    control = LinearControl(scene, body="payload", axis="z", t_end=20.0)
+    control = LinearControl(scene, "position[payload, z]", t_end=20.0)
     assert control.extremes([1, 2]).shape == (2,)
     assert HookLoadControl(scene, t_end=20.0).extremes([1]).shape == (1,)
     assert model_error(scene, body="vessel", times=np.linspace(0.0, 20.0, 41)).largest.shape == (6,)
@@ -342,7 +342,7 @@ def test_a_lift_and_a_result_hold_the_database_too(tmp_path: Path) -> None:
     lift = Lift({"vessel": {"database": "hull_115", "memory": "none"}, "sea": {"hs_m": 1.0, "count": 20}})
     scene = lift.scene()
     assert database_of(scene) is shipped_database()
-    assert motion_rao(scene, omega=0.5, heading=0.0, body="vessel").shape == (6,)
+    assert motion_rao(scene, omega=0.5, direction=0.0, body="vessel").shape == (6,)
     result = simulate(scene, 1.0)
     result.save(tmp_path / "result.nc")
     again = type(result).load(tmp_path / "result.nc").scene
@@ -369,7 +369,7 @@ def test_a_file_of_0_2_loads_and_says_what_to_do(tmp_path: Path) -> None:
     told = r"has no database, which .* needs; .* scene\.replace\('vessel', kind='vessel', database=database\)"
     for call in (
         lambda: ensemble(scene, over={"seed": [1]}, keep=HEAVE),
-        lambda: motion_rao(scene, omega=0.5, heading=0.0, body="vessel"),
+        lambda: motion_rao(scene, omega=0.5, direction=0.0, body="vessel"),
         lambda: scene.use_actual_position(),
         lambda: linear_model(scene, memory="database"),
     ):
@@ -387,7 +387,7 @@ def test_a_file_of_0_1_loads_and_takes_its_database(tmp_path: Path) -> None:
     scene = older(afloat(), tmp_path, "provenance", "roles", "points", "ranges")
     assert scene.vessels["vessel"].database is None and not scene.provenance
     scene.replace("vessel", kind="vessel", database=shipped_database())
-    assert np.abs(motion_rao(scene, omega=0.5, heading=0.0, body="vessel")).max() > 0.1
+    assert np.abs(motion_rao(scene, omega=0.5, direction=0.0, body="vessel")).max() > 0.1
 
 
 def test_a_vessel_of_matrices_takes_a_database_for_its_waves() -> None:
@@ -411,7 +411,7 @@ def test_what_is_no_database_is_named(given: Any) -> None:
     with pytest.raises(SceneError, match=r"vessel 'vessel': database is .*; give a HydroDatabase"):
         afloat().replace("vessel", kind="vessel", database=given)
     with pytest.raises(SceneError, match=r"database is .*; give a HydroDatabase"):
-        motion_rao(afloat(), omega=0.5, heading=0.0, body="vessel", database=given)
+        motion_rao(afloat(), omega=0.5, direction=0.0, body="vessel", database=given)
 
 
 # Damage.

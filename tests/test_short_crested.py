@@ -36,7 +36,7 @@ def statistics(
     spreading: Spreading | None, *, heading: float = 2.2, point: object = TIP
 ) -> ResponseStatistics:
     return response_statistics(
-        alone(), spectrum=SEA, heading=heading, body="vessel", point=TIP,
+        alone(), spectrum=SEA, direction=heading, body="vessel", point=TIP,
         spreading=spreading,
     )  # fmt: skip
 
@@ -63,7 +63,7 @@ def test_the_quadrature_over_directions_has_converged(monkeypatch: pytest.Monkey
     some = statistics(cos_2s(2.0))
     monkeypatch.setitem(response_statistics.__wrapped__.__globals__, "HEADINGS", 150)  # type: ignore[attr-defined]
     np.testing.assert_allclose(some.std, statistics(cos_2s(2.0)).std, rtol=1e-3)
-    assert some.heading_share.sum() == pytest.approx(1.0)
+    assert some.direction_share.sum() == pytest.approx(1.0)
 
 
 def axisymmetric() -> HydroDatabase:
@@ -99,7 +99,7 @@ def test_a_body_of_revolution_in_closed_form(s: float) -> None:
 
     def variance(spreading: Spreading | None) -> Array:
         found = response_statistics(
-            scene, database=database, spectrum=SEA, heading=0.0, body="vessel", memory="database",
+            scene, database=database, spectrum=SEA, direction=0.0, body="vessel", memory="database",
             spreading=spreading,
         )  # fmt: skip
         return np.asarray(found.moments[:, 0])
@@ -117,7 +117,7 @@ def test_a_run_in_a_low_short_crested_sea_has_these_statistics() -> None:
     scene.add_sea(hs=0.1, tp=9.0, direction_deg=126.0, spreading=cos_2s(4.0), count=400, seed=5)
     expected = response_statistics(
         cases.vessel(hs=0.0, memory="passive"), spectrum=jonswap(hs=0.1, tp=9.0),
-        heading=np.radians(126.0), body="vessel", spreading=cos_2s(4.0),
+        direction=np.radians(126.0), body="vessel", spreading=cos_2s(4.0),
     )  # fmt: skip
     length, ramp = 1200.0, 200.0
     result = simulate(scene, t_end=ramp + length, dt_out=0.5, rtol=1e-5, channels=["vessel_motion"])
@@ -155,7 +155,7 @@ def test_motions_at_speed_are_those_of_the_databases_equations(speed: float, tmp
     }
     still, moving = replace(still, **nothing), replace(moving, **nothing)
     found = motion_rao(
-        free(still, None), database=moving, omega=moving.omega, heading=moving.heading[:, None],
+        free(still, None), database=moving, omega=moving.omega, direction=moving.heading[:, None],
         body="vessel", memory="database",
     )  # fmt: skip
     expected = motion_response(moving)
@@ -178,10 +178,15 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", EncounterFrequencyWarning)
         found = response_statistics(
-            scene, database=moving, spectrum=sea, heading=heading, body="vessel", memory="database"
+            scene, database=moving, spectrum=sea, direction=heading, body="vessel", memory="database"
         )
     omega = np.linspace(moving.omega[0], moving.omega[-1], 3001)
-    options: dict[str, Any] = {"database": moving, "heading": heading, "body": "vessel", "memory": "database"}
+    options: dict[str, Any] = {
+        "database": moving,
+        "direction": heading,
+        "body": "vessel",
+        "memory": "database",
+    }
     heave = np.abs(motion_rao(scene, omega=omega, **options)[:, 2]) ** 2 * np.asarray(sea.density(omega))
     slowness = 5.0 * np.cos(heading) / moving.g
 
@@ -212,7 +217,7 @@ def test_following_seas_that_are_met_outside_the_table_are_named(tmp_path: Path)
     still, moving = ship_at(10.0, tmp_path)
     with pytest.warns(EncounterFrequencyWarning, match=r"at 10 m/s \d+% .* no linear theory holds"):
         found = response_statistics(
-            free(still, 60.0), database=moving, spectrum=jonswap(hs=1.0, tp=6.0), heading=0.0,
+            free(still, 60.0), database=moving, spectrum=jonswap(hs=1.0, tp=6.0), direction=0.0,
             body="vessel", memory="database", spreading=cos_2s(10.0),
         )  # fmt: skip
     assert np.all(np.isfinite(found.moments))
@@ -220,12 +225,12 @@ def test_following_seas_that_are_met_outside_the_table_are_named(tmp_path: Path)
 
 def test_speeds_that_do_not_belong_together_are_refused(tmp_path: Path) -> None:
     still, moving = ship_at(5.0, tmp_path)
-    options: dict[str, Any] = {"spectrum": SEA, "heading": 0.0, "body": "vessel"}
+    options: dict[str, Any] = {"spectrum": SEA, "direction": 0.0, "body": "vessel"}
     with pytest.raises(SceneError, match=r"is of 5 m/s, the memory of the linear model of 0 m/s; "):
         response_statistics(free(still, 60.0), database=moving, **options)
     under_way = linear_model(free(still, 60.0), memory="database", database=moving)
     with pytest.raises(SceneError, match="is of 0 m/s, the memory of the linear model of 5 m/s"):
-        motion_rao(under_way, database=still, omega=0.6, heading=0.0, body="vessel")
+        motion_rao(under_way, database=still, omega=0.6, direction=0.0, body="vessel")
     scene = free(still, 60.0)
     scene.add_sea(hs=1.0)
     with pytest.raises(SceneError, match="meets the waves of the scene at zero speed"):

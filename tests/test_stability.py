@@ -64,7 +64,7 @@ def test_a_slack_tank_takes_its_moment_over_the_displacement(tmp_path: Path) -> 
     before = statics(scene)
     assert "GM solid" not in before.columns
     scene.add_slack_tank(moment=1e6)
-    scene.add_slack_tank(moment=5e5, body="hull")
+    scene.add_slack_tank(moment=5e5, vessel="hull")
     told = statics(scene)
     assert told["GM"] == pytest.approx(float(before["GM"]) - 1.5e6 / MASS, rel=1e-9)
     assert told["GM solid"] == pytest.approx(float(before["GM"]), rel=1e-9)

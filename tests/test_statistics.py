@@ -74,7 +74,7 @@ def test_crests_of_a_narrow_band_come_in_clumps() -> None:
 
 def test_a_broad_band_agrees_with_its_closed_forms() -> None:
     runs = records(60, BROAD)
-    found = sc.statistics.record_extremes(runs[0], dt=STEP)
+    found = sc.statistics.record_extremes(runs[0], interval=STEP)
     rate, width = np.hypot(*BROAD) / (2.0 * np.pi), BROAD[1] / np.hypot(*BROAD)
     assert found.spectrum.crossing_rate == pytest.approx(rate, rel=0.02)
     assert found.crossing_rate == pytest.approx(rate, rel=0.03)
@@ -86,7 +86,7 @@ def test_a_broad_band_agrees_with_its_closed_forms() -> None:
 
 
 def test_crests_of_a_narrow_band_are_rayleighs() -> None:
-    found = sc.statistics.record_extremes(records(8, (0.8, 0.02)).ravel()[: 4 * 21600], dt=STEP)
+    found = sc.statistics.record_extremes(records(8, (0.8, 0.02)).ravel()[: 4 * 21600], interval=STEP)
     levels = np.array([0.5, 1.0, 2.0])
     np.testing.assert_allclose(found.exceedance(levels), np.exp(-0.5 * levels**2), atol=0.03)
     assert abs(found.skewness) < 0.1
@@ -100,7 +100,7 @@ def test_intervals_of_one_gaussian_record_cover_its_level() -> None:
     for values in runs:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            mpm = sc.statistics.record_extremes(values, dt=STEP, tail="exponential").gaussian.mpm
+            mpm = sc.statistics.record_extremes(values, interval=STEP, tail="exponential").gaussian.mpm
         inside += mpm.low < true < mpm.high
     assert inside >= 53  # of 60; 57 expected
 
@@ -110,7 +110,7 @@ def test_intervals_of_one_gaussian_record_cover_its_level() -> None:
 
 def test_the_spectrum_of_white_noise_is_flat_within_its_interval() -> None:
     values = np.random.default_rng(2).normal(size=8192)
-    found = sc.statistics.spectrum_estimate(values, dt=0.1)
+    found = sc.statistics.spectrum_estimate(values, interval=0.1)
     low, high = found.interval()
     inside = (low < 0.1 / np.pi) & (0.1 / np.pi < high)
     assert inside[2:-1].mean() > 0.9
@@ -123,7 +123,7 @@ def test_degrees_of_freedom_of_the_variance() -> None:
     """By the closed form of a Gaussian spectrum: T 2 sqrt(pi) s / pi; and by the scatter over records."""
     runs = records(400)
     found = np.mean(
-        [sc.statistics.spectrum_estimate(values, dt=STEP).variance_degrees for values in runs[:10]]
+        [sc.statistics.spectrum_estimate(values, interval=STEP).variance_degrees for values in runs[:10]]
     )
     assert found == pytest.approx(THREE_HOURS * 2.0 * 0.06 / np.sqrt(np.pi), rel=0.1)
     assert found == pytest.approx(2.0 / runs.var(axis=1).var(), rel=0.2)
@@ -287,7 +287,7 @@ def test_a_sea_that_repeats_is_named() -> None:
 
 
 def test_papers_hold_the_numbers_they_show() -> None:
-    one = sc.statistics.record_extremes(records(400)[2], dt=STEP)
+    one = sc.statistics.record_extremes(records(400)[2], interval=STEP)
     sheet = extremes_sheet(one)
     assert sheet.marks["most probable maximum"][0] == one.maximum.mpm.value
     counted, gaussian, *_ = sheet.panels[0].lines
@@ -303,15 +303,15 @@ def test_papers_hold_the_numbers_they_show() -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: sc.statistics.record_extremes(np.ones(100), dt=0.1), "does not vary"),
-        (lambda: sc.statistics.record_extremes(np.arange(10.0), dt=0.1), "at least 64"),
-        (lambda: sc.statistics.record_extremes(np.arange(100.0), dt=0.1), "crosses its mean"),
-        (lambda: sc.statistics.record_extremes([*range(99), np.nan], dt=0.1), "finite"),
-        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.0), "dt=0"),
-        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, exposure=-1.0), "exposure=-1"),
-        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, tail="weibull"), "weibull"),
-        (lambda: sc.statistics.record_extremes(records(400)[0], dt=0.5, threshold=9.0), "threshold=9"),
-        (lambda: sc.statistics.spectrum_estimate(records(400)[0], dt=0.5, segments=0), "segments=0"),
+        (lambda: sc.statistics.record_extremes(np.ones(100), interval=0.1), "does not vary"),
+        (lambda: sc.statistics.record_extremes(np.arange(10.0), interval=0.1), "at least 64"),
+        (lambda: sc.statistics.record_extremes(np.arange(100.0), interval=0.1), "crosses its mean"),
+        (lambda: sc.statistics.record_extremes([*range(99), np.nan], interval=0.1), "finite"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], interval=0.0), "interval=0"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], interval=0.5, exposure=-1.0), "exposure=-1"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], interval=0.5, tail="weibull"), "weibull"),
+        (lambda: sc.statistics.record_extremes(records(400)[0], interval=0.5, threshold=9.0), "threshold=9"),
+        (lambda: sc.statistics.spectrum_estimate(records(400)[0], interval=0.5, segments=0), "segments=0"),
         (lambda: sc.statistics.gaussian_maximum(std=1.0, rate=0.1, bandwidth=2.0), "bandwidth=2"),
         (lambda: sc.statistics.seed_extremes([1.0, 2.0], duration=1.0), "at least 3"),
         (lambda: sc.statistics.seed_extremes([1.0, 1.0, 1.0], duration=1.0), "were the seeds different"),

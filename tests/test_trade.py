@@ -44,7 +44,7 @@ def measured(case2: Scene, folder: Path) -> Trade:
 
 def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
     assert list(measured.quantities) == [
-        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_tension",
+        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load",
     ]  # fmt: skip
     assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
     assert len(measured.reference.runs) == 4
@@ -270,7 +270,7 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     method = Method(integrator="dop853", rtol=1e-9)
     done = trade_rows.measure(bench, Row(case={"rung": simpler_scenes.WEIGHT}, method=method))
     assert done.stable, done.message
-    assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0
+    assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
 
 

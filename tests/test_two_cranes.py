@@ -101,10 +101,10 @@ def test_a_scene_of_two_cranes_keeps_its_roles_in_a_file(tmp_path: Path) -> None
 def test_quantities_are_the_worst_of_both_cranes(both: Result) -> None:
     scene = cranes("", "aft ")
     offered = quantities_of(scene, scene.compile(), None)
-    assert set(offered) == {"payload_position", "tip_velocity", "cylinder_force", "hook_tension"}
+    assert set(offered) == {"payload_position", "tip_velocity", "cylinder_force", "hook_load"}
     shapes = {name: quantity.values(both).shape[1:] for name, quantity in offered.items()}
     assert shapes == {
-        "payload_position": (2, 3), "tip_velocity": (2, 3), "cylinder_force": (4, 1), "hook_tension": (2, 1),
+        "payload_position": (2, 3), "tip_velocity": (2, 3), "cylinder_force": (4, 1), "hook_load": (2, 1),
     }  # fmt: skip
 
 

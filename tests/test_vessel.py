@@ -48,7 +48,7 @@ def impedance(database: HydroDatabase, scene: Scene, omega: Array) -> Complex:
     # `additional_response` counts the static stiffness as added mass: C + stiffness - w^2 (- stiffness / w^2)
     restoring = restoring + p.memory.additional_stiffness
     more_mass = more_mass + p.memory.additional_stiffness / omega[:, None, None] ** 2
-    mass = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia)
+    mass = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia)
     w = omega[:, None, None]
     return -(w**2) * (mass + added_mass + more_mass) + 1j * w * (damping + more_damping + linear) + restoring
 
@@ -129,7 +129,7 @@ def impulse_response(database: HydroDatabase, scene: Scene, times: Array) -> Arr
     from scipy.special import sici
 
     p = vessel_parameters(database)
-    mass = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia) + p.added_mass
+    mass = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia) + p.added_mass
     last, step = 40.0, 2e-3
     omega = step * np.arange(0.5, last / step)  # midpoints
     response = (np.linalg.inv(impedance(database, scene, omega)) @ mass).real

@@ -287,7 +287,7 @@ def test_forces_are_those_of_the_run() -> None:
 
 
 def test_chosen_channels_are_drawn_in_their_units() -> None:
-    choice = ["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z"), "stroke"]
+    choice = ["link_tension", "roll", "position[payload, z]", "stroke"]
     page = Page(view(case2(), channels=choice).html)
     tension, roll, height, stroke = page.data["strip"]
     assert [panel["unit"] for panel in (tension, roll, height, stroke)] == ["kN", "deg", "m", "m"]
@@ -302,9 +302,9 @@ def test_chosen_channels_are_drawn_in_their_units() -> None:
 @pytest.mark.parametrize(
     ("channels", "message"),
     [
-        (["tension_of_link"], "no channel 'tension_of_link' in the result; it holds position"),
-        ([("vessel_motion", "rol")], "channel 'vessel_motion' has no 'rol'; it has motion: surge, sway"),
-        (["position"], "channel 'position' has 30 lines, a panel shows 6; pick among vessel x"),
+        (["tension_of_link"], "channel 'tension_of_link' is not in this result; it holds position"),
+        (["vessel_motion[rol]"], "has dimensions ('time', 'motion'), not 'vessel'"),
+        (["position"], "position has 30 lines, a panel shows 6; pick among vessel x"),
         ("stroke", "channels is 'stroke'; give a list"),
     ],
 )

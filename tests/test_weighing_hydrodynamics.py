@@ -67,7 +67,7 @@ def balance_at_rest() -> float:
 
 def test_it_is_no_vessel_to_be_ballasted() -> None:
     with pytest.raises(SceneError, match="the vessels are none"):
-        submerged().add_ballast(body="load")
+        submerged().add_ballast(vessel="load")
 
 
 def heaved(**hydrodynamics: object) -> np.ndarray:

@@ -23,7 +23,7 @@ def wigley() -> HydroDatabase:
     hull = Hull.from_offsets(wigley_offsets(LENGTH, BREADTH, DRAUGHT, 8)).remeshed(stations=28, girth=5)
     return hydro_from_hull(
         hull,
-        centre_of_gravity=(0.0, 0.0, -2.0),
+        center_of_gravity=(0.0, 0.0, -2.0),
         omega=np.linspace(0.1, 2.2, 31),
         heading=np.radians(np.arange(0.0, 181.0, 15.0)),
         method="capytaine",

@@ -56,7 +56,7 @@ def strip_database() -> HydroDatabase:
     centre = [0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]
     strip = hydro_from_hull(
         hull,
-        centre_of_gravity=centre,
+        center_of_gravity=centre,
         mass=MASS,
         omega=panel.omega,
         heading=panel.heading,
@@ -137,7 +137,7 @@ def save_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
             response_statistics(
                 scene,
                 spectrum=jonswap(hs=2.0, tp=8.0),
-                heading=np.radians(degrees),
+                direction=np.radians(degrees),
                 body="vessel",
             ).significant_double_amplitude
             for scene, database in scenes
@@ -164,7 +164,7 @@ def save_periods(panel: HydroDatabase, strip: HydroDatabase) -> None:
         found = np.array(
             [
                 [
-                    response_statistics(linear, spectrum=sea, heading=np.radians(h), body="vessel").std
+                    response_statistics(linear, spectrum=sea, direction=np.radians(h), body="vessel").std
                     for h in (0, 45, 90, 135, 180)
                 ]
                 for linear, database in models

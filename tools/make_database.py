@@ -44,7 +44,7 @@ def main() -> None:
         symmetric_solution(solve_or_reuse(hull, arguments.raw), heading=HEADING, reciprocal=True),
         omega=OMEGA,
         heading=HEADING,
-        centre_of_gravity=np.array([0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]),
+        center_of_gravity=np.array([0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]),
         mass=MASS,
         radii_of_gyration=np.array([0.36 * LINES.breadth, 0.25 * LINES.length, 0.25 * LINES.length]),
         roll_damping_fraction=ROLL_DAMPING_FRACTION,

@@ -44,7 +44,7 @@ def by_method(runs: Array) -> Iterator[tuple[str, ...]]:
     found: dict[str, list[Maximum]] = {}
     for values in runs[:JUDGED]:
         for tail in ("pareto", "exponential"):
-            one = record_extremes(values, dt=STEP, tail=tail)
+            one = record_extremes(values, interval=STEP, tail=tail)
             if one.over_threshold is not None:
                 found.setdefault(f"peaks over threshold, {tail}", []).append(one.over_threshold)
         found.setdefault("Gaussian, sqrt(2 ln N)", []).append(one.gaussian)
@@ -79,7 +79,7 @@ def against_judges(runs: Array) -> Iterator[tuple[str, ...]]:
     from qats.stats import gumbel as judge
 
     values, maxima = runs[0], runs.max(axis=1)[:40]
-    ours, seeds = record_extremes(values, dt=STEP), seed_extremes(maxima, duration=THREE_HOURS)
+    ours, seeds = record_extremes(values, interval=STEP), seed_extremes(maxima, duration=THREE_HOURS)
     location, scale = judge.mle(maxima)
     yield _row("Gumbel location, 40 maxima", seeds.location, "qats", float(location))
     yield _row("Gumbel scale, 40 maxima", seeds.scale, "qats", float(scale))
@@ -92,7 +92,7 @@ def against_judges(runs: Array) -> Iterator[tuple[str, ...]]:
     threshold = ours.tail.threshold
     series = pandas.Series(values, index=pandas.Timestamp("2000-01-01") + pandas.to_timedelta(time, unit="s"))
     for tail, distribution in (("exponential", "expon"), ("pareto", "genpareto")):
-        mine = record_extremes(values, dt=STEP, tail=tail, threshold=threshold)
+        mine = record_extremes(values, interval=STEP, tail=tail, threshold=threshold)
         assert mine.tail is not None
         assert mine.over_threshold is not None
         eva = EVA(series)

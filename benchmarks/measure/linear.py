@@ -132,7 +132,7 @@ def cost(*, repeats: int) -> Section:
         calls: list[Callable[[], object]] = [
             lambda scene=scene: linear_model(scene),
             lambda linear=linear: natural_modes(linear),
-            lambda linear=linear, body=body: motion_rao(linear, omega=omega, heading=np.pi, body=body),
+            lambda linear=linear, body=body: motion_rao(linear, omega=omega, direction=np.pi, body=body),
         ]
         times = [1e3 * best_seconds(call, repeats=repeats) for call in calls]
         run = timed_run(scene, repeats=repeats, t_end=100.0)

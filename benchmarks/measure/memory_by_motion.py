@@ -57,7 +57,7 @@ def _row(name: str, database: HydroDatabase) -> list[Any]:
 
     def roll(scene: Any, memory: str = "scene") -> Any:
         return motion_rao(
-            scene, database=database, omega=omega, heading=BEAM, body="vessel", memory=memory
+            scene, database=database, omega=omega, direction=BEAM, body="vessel", memory=memory
         )[:, 3]  # fmt: skip
 
     truth = roll(free, "database")

@@ -50,7 +50,7 @@ def databases() -> Iterator[tuple[str, HydroDatabase]]:
             f"{hull.name} (Capytaine)",
             hydro_from_hull(
                 hull,
-                centre_of_gravity=(0.0, 0.0, height),
+                center_of_gravity=(0.0, 0.0, height),
                 omega=np.linspace(0.1, highest, 39),
                 heading=np.radians(np.arange(0.0, 181.0, 15.0)),
                 method="capytaine",

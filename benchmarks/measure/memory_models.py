@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from seacrane.hydro import fit_memory, memory_trade, shipped_database
+from seacrane.hydro import fit_memory, shipped_database
 
+from .memory_trade import memory_trade
 from .section import Section, significant
 
 
@@ -67,7 +68,7 @@ def trade() -> Section:
     ]
     return Section(
         title="Memory models of the shipped hull",
-        text="`memory_trade(database)`: worst errors within the trusted band, by kind and by what was asked.",
+        text="Worst errors within the trusted band, by kind and by what was asked.",
         head=[
             "kind",
             "states",

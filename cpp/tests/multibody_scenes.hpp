@@ -19,7 +19,7 @@ namespace seacrane::test {
 class Random : public seacrane::Random {
  public:
   using seacrane::Random::Random;
-  /// Of three masses on the axes, so that a body of this inertia exists.
+  /// The inertia of three masses on the axes, so that a body of this inertia exists.
   Mat3d inertia() {
     const double a = positive(), b = positive(), c = positive();
     const Mat3d r = rotation();

@@ -137,7 +137,7 @@ class Pendulum final : public PlainSystem, public FirstArePositions<2> {
   bool projects_;
 };
 
-/// The same pendulum in the stabilised index-2 form of Gear, Gupta and Leimkuhler:
+/// The pendulum above in the stabilised index-2 form of Gear, Gupta and Leimkuhler:
 /// q' = v - q mu, v' = -q lambda - g, q.q = 1, q.v = 0.
 class PendulumResidual final : public PlainResidual {
  public:
@@ -181,7 +181,7 @@ std::vector<IntegratorProperties> methods(Wanted&& wanted) {
   std::erase_if(found, [&](const IntegratorProperties& method) { return !wanted(method); });
   return found;
 }
-/// Those that step the System by formulas of our own, of one step.
+/// Methods that step the System by formulas of our own, of one step.
 inline bool is_own(const IntegratorProperties& method) { return !method.restarts; }
 inline bool takes_explicit_form(const IntegratorProperties& method) { return !method.residual_form; }
 /// With one order at all steps.

@@ -8,7 +8,7 @@
 namespace seacrane::test {
 namespace {
 
-/// The same equations without their exact Jacobian.
+/// The equations of a system without their exact Jacobian.
 class ByDifferences final : public ResidualSystem {
  public:
   explicit ByDifferences(ResidualSystem& system) : system_(system) {}

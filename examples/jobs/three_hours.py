@@ -17,7 +17,7 @@ scene.add_sea(hs=HS, tp=TP, direction_deg=180.0, count=300)
 result = simulate(scene, t_end=END, dt_out=0.5)  # a loose tolerance would feed the load's rocking
 print(summary(result, after=START))
 
-sea = {"spectrum": jonswap(hs=HS, tp=TP), "heading": np.pi}  # by hand: the linear model
+sea = {"spectrum": jonswap(hs=HS, tp=TP), "direction": np.pi}  # by hand: the linear model
 heave = response_statistics(scene, **sea, body=crane.tip[0], point=crane.tip[1])
 motion = response_statistics(scene, **sea, body="vessel")
 turns = np.degrees(motion.std)

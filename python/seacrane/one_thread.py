@@ -18,7 +18,7 @@ Limits = list[tuple[Any, int]]  # a library, and the threads that it had
 
 
 class _Here(local):
-    """Of each thread: blocks that it has open, and what libraries count for it alone."""
+    """The state of each thread: blocks that it has open, and what libraries count for it alone."""
 
     def __init__(self) -> None:
         self.open = 0

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 # What was given by its place has the name BY_PLACE.
 BY_PLACE = "by place"
 KEPT = "the scene keeps the database of each vessel since it was added; leave it out"
+MOTION = "name the motion, such as 'position[load, z]' or 'acceleration[load, z]'"
 SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 BOUNDS = {"max": "maximum", "min": "minimum"}
 PASSED = {"above": "minimum", "below": "maximum"}
@@ -29,6 +30,13 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "Until.tension": PASSED,
     "Until.length": PASSED,
     "extremes": {"start": "after"},
+    "motion_rao": {"heading": "direction"},
+    "response_statistics": {"heading": "direction"},
+    "hydro_from_hull": {"centre_of_gravity": "center_of_gravity"},
+    "record_extremes": {"dt": "interval"},
+    "spectrum_estimate": {"dt": "interval"},
+    "add_ballast": {"body": "vessel"},
+    "add_slack_tank": {"body": "vessel"},
     "plot_spectrum": {"start": "after"},
     "summary": {"start": "after", "end": "before"},
     "Stage": {"longest": "maximum_duration"},
@@ -43,8 +51,13 @@ KEYWORDS: dict[str, dict[str, str]] = {
         "add_sea", "add_drift", "use_actual_position", "use_slow_position",
     )},
     **{name: {"database": KEPT} for name in (
-        "ensemble", "allowable_hs", "trade", "model_error", "plot_rao", "LinearControl", "HookLoadControl",
+        "ensemble", "allowable_hs", "trade", "model_error",
     )},
+    "plot_rao": {"database": KEPT, "headings_deg": "directions_deg"},
+    "HookLoadControl": {"database": KEPT, "dt": "dt_out"},
+    "LinearControl": {
+        "database": KEPT, "dt": "dt_out", **dict.fromkeys(("body", "axis", "derivative"), MOTION),
+    },
 }  # fmt: skip
 # Methods of `Scene`.
 METHODS: dict[str, str] = {
@@ -76,6 +89,8 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
     "sea.systems": BAND,
     "crane": {"theta": "slew"},
     "control.tuned_at": {"theta": "slew"},
+    "ballast": {"body": "vessel"},
+    "slack_tank": {"body": "vessel"},
 }
 STUDY_KEYS: dict[str, dict[str, str]] = {"keep": {"at": "names", "step": "interval"}}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.

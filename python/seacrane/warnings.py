@@ -248,7 +248,7 @@ class OverloadWarning(RunWarning):
 
 
 class SceneWarning(SeacraneWarning):
-    """Of descriptions: when a scene is described, compiled or started, at your own line."""
+    """Warnings of descriptions: when a scene is described, compiled or started, at your own line."""
 
 
 class AssemblyWarning(SceneWarning):
@@ -524,7 +524,7 @@ class UncertainShiftWarning(SeriesWarning):
 
 
 class SeaWarning(SeacraneWarning):
-    """Of seas, and of the ensembles and statistics of what happens in them."""
+    """Warnings of seas, and of the ensembles and statistics of what happens in them."""
 
 
 class SteepSeaWarning(SeaWarning):
@@ -626,7 +626,7 @@ class HeadingGapWarning(SeaWarning):
 
 
 class VesselWarning(SeacraneWarning):
-    """Of vessels and their fluid memory."""
+    """Warnings of vessels and their fluid memory."""
 
 
 class RollDampingWarning(VesselWarning):
@@ -706,7 +706,7 @@ class InfiniteFrequencyWarning(VesselWarning):
 
 
 class SourceWarning(SeacraneWarning):
-    """Of files and hulls: what a source does not say, and what was taken in its place."""
+    """Warnings of files and hulls: what a source does not say, and what was taken in its place."""
 
 
 class AssumedDensityWarning(SourceWarning):

@@ -14,7 +14,7 @@ class KinkStops {
   explicit KinkStops(double scaled_tolerance) : scaled_tolerance_(scaled_tolerance) {}
 
   /// Time of the next kink that matters to a step of the present length; infinity where there is none near.
-  /// Those beyond the step are left to the steps that come near them: an integrator must know of a stop a
+  /// Kinks beyond the step are left to the steps that come near them: an integrator must know of a stop a
   /// little beyond its step, no further.
   double next(const std::vector<Kink>& kinks, const Integrator& integrator, double now);
 

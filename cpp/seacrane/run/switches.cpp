@@ -16,7 +16,7 @@ constexpr double kAtEnd = 1e-6;  // of a step: a crossing that near to its ends 
 constexpr double kJump = 1e-3, kRounding = 1e-10;
 /// Part of the way to a crossing that is left behind a step up to it, beyond which the step missed it.
 constexpr double kShort = 0.5;
-/// Of a step: so near its start a crossing may be led across.
+/// Part of a step so near whose start a crossing may be led across.
 constexpr double kNear = 1e-3;
 
 /// Calls f(list, place) for every load with sides, in the order of the model.

@@ -112,9 +112,7 @@ def run_to_accuracy(
 
     Parameters
     ----------
-    scene : Scene
-    t_end : float
-        s.
+    t_end : s.
     accuracy : mapping of str to float
         Largest error over the outputs by quantity, in its unit.
     method, outputs, shorthand, start, controllers, progress
@@ -126,11 +124,8 @@ def run_to_accuracy(
         With `error_estimate_<quantity>`, `accuracy_<quantity>`, and of all runs `accuracy_runs`,
         `accuracy_wall_s` and `accuracy_evaluations` in its stats; without them if it was interrupted.
 
-    Raises
-    ------
-    SceneError
-        For an accuracy that is no positive number, an unknown quantity, a setting that is chosen here, or a
-        limit that cannot be reached.
+    Raises SceneError for an accuracy that is no positive number, an unknown quantity, a setting that is
+    chosen here, or a limit that cannot be reached.
     """
     refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)

@@ -70,7 +70,7 @@ def unit_error(scene: Scene, quantity: Quantity) -> float:
     """Scale of a quantity's error, in its unit."""
     if quantity.unit in SCALE:
         return SCALE[quantity.unit]
-    if quantity.name == "hook_tension":
+    if quantity.channels == ("hook_load",):
         mass = max(scene.bodies[one.load].mass for one in hung_loads(scene) if one.crane is not None)
     else:
         floating = floating_bodies(scene)

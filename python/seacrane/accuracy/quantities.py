@@ -1,4 +1,4 @@
-"""What the error of a run is measured in: payload position, tip velocity, roll, forces, or any channel."""
+"""What the error of a run is measured in: payload position, tip velocity, roll, forces, or any pick."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.crane_parts import cylinders, payloads
 from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
-from seacrane.description.suspension import Place, hung_loads
+from seacrane.description.pick import pick_of
+from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
-from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-ROLL = 3
 GENERIC = ("position", "velocity")
 
 
@@ -34,9 +33,7 @@ class Quantity:
 
     Attributes
     ----------
-    name, unit : str
-    channels : tuple of str
-        Channels that it is made of.
+    channels : Channels that it is made of.
     values : callable
         Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
         the items.
@@ -54,12 +51,9 @@ class ErrorMeasures:
 
     Attributes
     ----------
-    largest : float
-        Over time.
-    rms : float
-        Root of the mean square over time.
-    std : float
-        Of the standard deviations over time: what a statistic loses, whatever the phase.
+    largest : Over time.
+    rms : Root of the mean square over time.
+    std : Of the standard deviations over time: what a statistic loses, whatever the phase.
     """
 
     largest: float
@@ -81,25 +75,23 @@ def compare(reference: Array, values: Array) -> ErrorMeasures:
 def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None) -> dict[str, Quantity]:
     """The quantities asked for; by default what the scene has of the named ones.
 
-    Raises
-    ------
-    SceneError
-        For a name that is neither one of them nor a channel of the scene.
+    Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
     offered = _offered(scene)
     if names is None:
-        return offered or {name: _channel(name) for name in GENERIC}
+        return offered or {name: _picked(name) for name in GENERIC}
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise SceneError(f"quantities is {names!r}; give a list of names")
     known = model.channel_names(defaults_only=False)
     channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
     out = {}
     for name in names:
-        if name not in offered and name not in channels:
+        found = offered[name] if name in offered else _picked(name)
+        if name not in offered and not set(found.channels) <= set(channels):
             raise SceneError(
                 f"quantity {name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
             )
-        out[name] = offered[name] if name in offered else _channel(name)
+        out[name] = found
     if not out:
         raise SceneError("quantities is empty; name at least one, or leave it out")
     return out
@@ -122,72 +114,41 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
     on_cranes = [one for one in hung_loads(scene) if one.crane is not None]
     hung, found = list(dict.fromkeys([*payloads(scene).values(), *(one.load for one in on_cranes)])), []
     if hung:
-        found.append(
-            Quantity(
-                name="payload_position",
-                unit="m",
-                channels=("position",),
-                values=lambda result: np.stack(
-                    [result.select("position", body=body) for body in hung], axis=1
-                ),
-            )
-        )
+        found.append(_stacked("payload_position", "position", [{"body": body} for body in hung]))
     if on_cranes:
-        found.append(_tip_velocity(scene, [one.hangs_from for one in on_cranes]))
+        found.append(_picked("tip_velocity"))
     if len(scene.vessels) > len(given_vessels(scene)):
-        found.append(
-            Quantity(
-                name="roll",
-                unit="rad",
-                channels=("vessel_motion",),
-                values=lambda result: result["vessel_motion"][..., ROLL].reshape(result.time.size, -1, 1),
-            )
-        )
+        found.append(_picked("roll"))
     driven = {actuator.joint for actuator in scene.actuators.values()}
     driven |= {driver.joint for driver in with_holds(scene).drivers.values()}
     if cylinders(scene) and driven.issuperset(cylinders(scene).values()):
-        found.append(_channel("cylinder_force", unit="N"))
+        found.append(_picked("cylinder_force"))
     if on_cranes:
-        names = [one.suspension.channel for one in on_cranes]
-        found.append(
-            Quantity(
-                name="hook_tension",
-                unit="N",
-                channels=("hook_load",),
-                values=lambda result: np.stack(
-                    [result.select("hook_load", suspension=name) for name in names], axis=1
-                )[:, :, None],
-            )
-        )
+        names = [{"suspension": one.suspension.channel} for one in on_cranes]
+        found.append(_stacked("hook_load", "hook_load", names))
     return {quantity.name: quantity for quantity in found}
 
 
-def _tip_velocity(scene: Scene, tips: Sequence[Place]) -> Quantity:
-    """Velocity of the points that loads hang from, inertial axes."""
-    levers = [
-        (body, np.asarray(point) - np.asarray(scene.bodies[body].center_of_mass)) for body, point in tips
-    ]
-
-    def velocity(result: Result, body: str, lever: Array) -> Array:
-        turned = rotation_matrix(result.select("quaternion", body=body)) @ lever
-        spin = result.select("angular_velocity", body=body)
-        return np.asarray(result.select("velocity", body=body) + np.cross(spin, turned))
-
-    return Quantity(
-        name="tip_velocity",
-        unit="m/s",
-        channels=("velocity", "angular_velocity", "quaternion"),
-        values=lambda result: np.stack([velocity(result, *lever) for lever in levers], axis=1),
-    )
-
-
-def _channel(name: str, *, unit: str | None = None) -> Quantity:
-    """A channel, every entry of its last dimension for itself unless that is an axis."""
-    vector = CHANNELS[name].dims[-1] in ("axis", "wxyz")
+def _stacked(name: str, channel: str, items: Sequence[Mapping[str, str]]) -> Quantity:
+    """Items of a channel by their names."""
 
     def values(result: Result) -> Array:
-        array = np.asarray(result[name])
-        parts = array.shape[-1] if vector else 1
-        return array.reshape(len(array), -1, parts)
+        picked = [result.select(channel, **names) for names in items]
+        return np.stack(picked, axis=1).reshape(result.time.size, len(items), -1)
 
-    return Quantity(name=name, unit=unit or CHANNELS[name].unit, channels=(name,), values=values)
+    return Quantity(name=name, unit=CHANNELS[channel].unit, channels=(channel,), values=values)
+
+
+def _picked(text: str) -> Quantity:
+    """What a text picks, every entry of its last dimension for itself unless that is an axis."""
+    pick = pick_of("quantity", text)
+    if pick.parts:
+        raise SceneError(f"quantity {text!r}: an error is of a whole run; leave out {pick.parts}")
+    channel = CHANNELS[pick.channel]
+    vector = channel.dims[-1] in ("axis", "wxyz") and channel.dims[-1] not in pick.names
+
+    def values(result: Result) -> Array:
+        array = np.asarray(result.select(pick))
+        return array.reshape(len(array), -1, array.shape[-1] if vector else 1)
+
+    return Quantity(name=text, unit=channel.unit, channels=(pick.channel,), values=values)

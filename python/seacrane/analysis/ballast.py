@@ -24,6 +24,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
 from seacrane.plotting.text import text_table
+from seacrane.renamed import refusing
 from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
@@ -42,8 +43,7 @@ class Ballast:
 
     Attributes
     ----------
-    body : str
-        Of the vessel.
+    vessel : str
     heel, trim : float
         At which it rests, rad; positive lifts port, and lowers the bow.
     weight : float
@@ -58,7 +58,7 @@ class Ballast:
         The elements of the scene that stand for it.
     """
 
-    body: str
+    vessel: str
     heel: float
     trim: float
     weight: float
@@ -69,7 +69,7 @@ class Ballast:
 
     def __str__(self) -> str:
         told = (
-            f"ballast of {self.body!r}: {self.weight / 1e3:.4g} kN for a heel of "
+            f"ballast of {self.vessel!r}: {self.weight / 1e3:.4g} kN for a heel of "
             f"{np.degrees(self.heel):.4g} deg and a trim of {np.degrees(self.trim):.4g} deg"
         )
         if not self.contents:
@@ -81,10 +81,11 @@ class Ballast:
         return f"{told}\n{text_table(['tank', 'content [t]', 'change [t]'], rows, right=(1, 2))}"
 
 
+@refusing
 def add_ballast(
     scene: Description,
     *,
-    body: str | None = None,
+    vessel: str | None = None,
     heel_deg: float | None = 0.0,
     trim_deg: float | None = 0.0,
     tanks: Mapping[str, Tank] | None = None,
@@ -99,8 +100,8 @@ def add_ballast(
 
     Parameters
     ----------
-    body : str, optional
-        Of the vessel; default: the only one.
+    vessel : str, optional
+        Default: the only one.
     heel_deg, trim_deg : float or None
         deg; a positive heel lifts port, a positive trim lowers the bow. None ("left" in lift files): as it
         comes, as with two wing tanks, which make no trim; the answer tells it.
@@ -125,14 +126,14 @@ def add_ballast(
     UnstableRestWarning
         Where the weights on the vessel outweigh its restoring.
     """
-    vessel = _vessel(scene, body)
+    hull = _vessel(scene, vessel)
     target = _target({"heel_deg": heel_deg, "trim_deg": trim_deg})
     name = name_of("ballast", name)
-    kind = _Force(scene, vessel, target) if tanks is None else _Tanks(scene, vessel, target, tanks_of(tanks))
-    found, attitude = _fitted(scene, vessel, target, kind)
+    kind = _Force(scene, hull, target) if tanks is None else _Tanks(scene, hull, target, tanks_of(tanks))
+    found, attitude = _fitted(scene, hull, target, kind)
     forces = tuple(
         add_point_force(
-            scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
+            scene, name=f"{name} {key}".rstrip(), body=hull.body, point=point, force=(0.0, 0.0, force)
         )
         for key, (point, force) in kind.forces(found).items()
     )
@@ -140,7 +141,7 @@ def add_ballast(
     places: dict[str, Any] = {"the force": told.center}
     if tanks is not None:
         places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
-    _warn_of_places(scene.bodies[vessel.body], places, FAR if tanks is None else BESIDE)
+    _warn_of_places(scene.bodies[hull.body], places, FAR if tanks is None else BESIDE)
     warn_of_capsize(scene)
     return replace(told, forces=forces)
 
@@ -161,18 +162,18 @@ def _warn_of_places(hull: _core.Body, places: Mapping[str, Any], margin: float) 
             return
 
 
-def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
-    if (body or "vessel") in given_vessels(scene):
+def _vessel(scene: Description, name: str | None) -> _core.VesselHydrodynamics:
+    if (name or "vessel") in given_vessels(scene):
         raise SceneError(
-            f"ballast: the motion of {body or 'vessel'!r} is given: it needs no ballast, leave it out"
+            f"ballast: the motion of {name or 'vessel'!r} is given: it needs no ballast, leave it out"
         )
     floating = {vessel.body: vessel for vessel in scene.vessels.values() if vessel.floats}
     known = ", ".join(map(repr, floating)) or "none"
-    if body is None and len(floating) != 1:
-        raise SceneError(f"ballast: the vessels are {known}; name one as body")
-    if body is not None and body not in floating:
-        raise SceneError(f"ballast: body {body!r} is no vessel; the vessels are {known}")
-    return floating[body] if body is not None else next(iter(floating.values()))
+    if name is None and len(floating) != 1:
+        raise SceneError(f"ballast: the vessels are {known}; name one as vessel")
+    if name is not None and name not in floating:
+        raise SceneError(f"ballast: vessel {name!r} is no vessel; the vessels are {known}")
+    return floating[name] if name is not None else next(iter(floating.values()))
 
 
 def _angle(key: str, value: Any) -> float:
@@ -228,7 +229,7 @@ class _Force:
 
     def told(self, found: Array, target: Array) -> Ballast:
         return Ballast(
-            body=self.body, heel=float(target[0]), trim=float(target[1]), weight=-self.weight,
+            vessel=self.body, heel=float(target[0]), trim=float(target[1]), weight=-self.weight,
             center=np.array([found[0], found[1], 0.0]),
         )  # fmt: skip
 
@@ -271,7 +272,7 @@ class _Tanks:
         changes = dict(zip(self.tanks, found.tolist(), strict=True))
         contents = {name: tank.content + changes[name] for name, tank in self.tanks.items()}
         return Ballast(
-            body=self.body, heel=float(target[0]), trim=float(target[1]),
+            vessel=self.body, heel=float(target[0]), trim=float(target[1]),
             weight=float(np.sum(found)) * self.gravity, center=np.full(3, np.nan), contents=contents,
             changes=changes,
         )  # fmt: skip

@@ -48,7 +48,7 @@ def places_of(roles: CraneRoles) -> dict[str, Place]:
 
 
 def drive_name(place: Place) -> str:
-    """Of the driver that holds a coordinate in a posed scene."""
+    """The name of the driver that holds a coordinate in a posed scene."""
     return f"{'.'.join(place)} posed"
 
 
@@ -57,7 +57,6 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
 
     Parameters
     ----------
-    scene : Scene
     places : mapping of str to (str, str)
         Every coordinate of its cranes.
     path : mapping of str to Curve

@@ -18,6 +18,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
 from seacrane.one_thread import one_thread
+from seacrane.renamed import refusing
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -26,12 +27,13 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+@refusing
 @one_thread
 def motion_rao(
     scene: Description | LinearModel,
     *,
     omega: ArrayLike,
-    heading: ArrayLike,
+    direction: ArrayLike,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     state: _core.State | None = None,
@@ -43,7 +45,7 @@ def motion_rao(
     Parameters
     ----------
     scene : Scene or LinearModel
-    omega, heading : array_like, broadcast against each other
+    omega, direction : array_like, broadcast against each other
         rad/s, of the waves; rad, direction of travel from the vessel's x (following) towards its y (port).
     body : str
     point : array_like, shape (3,)
@@ -62,7 +64,7 @@ def motion_rao(
     ndarray of complex, shape (..., 6)
         Translation (m/m) and rotation vector (rad/m), inertial axes, time factor exp(+i omega t); the wave
         has zero phase at the mean position of the vessel's origin. At forward speed the axes travel with the
-        ship, and the time factor has the frequency of encounter, omega - k U cos(heading).
+        ship, and the time factor has the frequency of encounter, omega - k U cos(direction).
 
     Raises
     ------
@@ -72,7 +74,7 @@ def motion_rao(
     """
     linear = linear_of(scene, state, memory, database)
     database = excitation_of(linear, database)
-    w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))
+    w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(direction, dtype=float))
     force = database.force_at(w.ravel(), b.ravel()).reshape(-1, 6)
     x = linear.response(omega=encounter_frequency_at(database, w.ravel(), b.ravel()), force=force)
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
@@ -81,10 +83,7 @@ def motion_rao(
 def excitation_of(linear: LinearModel, given: HydroDatabase | None) -> HydroDatabase:
     """The database whose waves load the vessel of a linear model: by default that of its matrices.
 
-    Raises
-    ------
-    SceneError
-        Without one, and for one of another forward speed than the matrices.
+    Raises SceneError without one, and for one of another forward speed than the matrices.
     """
     if linear.vessel is None:
         raise SceneError(f"scene {linear.scene.name!r}: has no vessel on which waves act; add one")

@@ -59,18 +59,11 @@ def frequency_memories(
 
     Parameters
     ----------
-    scene : Scene
-    memory : str
-        "scene": convolutions only. "database": the matrices of a database for `vessel` too.
-    database : HydroDatabase or None
-        In place of the vessel's own: the same ship at a forward speed.
-    vessel : str or None
-        Body on which waves act.
+    memory : "scene": convolutions only. "database": the matrices of a database for `vessel` too.
+    database : In place of the vessel's own: the same ship at a forward speed.
+    vessel : Body on which waves act.
 
-    Raises
-    ------
-    SceneError
-        For another ``memory``, a database that is missing, or one that is not the vessel's.
+    Raises SceneError for another ``memory``, a database that is missing, or one that is not the vessel's.
     """
     if memory not in KINDS:
         raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")

@@ -186,7 +186,7 @@ def drive_loads(model: _core.Model, names: Sequence[str], state: _core.State) ->
 
 
 def weight_of(scene: Description) -> tuple[float, Array]:
-    """Of all bodies that have weight but vessels, N; and their centre of mass, inertial frame, m."""
+    """Weight of all bodies that have weight but vessels, N; and their centre of mass, inertial frame, m."""
     floating = floating_bodies(scene)
     masses, centers = [], []
     for body in scene.bodies.values():

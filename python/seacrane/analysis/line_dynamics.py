@@ -26,25 +26,17 @@ class LineDynamics:
 
     Attributes
     ----------
-    tension : float
-        N; negative where a slack line would push.
-    ringing : float
-        Amplitude (N) of the oscillation of its tension that starts there.
-    mass : float
-        kg, that its tension accelerates along the line, as the bodies are joined.
+    tension : N; negative where a slack line would push.
+    ringing : Amplitude (N) of the oscillation of its tension that starts there.
+    mass : kg, that its tension accelerates along the line, as the bodies are joined.
     omega : float
         rad/s: motion of a frequency far below it strains the line by (frequency / omega)^2 of what bends a
         rigid one. That of a single line: sqrt(EA / (length mass)).
-    fastest : float
-        rad/s, of it alone: others only slow what it makes of a mode.
-    swing : float
-        rad/s, of what hangs on it, and of the lower of two loads that it joins.
-    loss : float
-        Of its damping at `omega`: c omega over the stiffness.
-    coupled : frozenset of str
-        Lines whose tension moves it, itself among them.
-    direction : ndarray, shape (6 bodies,)
-        Rate of the path's length for each speed of the bodies.
+    fastest : rad/s, of it alone: others only slow what it makes of a mode.
+    swing : rad/s, of what hangs on it, and of the lower of two loads that it joins.
+    loss : Of its damping at `omega`: c omega over the stiffness.
+    coupled : Lines whose tension moves it, itself among them.
+    direction : (6 bodies,) Rate of the path's length for each speed of the bodies.
     """
 
     tension: float
@@ -66,17 +58,13 @@ class LineDynamics:
 def line_dynamics(
     scene: Description, model: _core.Model, values: Array, time: float
 ) -> dict[str, LineDynamics]:
-    """Those of all lines of a scene.
+    """The dynamics of all lines of a scene.
 
     Parameters
     ----------
-    scene : Description
-    model : Model
-        Of the scene, its lines elastic, without merging.
-    values : ndarray
-        A state of the model, whose orientation is the quaternion.
-    time : float
-        s.
+    model : Of the scene, its lines elastic, without merging.
+    values : A state of the model, whose orientation is the quaternion.
+    time : s.
     """
     evaluator = _core.Evaluator(model)
     terms = evaluator.terms(time, values)
@@ -147,10 +135,8 @@ def with_lengths_of(
     ----------
     scene, model
         As of `line_dynamics`.
-    rest, values : ndarray
-        The state at rest, and the moved one.
-    displacement, twist : ndarray, shape (6 n,)
-        By which it was moved.
+    rest, values : The state at rest, and the moved one.
+    displacement, twist : (6 n,) By which it was moved.
     """
     none = np.zeros((len(model.bodies), 6))
     paths, wanted, rates = [], [], []

@@ -176,7 +176,7 @@ class LinearModel:
         return np.asarray(x - (by_load @ (impedance @ y))[..., 0])
 
     def _impedance(self, omega: Array) -> Complex:
-        """Of all vessels of `memories` (k, 6 m, 6 m), block diagonal."""
+        """The impedance of all vessels of `memories` (k, 6 m, 6 m), block diagonal."""
         size = 6 * len(self.memories)
         out = np.zeros((len(omega), size, size), dtype=complex)
         for i, memory in enumerate(self.memories):

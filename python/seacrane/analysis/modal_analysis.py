@@ -229,7 +229,7 @@ def _settled(linear: LinearModel, modes: NaturalModes, mode: int) -> tuple[Natur
 
 
 def _modes(linear: LinearModel) -> NaturalModes:
-    """Of the state matrix."""
+    """The modes of the state matrix."""
     free = _without_neutral_positions(linear)
     values, right = np.linalg.eig(free.T @ linear.a @ free)
     participation = np.abs(right * np.linalg.pinv(right).T)

@@ -59,7 +59,7 @@ def most_turned(scene: Description, model: _core.Model, values: Array) -> float:
 
 
 def _slack_on(scene: Description, body: str, model: _core.Model, values: Array) -> dict[str, float]:
-    """Of the lines on a body; of all where none of its own is slack."""
+    """The slack ones of the lines on a body; of all where none of its own is slack."""
     lines = lines_of(scene.loads)
     if not lines:
         return {}

@@ -120,7 +120,7 @@ def _turned(quaternions: Array, rotations: Array) -> Array:
 
 
 def _cross(first: Array, second: Array) -> Array:
-    """Of vectors along the second axis; numpy.cross takes ten times longer for a few."""
+    """Cross products of vectors along the second axis; numpy.cross takes ten times longer for a few."""
     a, b = first, second
     return np.stack(
         [
@@ -143,7 +143,7 @@ class ReducedCoordinates:
     @classmethod
     @one_thread
     def at(cls, terms: Terms, values: Array) -> ReducedCoordinates:
-        """Of the null space of the constraint Jacobian D (paper eq. 4) at a state."""
+        """A basis of the null space of the constraint Jacobian D (paper eq. 4) at a state."""
         jacobian = terms.evaluator.terms(terms.time, values)["jacobian"]
         basis = np.eye(6 * terms.bodies)
         if jacobian.size:
@@ -153,7 +153,7 @@ class ReducedCoordinates:
 
     @classmethod
     def quickly_at(cls, terms: Terms, values: Array) -> ReducedCoordinates:
-        """Likewise with another basis, by QR where no constraint depends on others: a third of the time."""
+        """As `at` with another basis, by QR where no constraint depends on others: a third of the time."""
         jacobian = terms.evaluator.terms(terms.time, values)["jacobian"]
         rows = len(jacobian)
         if not rows or rows != 6 * terms.bodies - terms.model.degrees_of_freedom:

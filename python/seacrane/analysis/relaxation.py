@@ -60,7 +60,7 @@ def relaxed(
 
 
 def _growth(force: Array, last: Array) -> float:
-    """Of the step, as the forces vanish; shorter where they swing to and fro, as between two slack lines."""
+    """Growth of the step as the forces vanish; shorter where they swing, as between two slack lines."""
     if not last.size:
         return 1.0
     sizes = float(np.linalg.norm(last)), float(np.linalg.norm(force))

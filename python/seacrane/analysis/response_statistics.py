@@ -22,6 +22,7 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
+from seacrane.renamed import refusing
 from seacrane.sea.crossings import level_crossed
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
@@ -37,7 +38,7 @@ BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
 GRID = 1500  # frequencies over the band of the database
 GRID_OF_MODE = 120  # more on either side of each resonance
 FINE = 20_001  # frequencies at which the encounter is looked up
-HEADINGS = 48  # of the quadrature over the directions
+DIRECTIONS = 48  # of the quadrature over the directions
 MOST_UNKNOWN = 0.1  # of the energy of the waves, met outside the table of a database at speed
 
 
@@ -66,9 +67,9 @@ class ResponseStatistics:
         Vanmarcke's sqrt(1 - m1^2 / (m0 m2)); zero for what does not move.
     moments : ndarray, shape (6, 3)
         m0, m2, m4; at forward speed by the frequency of encounter.
-    headings : ndarray, shape (q,)
+    directions : ndarray, shape (q,)
         Directions of the quadrature, rad.
-    heading_share : ndarray, shape (q,)
+    direction_share : ndarray, shape (q,)
         Their shares of the energy of the waves; they sum to one.
     """
 
@@ -80,8 +81,8 @@ class ResponseStatistics:
     wave_energy_share: float
     bandwidth: Array
     moments: Array
-    headings: Array
-    heading_share: Array
+    directions: Array
+    direction_share: Array
 
     __repr__ = brief
 
@@ -122,12 +123,13 @@ class ResponseStatistics:
         return np.asarray(self.std * levels)
 
 
+@refusing
 @one_thread
 def response_statistics(
     scene: Description | LinearModel,
     *,
     spectrum: _core.Spectrum,
-    heading: float,
+    direction: float,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     duration: float = 10800.0,
@@ -147,12 +149,12 @@ def response_statistics(
     scene, body, point, state, memory, database
         As `motion_rao`.
     spectrum : Spectrum
-    heading : float
+    direction : float
         rad, main direction of travel from the vessel's x towards its y.
     duration : float
         s, of the extremes.
     spreading : Spreading, optional
-        Of the energy about `heading`: `cos_2s` or `cos_n`. Default: long-crested.
+        Of the energy about `direction`: `cos_2s` or `cos_n`. Default: long-crested.
 
     Raises
     ------
@@ -179,12 +181,12 @@ def response_statistics(
             0
         )
         warn_of_waves_below_band(database, below, "waves of a spectrum")
-    main, output = float(heading), linear.output(body=body, point=point)
-    headings, shares = np.array([main]), np.ones(1)
+    main, output = float(direction), linear.output(body=body, point=point)
+    directions, shares = np.array([main]), np.ones(1)
     if spreading is not None:
-        angles, shares = spreading.quadrature(HEADINGS)
-        headings = main + angles
-    along, *parts = _responses(linear, database, np.append(main, headings), output)
+        angles, shares = spreading.quadrature(DIRECTIONS)
+        directions = main + angles
+    along, *parts = _responses(linear, database, np.append(main, directions), output)
     moments, density, unknown = np.zeros((6, 4)), np.zeros(along.rao.shape), 0.0
     for share, part in zip(shares, parts, strict=True):
         each = np.abs(part.rao) ** 2 * np.asarray(spectrum.density(part.omega))[:, None]
@@ -201,8 +203,8 @@ def response_statistics(
         wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
         bandwidth=_bandwidth(*moments[:, :3].T),
         moments=moments[:, [0, 2, 3]],
-        headings=headings,
-        heading_share=shares,
+        directions=directions,
+        direction_share=shares,
     )
 
 
@@ -239,7 +241,7 @@ def _bandwidth(m0: Array, m1: Array, m2: Array) -> Array:
 
 
 def _weights(omega: Array) -> Array:
-    """Of the trapezoidal rule."""
+    """Weights of the trapezoidal rule."""
     steps = np.diff(omega)
     return np.asarray(0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)))
 
@@ -247,7 +249,7 @@ def _weights(omega: Array) -> Array:
 def _responses(
     linear: LinearModel, database: HydroDatabase, headings: Array, output: Array
 ) -> Iterator[_Response]:
-    """Of each direction; at rest all share their frequencies, and what the ship makes of a load."""
+    """Responses to each direction; at rest all share their frequencies, and what the ship makes of a load."""
     if database.speed != 0.0:
         about = _about_resonances(linear, 0.0, float(np.inf))
         for heading in headings:

@@ -30,19 +30,12 @@ def rest_on_oil(scene: Some, time: float, values: Array, search: Search[Some]) -
 
     Parameters
     ----------
-    scene : Scene
-        Its references held.
-    time : float
-        s.
-    values : ndarray
-        A state of it, from which the search starts.
-    search : callable
-        Finds the rest state of a scene without hydraulic cylinders from a state of it.
+    scene : Its references held.
+    time : s.
+    values : A state of it, from which the search starts.
+    search : Finds the rest state of a scene without hydraulic cylinders from a state of it.
 
-    Raises
-    ------
-    SceneError
-        For a spool that is held open, and a stroke beyond an end.
+    Raises SceneError for a spool that is held open, and a stroke beyond an end.
     """
     model = compile_scene(scene)
     cylinders = hydraulic_cylinders(scene)

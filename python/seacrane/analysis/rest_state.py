@@ -182,7 +182,7 @@ def _rest(scene: Description, time: float, values: Array | None) -> Rest:
 
 
 def _hung(still: Description, model: _core.Model, time: float, values: Array) -> Rest:
-    """Likewise with elastic lines, those that are slack by little taken as taut at first."""
+    """The rest with elastic lines, those that are slack by little taken as taut at first."""
     free = unbounded(still)
     model = model if free is still else compile_scene(free)
     taut, y = tautened(free, values), values

@@ -29,10 +29,6 @@ WORK_STATES = 2  # the work integral and its absolute counterpart
 def scene_report(scene: Description) -> dict[str, Rows]:
     """Compile a scene and tell what came out.
 
-    Parameters
-    ----------
-    scene : Scene
-
     Returns
     -------
     dict of str to list of (str, value)
@@ -41,10 +37,7 @@ def scene_report(scene: Description) -> dict[str, Rows]:
         or lists of texts. Costs are nanoseconds per evaluation, measured while the report is made; all else
         is the same at every call.
 
-    Raises
-    ------
-    SceneError
-        If the scene does not compile.
+    Raises SceneError if the scene does not compile.
     """
     held = held_drives(scene)
     scene = with_holds(scene)

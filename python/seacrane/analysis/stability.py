@@ -31,10 +31,8 @@ class Growing:
 
     Attributes
     ----------
-    value : complex
-        Eigenvalue, 1/s.
-    label : str
-        Body and motion that it moves most, as "vessel roll".
+    value : Eigenvalue, 1/s.
+    label : Body and motion that it moves most, as "vessel roll".
     """
 
     value: complex
@@ -47,7 +45,7 @@ class Growing:
 
 
 def growth_in_words(value: complex) -> str:
-    """Of an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
+    """Words for an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
     doubling = f"grows, doubling in {np.log(2.0) / value.real:.3g} s"
     if value.imag == 0.0:
         return doubling

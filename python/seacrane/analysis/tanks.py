@@ -67,15 +67,10 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     Parameters
     ----------
     tanks : mapping of str to Tank
-    moments : ndarray, shape (k, n)
-        Of 1 kg in each tank, N m.
-    needed : ndarray, shape (k,)
-        N m.
+    moments : (k, n) Of 1 kg in each tank, N m.
+    needed : (k,) N m.
 
-    Raises
-    ------
-    SceneError
-        If the tanks cannot make it: what the fullest, or the emptiest, would have to hold.
+    Raises SceneError if the tanks cannot make it: what the fullest, or the emptiest, would have to hold.
     """
     from scipy.optimize import linprog
 

@@ -68,7 +68,7 @@ def slack_lines(scene: Description, model: _core.Model, values: Array) -> dict[s
 
 
 def pose_of(scene: Description, model: _core.Model, body: str, values: Array) -> Pose:
-    """Of a body's origin; the state holds the centre of mass, of a vessel its origin."""
+    """The pose of a body's origin; the state holds the centre of mass, of a vessel its origin."""
     if body not in scene.bodies:
         return np.zeros(3), np.eye(3)
     at = model.pose_index(list(model.bodies).index(body))

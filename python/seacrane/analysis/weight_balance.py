@@ -15,22 +15,16 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
 
     Parameters
     ----------
-    scene : Scene
-        At rest as it is described; see `seacrane.balance`.
-    body : str
-        Of the vessel.
-    name : str
-        Of the point force.
+    scene : At rest as it is described; see `seacrane.balance`.
+    body : Of the vessel.
+    name : Of the point force.
 
     Returns
     -------
     Balance
         Of the scene without it.
 
-    Raises
-    ------
-    SceneError
-        If `body` is not the only vessel, or the scene is not at rest.
+    Raises SceneError if `body` is not the only vessel, or the scene is not at rest.
     """
     if body in given_vessels(scene):
         raise SceneError(f"balance: the motion of {body!r} is given: it needs no ballast, leave it out")

@@ -31,10 +31,7 @@ def drawn(figure: Figure, title: str, caption: str) -> str:
 def picture_block(picture: Picture) -> str:
     """A figure that is on disk.
 
-    Raises
-    ------
-    OSError
-        If its image cannot be read.
+    Raises OSError if its image cannot be read.
     """
     source = "" if picture.data is None else f" Data: {picture.data.name}."
     return embedded(picture.image.read_bytes(), picture.title, f"{picture.caption}{source}")

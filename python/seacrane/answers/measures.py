@@ -34,7 +34,7 @@ SAME = {
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics:
-    """Of one curve, in its unit; times in s."""
+    """Statistics of one curve, in its unit; times in s."""
 
     title: str
     unit: str

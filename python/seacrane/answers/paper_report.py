@@ -28,18 +28,14 @@ class Study:
 
     Attributes
     ----------
-    title : str
-        Heading.
-    summary : sequence of str
-        What was computed, one paragraph each.
+    title : Heading.
+    summary : What was computed, one paragraph each.
     runs : mapping of str to Result
         Runs by the names that heads of columns show.
-    pictures : sequence of Picture
-        Figures on disk; their images are embedded.
+    pictures : Figures on disk; their images are embedded.
     scene : mapping of str to sequence of (name, value)
         What the compiled model holds, as ``scene.report()`` gives it.
-    findings : sequence of Finding
-        The paper's findings, measured.
+    findings : The paper's findings, measured.
     """
 
     title: str
@@ -53,10 +49,7 @@ class Study:
 def study_report(study: Study) -> Report:
     """The page about several runs.
 
-    Raises
-    ------
-    OSError
-        If the image of a picture cannot be read.
+    Raises OSError if the image of a picture cannot be read.
     """
     paragraphs = [f"<p>{escape(text)}</p>" for text in (*study.summary, AXES_NOTE)]
     paragraphs += [

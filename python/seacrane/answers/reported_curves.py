@@ -175,7 +175,7 @@ def _load(result: Result, one: Trace) -> Curve:
 
 
 def _hanging_weight(result: Result, one: Trace) -> float | None:
-    """Of the load on a rod, wire or line, N, as the run noted it; on one of its falls."""
+    """The weight of the load on a rod, wire or line, N, as the run noted it; on one of its falls."""
     name = one.names[0] if one.names else ""
     weights = result.about.hanging_weight
     if one.channel == "line_tension" and f"{name} line" in weights:
@@ -187,7 +187,7 @@ def _hanging_weight(result: Result, one: Trace) -> float | None:
 
 
 def _offsets(result: Result) -> list[Curve]:
-    """Of every load from straight below where it hangs: m along x and y, and the angle from vertical."""
+    """Offsets of loads from straight below where they hang: m along x and y, and the angle from vertical."""
     found = []
     for body, vector in hanging_vectors(result).items():
         curves = {
@@ -244,7 +244,7 @@ def hung_in(result: Result) -> list[Mapping[str, Any]]:
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:
-    """Of a point given from a body's centre of mass; of the ground as it is."""
+    """The place of a point given from a body's centre of mass; of the ground as it is."""
     at = np.asarray(point, dtype=float)
     if body not in result.coords["body"]:
         return at

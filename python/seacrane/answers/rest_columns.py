@@ -46,7 +46,7 @@ class AtRest:
 
     @classmethod
     def of(cls, scene: Description, state: _core.State) -> AtRest:
-        """Of a posed scene and a state at rest of it."""
+        """What holds of a posed scene and a state at rest of it."""
         model = compile_scene(held(scene, time=state.time))
         known = set(model.channel_names(defaults_only=False))
         run = _core.Simulation(
@@ -63,7 +63,7 @@ class AtRest:
         return float(self.channels["driver_force"][drivers.index(drive_name((joint, coordinate)))])
 
     def rope_tension(self, place: tuple[str, str], rope: LuffingRope) -> float:
-        """Of each fall of a rope that carries a hinge's moment, N; below zero where it would be slack."""
+        """Tension of each fall of a rope that carries a hinge's moment, N; below zero: it would be slack."""
         joint = self.scene.joints[place[0]]
         hinge, turn = self._placed(joint.first, joint.first_frame.point)
         first, second = (self._placed(*block)[0] for block in (rope.first, rope.second))
@@ -74,7 +74,7 @@ class AtRest:
         return placed(self.scene, body, point, self.channels["position"], self.channels["quaternion"])
 
     def radius(self, roles: CraneRoles) -> float:
-        """Of a crane's tip, m."""
+        """The radius of a crane's tip, m."""
         return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
     def stiffness(self, hoist: Suspension) -> float:
@@ -84,7 +84,7 @@ class AtRest:
         return found if np.isfinite(found) or hoist.rung in (ROD, RIGID) else np.nan
 
     def height(self, body: str, point: Any) -> float:
-        """Of a point of a body (its coordinates, m) above z = 0, m."""
+        """The height of a point of a body (its coordinates, m) above z = 0, m."""
         return float(self._placed(body, point)[0][2])
 
 

@@ -52,12 +52,9 @@ class Section(Generic[Subject]):
 
     Attributes
     ----------
-    title : str
-        Its heading.
-    applies : callable
-        Whether a subject has anything for it; sections that do not apply are left out.
-    html : callable
-        Its content as HTML, in which all text of users is escaped.
+    title : Its heading.
+    applies : Whether a subject has anything for it; sections that do not apply are left out.
+    html : Its content as HTML, in which all text of users is escaped.
     """
 
     title: str
@@ -83,18 +80,13 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
 
     Parameters
     ----------
-    title : str
-        Heading, escaped here.
-    lead : str
-        HTML below it.
-    sections : iterable of Section
+    title : Heading, escaped here.
+    lead : HTML below it.
     subject
         What they are about.
 
-    Raises
-    ------
-    FileFormatError
-        If a subject holds what its own program never writes, such as notes that are no JSON.
+    Raises FileFormatError if a subject holds what its own program never writes, such as notes that are no
+    JSON.
     """
     body = [f"<h1>{escape(title)}</h1>", lead, *(_block(section, subject) for section in sections)]
     head = (

@@ -51,24 +51,17 @@ class SummaryRow:
 
     Attributes
     ----------
-    name, unit : str
-        The unit is SI.
-    static : float
-        Value at rest, or at the first output of what is summarised; see `static_known`.
-    static_known : bool
-        Whether `static` is the value at rest.
-    mean, std, minimum, maximum : float
-    minimum_at, maximum_at : float
-        s.
+    name, unit : The unit is SI.
+    static : Value at rest, or at the first output of what is summarised; see `static_known`.
+    static_known : Whether `static` is the value at rest.
+    minimum_at, maximum_at : s.
     factor : float or None
         Dynamic factor of a load: what is largest in the sense of the static load, over the static load. None
         where no static load is known.
-    slack_margin : float or None
-        Smallest tension over the static one, of what pulls; zero and below is slack.
+    slack_margin : Smallest tension over the static one, of what pulls; zero and below is slack.
     blind : bool
         Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
-    printed : str
-        The unit in which the row is printed.
+    printed : The unit in which the row is printed.
     """
 
     name: str

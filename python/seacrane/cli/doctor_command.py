@@ -68,13 +68,9 @@ class Package:
 
     Attributes
     ----------
-    name : str
-    extra : str
-        The optional part of seacrane that needs it; empty for what is always needed.
-    least : str
-        Least version, or empty.
-    found : str
-        Version that is installed, or empty.
+    extra : The optional part of seacrane that needs it; empty for what is always needed.
+    least : Least version, or empty.
+    found : Version that is installed, or empty.
     """
 
     name: str
@@ -133,6 +129,6 @@ def _installed(name: str) -> str:
 
 
 def _numbers(text: str) -> tuple[int, ...]:
-    """Of a version's release: 2.10.1rc1 is (2, 10, 1)."""
+    """The numbers of a version's release: 2.10.1rc1 is (2, 10, 1)."""
     release = re.match(r"[\d.]*", text)
     return tuple(int(number) for number in NUMBER.findall(release[0] if release else ""))

@@ -13,18 +13,12 @@ def output_folder(
 
     Parameters
     ----------
-    name : str
-    holds : iterable of str
-        Files that will be written into it.
-    overwrite : bool
-        Whether those may replace earlier ones.
-    called : str
-        What stands before the name where it is told.
+    holds : Files that will be written into it.
+    overwrite : Whether those may replace earlier ones.
+    called : What stands before the name where it is told.
 
-    Raises
-    ------
-    OSError
-        If it cannot be made, something else has its name, or it holds an earlier one of those files.
+    Raises OSError if it cannot be made, something else has its name, or it holds an earlier one of those
+    files.
     """
     folder = Path(name)
     earlier = [] if overwrite else [file for file in holds if (folder / file).exists()]

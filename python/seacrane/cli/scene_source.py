@@ -50,12 +50,9 @@ def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> S
 
     Parameters
     ----------
-    source : str
-        Name of a case, or path of a lift, a scene file or a script.
-    options : Namespace
-        May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
-    scripts : bool
-        Whether a script may be executed.
+    source : Name of a case, or path of a lift, a scene file or a script.
+    options : May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
+    scripts : Whether a script may be executed.
 
     Raises
     ------
@@ -115,10 +112,7 @@ def is_result(source: str) -> bool:
 def run_script(path: Path) -> Scene:
     """What the script's function ``scene()`` returns.
 
-    Raises
-    ------
-    SceneError
-        If the script fails (with its line), defines no ``scene()``, or returns something else.
+    Raises SceneError if the script fails (with its line), defines no ``scene()``, or returns something else.
     """
     from seacrane.scene.scene import Scene
 

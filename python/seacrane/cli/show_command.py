@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _study(arguments: argparse.Namespace) -> int:
-    """Of the folder of a study."""
+    """The study of the folder of a study."""
     given = {"--start": arguments.start, "--end": arguments.end, "--json": arguments.json or None}
     named = [name for name, value in given.items() if value is not None]
     if named:

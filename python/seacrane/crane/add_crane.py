@@ -183,7 +183,7 @@ def add_crane(
 def _parts(
     crane: Any, foot: Vector, place: dict[str, float], coordinates: Mapping[str, float] | None
 ) -> CraneParts:
-    """Of either kind of crane, each by its own coordinates."""
+    """The parts of either kind of crane, each by its own coordinates."""
     if isinstance(crane, KnuckleBoomCrane):
         if coordinates is not None:
             raise SceneError("crane: coordinates are those of other cranes; give a knuckle boom slew, s1, s2")

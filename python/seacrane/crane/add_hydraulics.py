@@ -59,8 +59,7 @@ def add_hydraulics(
     ----------
     pose : mapping of str to float
         "s1" and "s2" of a knuckle boom, coordinates of another crane.
-    payload_mass : float
-        kg.
+    payload_mass : kg.
     """
     if not hydraulics:
         return
@@ -106,7 +105,7 @@ def _areas(
     rod: Iterable[Member],
     entries: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """Those of the data file, or of the bore and the rod of its members."""
+    """The areas of the data file, or of the bore and the rod of its members."""
     if areas is not None:
         return {"full_area": areas[0], "rod_side_area": areas[1]}
     if "full_area" in entries and "rod_side_area" in entries:

@@ -213,9 +213,7 @@ def parse(text: str, *, source: str = "crane data") -> CraneData:
 
     Parameters
     ----------
-    text : str
-    source : str
-        Name used in messages.
+    source : Name used in messages.
 
     Raises
     ------

@@ -55,7 +55,7 @@ class JointedCrane:
 
     @property
     def mass(self) -> float:
-        """Of all bodies, kg."""
+        """The mass of all bodies, kg."""
         return math.fsum(body.properties.mass for body in self.data.bodies)
 
     def tip(self, *, coordinates: Mapping[str, float] | None = None) -> Array:
@@ -133,7 +133,7 @@ class JointedCrane:
         return np.asarray(point - self._origin(body))
 
     def _origin(self, body: str) -> Array:
-        """Of a body's frame at home, m."""
+        """The origin of a body's frame at home, m."""
         carried = [joint.point for joint in self.data.joints if joint.second == body]
         return carried[0] if carried else np.zeros(3)
 
@@ -185,7 +185,7 @@ class JointedCrane:
 
 
 def _coordinate(joint: JointData, moved: Mapping[str, Moved]) -> float:
-    """Of a hinge or a slide, from home."""
+    """The coordinate of a hinge or a slide, from home."""
     first, second = moved[joint.first], moved[joint.second]
     assert joint.axis is not None
     relative = first.rotation.T @ second.rotation

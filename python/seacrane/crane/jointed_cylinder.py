@@ -25,10 +25,7 @@ def ends_of(crane: JointedCrane, label: str) -> dict[str, Any]:
 
     The points are the outermost pins of both that lie on the cylinder's axis.
 
-    Raises
-    ------
-    SceneError
-        For a cylinder without such pins, or without a range.
+    Raises SceneError for a cylinder without such pins, or without a range.
     """
     slide, axis = _slide(crane, label)
     what = f"crane {crane.data.name!r}: cylinder {label!r}"
@@ -80,7 +77,7 @@ def static_force(
 
 
 def _strokes(crane: JointedCrane, coordinates: Mapping[str, float]) -> dict[str, float]:
-    """Of all cylinders at a pose, from home, m."""
+    """The strokes of all cylinders at a pose, from home, m."""
     moved = pose_of(crane.data, coordinates)
     found = {}
     for label in crane.data.cylinders:

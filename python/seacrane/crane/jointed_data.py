@@ -26,12 +26,9 @@ class MeshData:
 
     Attributes
     ----------
-    name : str
-    file : Path or None
     vertices, faces : ndarray (n, 3) and (m, 3), or None
         m, in place of a file.
-    scale : float
-        By which coordinates are multiplied to be m.
+    scale : By which coordinates are multiplied to be m.
     origin, axes : ndarray (3,) and (3, 3)
         Of the mesh in the crane-foot frame at home.
     """
@@ -51,13 +48,10 @@ class BodyData:
 
     Attributes
     ----------
-    name : str
-    properties : MassProperties
-        Its centre of mass from the crane foot, its inertia along the foot's axes.
+    properties : Its centre of mass from the crane foot, its inertia along the foot's axes.
     members : tuple of Tube or Box
         That it is made of and drawn by; empty where only its mass is known.
-    meshes : tuple of MeshData
-        That it is drawn by in their place.
+    meshes : That it is drawn by in their place.
     """
 
     name: str
@@ -74,8 +68,7 @@ class JointData:
     ----------
     name, kind, first, second : str
         The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
-    point : ndarray, shape (3,)
-        m.
+    point : (3,) m.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
     range : (float, float) or None
@@ -98,12 +91,9 @@ class RopeData:
 
     Attributes
     ----------
-    name, luff : str
-        Its own, and the label of the hinge that it holds.
-    falls : int
-        Parts of rope between the two blocks.
-    EA : float
-        Axial stiffness of one part, N.
+    name, luff : Its own, and the label of the hinge that it holds.
+    falls : Parts of rope between the two blocks.
+    EA : Axial stiffness of one part, N.
     first, second : (str, ndarray (3,))
         Bodies and blocks at home, crane-foot frame, m; the second one is beyond the hinge.
     """
@@ -122,19 +112,14 @@ class JointedData:
 
     Attributes
     ----------
-    root : str
-        What stands on the base: a body, or a frame without mass that is the base itself.
-    bodies : tuple of BodyData
+    root : What stands on the base: a body, or a frame without mass that is the base itself.
     joints : tuple of JointData
         One for each body but the root, in an order in which each joint's first body is there already.
-    closing_joints : tuple of JointData
-    slew : str or None
-        Joint of the slew drive.
+    slew : Joint of the slew drive.
     luffs, cylinders : mapping of str to str
         Hinges that raise and lower the jib, and sliding joints, by label.
     tip : (str, ndarray (3,))
         Its body, and its place at home, m.
-    ropes : tuple of RopeData
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping

@@ -41,11 +41,8 @@ def parse(text: str, *, source: str = "crane data", folder: Path | None = None) 
 
     Parameters
     ----------
-    text : str
-    source : str
-        Name used in messages.
-    folder : Path, optional
-        In which a URDF file is; default: the working directory.
+    source : Name used in messages.
+    folder : In which a URDF file is; default: the working directory.
 
     Raises
     ------

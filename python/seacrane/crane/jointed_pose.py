@@ -43,10 +43,7 @@ def pose_of(data: JointedData, coordinates: Mapping[str, float]) -> dict[str, Mo
 
     Coordinates that are not given stay at home; those of a loop follow the ones that are given.
 
-    Raises
-    ------
-    SceneError
-        For an unknown coordinate, a value out of its range, or a loop that cannot close.
+    Raises SceneError for an unknown coordinate, a value out of its range, or a loop that cannot close.
     """
     given = _given(data, coordinates)
     start = {joint.name: np.zeros(FREEDOMS[joint.kind]) for joint in data.joints} | given
@@ -133,7 +130,7 @@ def _motions(data: JointedData, values: Mapping[str, Array]) -> dict[str, Moved]
 
 
 def _motion(joint: JointData, values: Array) -> Moved:
-    """Of the second body relative to the first one."""
+    """The motion of the second body relative to the first one."""
     if joint.kind == "prismatic":
         assert joint.axis is not None
         return Moved(np.eye(3), values[0] * joint.axis)

@@ -24,7 +24,7 @@ class Placed:
     origin: Array
 
     def point(self, at: Array) -> Array:
-        """Of this frame, in the crane-foot frame."""
+        """A point of this frame, in the crane-foot frame."""
         return np.asarray(self.axes @ at + self.origin)
 
     def inner(self, axes: Array, origin: Array) -> Placed:

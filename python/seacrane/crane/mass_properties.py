@@ -158,7 +158,7 @@ def member_axes(member: Member) -> tuple[Array, Array, Array]:
 def _sum(
     members: Sequence[Member], centres: Sequence[Array], triads: Sequence[tuple[Array, Array, Array]]
 ) -> MassProperties:
-    """Of members by their centres and their principal axes, in body axes."""
+    """The sum of members by their centres and their principal axes, in body axes."""
     mass = math.fsum(member.mass for member in members)
     center = np.sum([m.mass * c for m, c in zip(members, centres, strict=True)], axis=0) / mass
     inertia = np.zeros((3, 3))

@@ -22,18 +22,15 @@ class CraneParts:
 
     Attributes
     ----------
-    bodies, joints : list
-        The first joint welds it to its base, whose name is "".
+    bodies, joints : The first joint welds it to its base, whose name is "".
     tip : (str, ndarray (3,))
         Its body, and its place, m.
-    slew : str or None
-        Joint of the slew drive.
+    slew : Joint of the slew drive.
     luffs, cylinders : mapping of str to str
         Joints by label.
     ranges : mapping of str to (float, float)
         Where coordinates are meant to stay from the pose on, by joint.
-    ropes : tuple of RopeData
-        With their blocks at the pose.
+    ropes : With their blocks at the pose.
     meshes : mapping of str to tuple of MeshData
         That bodies are drawn by, in body coordinates.
     capacity, areas

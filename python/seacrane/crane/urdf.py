@@ -37,14 +37,10 @@ class UrdfTree:
 
     Attributes
     ----------
-    root : str
-        The link that no joint carries.
-    bodies : tuple of BodyData
-        Links with mass.
-    joints : tuple of JointData
-        From the root outwards.
-    frames : Frames
-        Of all links, at zero of all joints; the root's is that of the crane foot.
+    root : The link that no joint carries.
+    bodies : Links with mass.
+    joints : From the root outwards.
+    frames : Of all links, at zero of all joints; the root's is that of the crane foot.
     """
 
     root: str

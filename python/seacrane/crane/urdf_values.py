@@ -16,7 +16,7 @@ LARGEST = 1e12
 
 
 def name_of(source: str, element: Element) -> str:
-    """Of a link or a joint; FileFormatError for none."""
+    """The name of a link or a joint; FileFormatError for none."""
     name = element.get("name", "")
     if not name:
         raise FileFormatError(f"{source}: a <{element.tag}> has no name; give each one its own.")

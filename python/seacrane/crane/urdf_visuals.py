@@ -25,7 +25,7 @@ READABLE = (".stl", ".glb", ".gltf")
 
 
 def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterator[MeshData]:
-    """Of a link, placed in the crane-foot frame at home."""
+    """The meshes of a link, placed in the crane-foot frame at home."""
     name = name_of(source, link)
     for i, visual in enumerate(link.findall("visual")):
         geometry = visual.find("geometry")

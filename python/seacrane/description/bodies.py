@@ -93,7 +93,7 @@ def _tensor(what: str, inertia: Any) -> Array:
 
 
 def _box(what: str, mass: Any, edges: Array) -> Array:
-    """Of a solid box, about its centre."""
+    """The inertia of a solid box, about its centre."""
     if not edges.any():
         raise SceneError(
             f"{what}: has neither inertia nor size; give size=(x, y, z), m, of the solid box that it is, or "

@@ -19,14 +19,14 @@ MOTION = (*POSE, "velocity", "angular_velocity")
 
 
 def position_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
-    """Of a point of a body, or of the ground, inertial frame, m, shape (time, 3)."""
+    """The position of a point of a body, or of the ground, inertial frame, m, shape (time, 3)."""
     if body not in scene.bodies:  # the ground
         return np.broadcast_to(np.asarray(point, float), (len(arrays["position"]), 3)).copy()
     return np.asarray(arrays["position"][:, place_in(scene, body)] + _lever(scene, arrays, body, point))
 
 
 def velocity_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
-    """Of a point of a body, or of the ground, inertial frame, m/s, shape (time, 3)."""
+    """The velocity of a point of a body, or of the ground, inertial frame, m/s, shape (time, 3)."""
     if body not in scene.bodies:
         return np.zeros((len(arrays["position"]), 3))
     place = place_in(scene, body)
@@ -37,7 +37,7 @@ def velocity_of(scene: Description, arrays: Mapping[str, Array], body: str, poin
 def relative_motion(
     scene: Description, arrays: Mapping[str, Array], point: str, to: str, axes: str, *, velocity: bool
 ) -> Array:
-    """Of a named point over another along the axes of a body, m; its rate, m/s; shape (time, 3)."""
+    """Motion of a named point over another along the axes of a body, m; its rate, m/s; shape (time, 3)."""
     ends = [scene.points[name] for name in (point, to)]
     over, below = (position_of(scene, arrays, one.body, one.point) for one in ends)
     told = over - below

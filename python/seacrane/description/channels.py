@@ -215,7 +215,7 @@ AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
 
 
 def unit_of(channel: str, names: Collection[str]) -> str:
-    """Of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
+    """The unit of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
     for unit, listed in re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit):
         if set(names) & set(listed.split(", ")):
             return str(unit).strip()

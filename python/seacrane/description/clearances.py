@@ -25,15 +25,10 @@ class Clearance:
 
     Attributes
     ----------
-    name : str
-    points : tuple of str
-        Named by `Scene.add_point`.
-    body : str
-        That carries the box, or "ground".
-    center : (float, float, float)
-        Of the box, coordinates of the body, m.
-    size : (float, float, float)
-        Of the box, along the axes of the body, m; zero: a point, an edge or a plate.
+    points : Named by `Scene.add_point`.
+    body : That carries the box, or "ground".
+    center : Of the box, coordinates of the body, m.
+    size : Of the box, along the axes of the body, m; zero: a point, an edge or a plate.
     """
 
     name: str
@@ -101,7 +96,7 @@ def add_clearance(
 
 
 def distance_from_box(points: Array, size: Vector) -> Array:
-    """Of points (..., 3) in the frame of a box about its centre, m; negative inside, to the nearest face."""
+    """Distance of points (..., 3) in a box's frame about its centre, m; inside it is negative."""
     beyond = np.abs(points) - 0.5 * np.asarray(size)
     outside = np.linalg.norm(np.maximum(beyond, 0.0), axis=-1)
     return np.asarray(outside + np.minimum(beyond.max(axis=-1), 0.0))

@@ -65,10 +65,7 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
 
     The scene belongs to the model from now on: it is not to be changed.
 
-    Raises
-    ------
-    SceneError
-        For a sea on other vessels than the model's, or loads at another kind of position.
+    Raises SceneError for a sea on other vessels than the model's, or loads at another kind of position.
     """
     assert scene.waves is not None
     _, merge = model.compiled_from

@@ -34,10 +34,8 @@ def database_of(
 ) -> HydroDatabase:
     """The database of the vessel of a body, or the one given: the same ship at a forward speed.
 
-    Raises
-    ------
-    SceneError
-        Where there is none, with what needs it, or where the one given is another one of zero speed.
+    Raises SceneError where there is none, with what needs it, or where the one given is another one of zero
+    speed.
     """
     vessel = next((one for one in scene.vessels.values() if one.body == body), None)
     if given is not None:

@@ -196,8 +196,7 @@ class Table(dict[str, Element]):
 
     Parameters
     ----------
-    kind : str
-        What its elements are called, such as "point force".
+    kind : What its elements are called, such as "point force".
     """
 
     kind: str

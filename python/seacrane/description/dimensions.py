@@ -50,13 +50,13 @@ UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
 
 
 def product(dimensions: Sequence[Dimension]) -> Dimension:
-    """Of quantities multiplied with each other."""
+    """The dimension of quantities multiplied with each other."""
     kg, m, s, rad = (sum(exponents, Fraction(0)) for exponents in zip(*dimensions, strict=True))
     return kg, m, s, rad
 
 
 def power(dimension: Dimension, exponent: Fraction) -> Dimension:
-    """Of a quantity to a power."""
+    """The dimension of a quantity to a power."""
     kg, m, s, rad = (one * exponent for one in dimension)
     return kg, m, s, rad
 

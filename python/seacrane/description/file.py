@@ -106,7 +106,6 @@ def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
 
     Parameters
     ----------
-    scene : Scene
     path : path-like
         Replaced if it exists; its folder must exist.
 
@@ -150,8 +149,7 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
     Parameters
     ----------
     path : path-like
-    scene : Scene
-        Empty.
+    scene : Empty.
 
     Returns
     -------

@@ -24,7 +24,7 @@ LARGEST_HOSE = 100.0  # times the swept volume, likewise
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
-    """Those of a scene, by name."""
+    """The hydraulic cylinders of a scene, by name."""
     return {name: load for name, load in scene.loads.items() if isinstance(load, _core.HydraulicCylinder)}
 
 
@@ -59,16 +59,10 @@ def place_cylinder(
 
     Parameters
     ----------
-    scene : Scene
-    given : dict
-        Entries of the cylinder.
-    force : float, optional
-        N, that it holds; with it the pressures may be left out.
+    given : Entries of the cylinder.
+    force : N, that it holds; with it the pressures may be left out.
 
-    Raises
-    ------
-    SceneError
-        If the points are not within the stroke, or pressures are missing.
+    Raises SceneError if the points are not within the stroke, or pressures are missing.
     """
     settings = {key: value for key, value in given.items() if value is not None}
     what = what_of(given)
@@ -126,7 +120,7 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
 
 
 def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[float, float]:
-    """Of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
+    """The pressures of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
 
     The rod side keeps the pressure that it is described with, unless the full side's would fall below the
     tank's.

@@ -25,14 +25,10 @@ class Sheave:
 
     Attributes
     ----------
-    center : ndarray, shape (3,)
-        m.
-    radius : float
-        m.
-    axis : ndarray, shape (3,)
-        Of length one; the line runs about it by the right hand. Zero at a point.
-    turns : float
-        Whole turns on it besides.
+    center : (3,) m.
+    radius : m.
+    axis : (3,) Of length one; the line runs about it by the right hand. Zero at a point.
+    turns : Whole turns on it besides.
     """
 
     center: Array
@@ -47,11 +43,8 @@ class Laid:
 
     Attributes
     ----------
-    starts, ends : ndarray, shape (n - 1, 3)
-        Of the straight parts, inertial axes, m.
-    wraps : ndarray, shape (n,)
-        Angle on each sheave, rad; 0 at points.
-    sheaves : list of Sheave
+    starts, ends : (n - 1, 3) Of the straight parts, inertial axes, m.
+    wraps : (n,) Angle on each sheave, rad; 0 at points.
     """
 
     starts: Array
@@ -61,7 +54,7 @@ class Laid:
 
     @property
     def length(self) -> float:
-        """Of all of it, m."""
+        """The length of all of it, m."""
         straight = np.linalg.norm(self.ends - self.starts, axis=1).sum()
         return float(
             straight + sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True))
@@ -99,7 +92,7 @@ def laid(line: _core.Line, pose_of: Callable[[str], Pose]) -> Laid:
 
 
 def described_poses(scene: Description) -> Callable[[str], Pose]:
-    """Those that bodies are described with; whatever is no body stands still, as the ground."""
+    """The poses that bodies are described with; whatever is no body stands still, as the ground."""
 
     def pose(body: str) -> Pose:
         if body not in scene.bodies:

@@ -21,12 +21,9 @@ class LuffingRope:
 
     Attributes
     ----------
-    name : str
-        Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
-    falls : int
-        Parts of rope between the blocks; all carry the same tension.
-    EA : float
-        Axial stiffness of one fall, N.
+    name : Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
+    falls : Parts of rope between the blocks; all carry the same tension.
+    EA : Axial stiffness of one fall, N.
     first, second : (str, (float, float, float))
         Body and point in its coordinates, m; the second one moves with the hinge.
     """

@@ -35,11 +35,8 @@ class Mesh:
 
     Attributes
     ----------
-    name, body : str
-    vertices : ndarray, shape (n, 3)
-        From the body's origin, body axes, m; read-only, in single precision.
-    faces : ndarray of int, shape (m, 3)
-        Vertices of each triangle, anticlockwise from outside; read-only.
+    vertices : (n, 3) From the body's origin, body axes, m; read-only, in single precision.
+    faces : (m, 3) Vertices of each triangle, anticlockwise from outside; read-only.
     """
 
     name: str

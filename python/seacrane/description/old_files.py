@@ -70,7 +70,7 @@ def sea_of(values: Mapping[str, Any]) -> SeaProvenance:
 
 
 def _noted(value: Any, body: str) -> Any:
-    """Of one vessel as it is, of several by body."""
+    """The note of one vessel as it is, of several by body."""
     return value.get(body) if isinstance(value, Mapping) else value
 
 

@@ -24,9 +24,7 @@ class OwnChannel:
 
     Attributes
     ----------
-    name, expression : str
-    unit : str
-        SI, by the units of its curves.
+    unit : SI, by the units of its curves.
     """
 
     name: str
@@ -76,7 +74,7 @@ def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel
 
 
 def programs(scene: Description) -> dict[str, Program]:
-    """Of every channel of one's own."""
+    """The program of every channel of one's own."""
     return {name: parsed(f"channel {name!r}", one.expression) for name, one in scene.channels.items()}
 
 

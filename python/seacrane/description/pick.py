@@ -13,16 +13,21 @@ to those that the scene names, in their order. A motion by itself is that of the
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from itertools import product
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
 from seacrane.inputs.shown import shown
 
+Array = NDArray[np.float64]
 WHOLE = re.compile(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", re.DOTALL)
 ITEM = re.compile(r"""\s*(?:(\w+)\s*=\s*)?("[^"]*"|'[^']*'|[^,"']*?)\s*(?:,|$)""")
 
@@ -33,13 +38,10 @@ class Pick:
 
     Attributes
     ----------
-    channel : str
     names : mapping of str to str
         By dimension; dimensions that are not named are kept.
-    after : float or None
-        s: earlier outputs are left out; None: nothing is said of it.
-    stage : str or None
-        The outputs of this stage alone.
+    after : s: earlier outputs are left out; None: nothing is said of it.
+    stage : The outputs of this stage alone.
     """
 
     channel: str
@@ -52,6 +54,16 @@ class Pick:
         """The words that leave outputs out, such as "after"; none: it is of all of them."""
         given = {"after": self.after, "stage": self.stage}
         return " and ".join(word for word, value in given.items() if value is not None)
+
+    def curves(
+        self, values: Array, dims: Sequence[str], coords: Mapping[str, Sequence[str]]
+    ) -> Iterator[tuple[dict[str, str], Array]]:
+        """Each curve (n,) that it picks of the values (n, ...) of its channel, with names by dimension."""
+        every = [[self.names[dim]] if dim in self.names else coords[dim] for dim in dims[1:]]
+        for one in product(*every):
+            names = dict(zip(dims[1:], one, strict=True))
+            at: tuple[slice | int, ...] = (slice(None), *(coords[dim].index(n) for dim, n in names.items()))
+            yield names, values[at]
 
     def __str__(self) -> str:
         words = [f"{dim}={name}" for dim, name in self.names.items()]
@@ -71,8 +83,7 @@ def pick_of(
 
     Parameters
     ----------
-    what : str
-        Who asks, for messages.
+    what : Who asks, for messages.
     channel : str or Pick
         The name of a channel, or a text as above.
     names : mapping of str to str, optional
@@ -80,11 +91,8 @@ def pick_of(
     held : collection of str, optional
         The channels of a result, of which it must be one.
 
-    Raises
-    ------
-    SceneError
-        For a text that is none, a channel that does not exist, a dimension that it has not, or a name that
-        none of its dimensions holds.
+    Raises SceneError for a text that is none, a channel that does not exist, a dimension that it has not, or
+    a name that none of its dimensions holds.
     """
     if isinstance(channel, Pick):
         text, items = channel.channel, list(channel.names.items())

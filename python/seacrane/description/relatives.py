@@ -17,9 +17,7 @@ class Relative:
 
     Attributes
     ----------
-    name : str
-    point, to : str
-        Named by `Scene.add_point`: what is looked at, and from where.
+    point, to : Named by `Scene.add_point`: what is looked at, and from where.
     axes : str
         The body along whose axes the motion is told, or "ground": along those of the inertial frame.
     """

@@ -30,24 +30,17 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
 
     Parameters
     ----------
-    omega : ndarray, shape (k,)
-        rad/s.
-    amplitude : ndarray of complex, shape (k, n)
-        m or rad.
-    ramp : float
-        s, over which the sum grows from rest; 0: all of it from the start.
-    duration : float
-        s; the curves hold their value from then on.
+    omega : (k,) rad/s.
+    amplitude : (k, n) m or rad.
+    ramp : s, over which the sum grows from rest; 0: all of it from the start.
+    duration : s; the curves hold their value from then on.
 
     Returns
     -------
     tuple of Curve
         Zero and at rest until t = 0 where there is a ramp.
 
-    Raises
-    ------
-    SceneError
-        For a duration of too many periods.
+    Raises SceneError for a duration of too many periods.
     """
 
     def values(times: Array) -> Array:

@@ -28,20 +28,14 @@ class Suspension:
 
     Attributes
     ----------
-    name : str
-        Of the joint, or of the line; of a line with mass the whole of it.
-    channel : str
-        Its name, or that of its lowest segment, in the channels over `suspension`.
-    top : str
-        That of its uppermost segment.
-    rung : str
-        "rod", which pushes too, or that of a line.
+    name : Of the joint, or of the line; of a line with mass the whole of it.
+    channel : Its name, or that of its lowest segment, in the channels over `suspension`.
+    top : That of its uppermost segment.
+    rung : "rod", which pushes too, or that of a line.
     first, upper, lower : (str, (float, float, float))
         Body and point, in its coordinates, m: where it begins, and both ends of its last straight part.
-    falls : int
-        Straight parts that hold the lower body.
-    parts : frozenset of str
-        The elements that it is made of.
+    falls : Straight parts that hold the lower body.
+    parts : The elements that it is made of.
     """
 
     name: str
@@ -68,15 +62,10 @@ class Hung:
     ----------
     label : str
         "hook" after the crane's prefix; of a load that hangs on no crane, the name of the suspension.
-    crane : CraneRoles or None
-    suspension : Suspension
-        On which it hangs, with block and slings where it has them.
-    load : str
-        The body.
-    point : (float, float, float)
-        Of it, in its coordinates, m: where it is held, in the middle of its slings.
-    weight : float or None
-        Of all that the suspension carries, N; None where something else carries it too.
+    suspension : On which it hangs, with block and slings where it has them.
+    load : The body.
+    point : Of it, in its coordinates, m: where it is held, in the middle of its slings.
+    weight : Of all that the suspension carries, N; None where something else carries it too.
     """
 
     label: str
@@ -123,14 +112,6 @@ def lower_ends(scene: Description) -> list[Place]:
         hooked = hooked_body(line)
         ends.append([(body, _point(point)) for body, point in path_of(line) if body == hooked][-1])
     return ends
-
-
-def weight_on(scene: Description, suspension: Suspension) -> float | None:
-    """Weight (N) of all that hangs on it; None where something else carries a part of that.
-
-    A seat or a free joint does not carry it for good, and does not count.
-    """
-    return _Ties(scene).weight(suspension)
 
 
 def weights_on(scene: Description) -> dict[str, tuple[float, int]]:
@@ -195,7 +176,7 @@ def _of_joint(name: str, joint: _core.Joint, rung: str) -> Suspension:
 
 
 def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[str]) -> Suspension:
-    """Of a line, or of the segments of one with mass from its first end on."""
+    """What hangs on the ends of a line, or of the segments of one with mass from its first end on."""
     (highest, highest_line), (lowest, last) = next(iter(segments.items())), list(segments.items())[-1]
     path, hooked = path_of(last), hooked_body(last)
     spans = [pair for pair in pairwise(path) if (pair[0][0] == hooked) != (pair[1][0] == hooked)]
@@ -300,7 +281,7 @@ def _on_crane(scene: Description, roles: CraneRoles, every: list[Suspension], ti
 
 
 def _lowest(scene: Description, one: Suspension, every: list[Suspension], below: list[str]) -> str:
-    """Of the bodies on a suspension the heaviest that carries none of the others."""
+    """Among the bodies on a suspension, the heaviest that carries none of the others."""
     carrying = {other.upper[0] for other in every if other.name != one.name}
     lowest = [body for body in below if body not in carrying] or below or [one.lower[0]]
     return max(lowest, key=lambda body: scene.bodies[body].mass if body in scene.bodies else 0.0)

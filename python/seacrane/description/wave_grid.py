@@ -16,8 +16,7 @@ def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
 
     Parameters
     ----------
-    omega : ndarray, shape (n,)
-        rad/s, positive.
+    omega : (n,) rad/s, positive.
 
     Returns
     -------
@@ -25,10 +24,7 @@ def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
         rad/s; the sea repeats after 2 pi / step.
     number : ndarray of int, shape (n,)
 
-    Raises
-    ------
-    ValueError
-        If the frequencies are on no such grid.
+    Raises ValueError if the frequencies are on no such grid.
     """
     distinct = np.unique(omega)
     distance = np.diff(distinct)

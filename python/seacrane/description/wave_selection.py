@@ -23,10 +23,7 @@ def without_negligible(waves: Waves) -> Waves:
     a product of two sums, to first order. At least one component stays, and all do in a series made by FFT,
     which costs the same with fewer.
 
-    Raises
-    ------
-    ValueError
-        If `negligible` is no number from 0 to 0.1.
+    Raises ValueError if `negligible` is no number from 0 to 0.1.
     """
     kept = kept_components(waves)
     if kept.all():

@@ -83,10 +83,7 @@ class Certainty:
 def certainty_of(target: Target, outcomes: Sequence[Outcome], parameters: Mapping[str, Value]) -> Certainty:
     """What the members of one combination of parameters tell.
 
-    Raises
-    ------
-    SceneError
-        Where what is kept is no single number.
+    Raises SceneError where what is kept is no single number.
     """
     good = [one for one in outcomes if not one.failure]
     values = np.array([_single(target.variable, one) for one in good])

@@ -79,10 +79,7 @@ def probed(
 ) -> dict[int, Probe]:
     """Probes by member, which lie evenly among all.
 
-    Raises
-    ------
-    SceneError
-        As of ``simulate(accuracy=...)``.
+    Raises SceneError as of ``simulate(accuracy=...)``.
     """
     count = len(members)
     number = min(max(count // A_PROBE_FOR, 1), MOST_PROBES)

@@ -45,7 +45,7 @@ class Table:
         return self._texts.setdefault(text, text)
 
     def dataset(self) -> xarray.Dataset:
-        """Of what was added; members that failed or are not there are NaN."""
+        """A data set of what was added; members that failed or are not there are NaN."""
         import xarray
 
         variables: dict[str, Any] = {}

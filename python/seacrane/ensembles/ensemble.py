@@ -339,10 +339,8 @@ def _require_free_names(members: Members, keep: Keep) -> None:
 def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
     """Times at which lifts begin, s, ascending, and the members, those of one sea next to each other.
 
-    Raises
-    ------
-    SceneError
-        As `members_of`, for times in a list or design, negative ones, and those of a lift without stages.
+    Raises SceneError as `members_of`, for times in a list or design, negative ones, and those of a lift
+    without stages.
     """
     if START_TIME not in (over if isinstance(over, Mapping) else members_of(over).axes):
         return (), members_of(over)
@@ -404,7 +402,7 @@ def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, 
 
 @contextlib.contextmanager
 def _growing_store(path: str | os.PathLike[str] | None, study: Study, growth: Growth) -> Iterator[Store]:
-    """Of an ensemble with `until`, which neither its half widths nor the most seeds tell from another."""
+    """Store of an ensemble with `until`; half widths and the most seeds do not tell it from another."""
     if path is None:
         yield Memory()
         return
@@ -452,7 +450,7 @@ def _places(members: Members, number: int, size: int) -> range:
 
 
 def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
-    """Those of a study without `until`. Raises FileFormatError for what is no study of ours."""
+    """The members of a study without `until`. Raises FileFormatError for what is no study of ours."""
     members = Members(axes=_axes(folder, data), grid=bool(data.get("grid")))
     lengths = {len(values) for values in members.axes.values()}
     if (not members.grid and len(lengths) > 1) or len(members) > MOST_MEMBERS:

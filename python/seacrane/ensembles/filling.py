@@ -33,10 +33,8 @@ def fill(
 
     Parameters
     ----------
-    done : callable
-        Told how many members each pack had.
-    check : callable
-        Given every outcome once its pack is kept; may raise.
+    done : Told how many members each pack had.
+    check : Given every outcome once its pack is kept; may raise.
     """
     with contextlib.closing(gathered(job, packs, executor)) as coming:
         for number, outcomes in coming:

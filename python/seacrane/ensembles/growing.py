@@ -33,14 +33,11 @@ class Growth:
 
     Attributes
     ----------
-    first : int
-        Seed.
-    batches : int
-        How many there may be.
+    first : Seed.
+    batches : How many there may be.
     others : mapping of str to tuple
         Values of the other parameters, of which all combinations are run.
-    size : int
-        Seeds in a pack.
+    size : Seeds in a pack.
     """
 
     first: int
@@ -54,12 +51,12 @@ class Growth:
         return math.prod(len(values) for values in self.others.values())
 
     def members(self, batches: int) -> Members:
-        """Those of so many batches."""
+        """The members of so many batches."""
         seeds = tuple(range(self.first, self.first + batches * BATCH))
         return Members(axes={"seed": seeds, **self.others}, grid=True)
 
     def holding(self, index: int) -> Members:
-        """Those of whole batches up to that of a member."""
+        """The members of whole batches up to that of a member."""
         return self.members(index // (BATCH * self.cells) + 1)
 
     def batches_in(self, packs: Iterable[int]) -> int:
@@ -98,10 +95,7 @@ class Growth:
 def growth_of(members: Members, pack: int | None) -> Growth:
     """How an ensemble of these members grows; its seeds are those that there may be.
 
-    Raises
-    ------
-    SceneError
-        For members that are no grid over at least 20 seeds one after another.
+    Raises SceneError for members that are no grid over at least 20 seeds one after another.
     """
     seeds = members.axes.get("seed", ())
     if not members.grid or not seeds:

@@ -49,7 +49,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
 
 
 def _stages(stages: Stages) -> str:
-    """The same for stages that are the same."""
+    """A text that is equal for stages that are the same."""
     return _function(stages) if callable(stages) else _digest([_stage(one) for one in stages])
 
 
@@ -72,7 +72,7 @@ def _stage(stage: Stage) -> list[Any]:
 
 
 def _start(study: Study, members: Members) -> str:
-    """Of the first member, which stands for what a function makes of the others."""
+    """The start of the first member, which stands for what a function makes of the others."""
     try:
         state = study.start_of(study.scene(members.values(0)))
     except Exception as error:  # its failure is recorded when it is run

@@ -103,7 +103,7 @@ class Job:
         return ""
 
     def _outcome(self, index: int, run: Run | StagedRun | str) -> Outcome:
-        """Of a run at its end, or of why there is none."""
+        """The outcome of a run at its end, or of why there is none."""
         made = run if isinstance(run, str) else _tried(partial(self._ended, index, run))
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
@@ -142,7 +142,7 @@ class Prepared:
         self._lock = Lock()
 
     def run(self, values: Values) -> Run | StagedRun:
-        """Of the member with these values, at its start. Raises what describing or compiling it raises."""
+        """Run of the member with these values, at its start. Raises what describing or compiling raises."""
         study = self._study
         if study.stages:
             return self._in_stages(values)

@@ -169,7 +169,7 @@ class StageTime:
         return None if found is None else cls(stage=found[1].strip("\"'"), what=found[2])  # type: ignore[arg-type]
 
     def __call__(self, result: Result) -> float:
-        """Of a result; SceneError where it has no such stage."""
+        """What is kept of a result; SceneError where it has no such stage."""
         for span in result.stages:
             if span.name == self.stage:
                 return span.end - span.start if self.what == "duration" else float(getattr(span, self.what))

@@ -16,9 +16,7 @@ class Labelled:
 
     Attributes
     ----------
-    values : ndarray
-        Numbers, float64.
-    dims : tuple of str
+    values : Numbers, float64.
     coords : mapping of str to ndarray
         Numbers or texts along those dimensions that have any.
     attributes : mapping of str to str

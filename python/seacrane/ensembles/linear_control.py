@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.crane_parts import hooks
-from seacrane.ensembles.linear_motions import LinearMotions, Motion
+from seacrane.description.pick import Pick
+from seacrane.ensembles.linear_motions import LinearMotions, Motion, motion_of
 from seacrane.ensembles.members import Value
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
@@ -33,7 +34,7 @@ class _Control(ABC):
 
     @abstractmethod
     def series(self, seed: int) -> Array:
-        """Of a seed at `times`, shape (n,)."""
+        """The series of a seed at `times`, shape (n,)."""
 
     def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
         """The largest ("maximum") or smallest ("minimum") value of each seed."""
@@ -53,15 +54,12 @@ class LinearControl(_Control):
     ----------
     scene : Scene
         With a sea of one wave system, whose seed varies.
-    body : str
-    axis : str
-        "x", "y", "z" of the point, or "roll", "pitch", "yaw" of the body's rotation vector; inertial frame.
-    t_end, after, dt : float
+    channel : str or Pick
+        A motion of a body, such as "position[load, z]", "velocity[load, y]" or "heel[vessel]".
+    t_end, after, dt_out : float
         Times as of the runs, s: until when, from when on extremes are taken, and between outputs.
     point : array_like, shape (3,), optional
         Body coordinates, m; default: the centre of mass, as of the channel `position`.
-    derivative : int
-        0: motion, m or rad. 1: speed. 2: acceleration.
     words : mapping
         Other words of the sea than the seed, such as ``{"hs": 2.0}``.
     state : State, optional
@@ -77,20 +75,18 @@ class LinearControl(_Control):
     def __init__(
         self,
         scene: Scene,
+        channel: str | Pick,
         *,
-        body: str,
-        axis: str,
         t_end: float,
         after: float = 0.0,
-        dt: float = 0.1,
+        dt_out: float = 0.1,
         point: ArrayLike | None = None,
-        derivative: int = 0,
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
     ) -> None:
         self._motions = LinearMotions(
-            scene, [Motion(body=body, axis=axis, point=point, derivative=derivative)],
-            t_end=t_end, after=after, dt=dt, words=words, state=state,
+            scene, [motion_of(channel, point)],
+            t_end=t_end, after=after, dt_out=dt_out, words=words, state=state,
         )  # fmt: skip
 
     def series(self, seed: int) -> Array:
@@ -110,7 +106,7 @@ class HookLoadControl(_Control):
     ----------
     scene : Scene
         With a sea of one wave system, whose seed varies, and a load on a link.
-    t_end, after, dt, words, state
+    t_end, after, dt_out, words, state
         As of `LinearControl`.
     link : str, optional
         Joint between crane and load; default: the only one.
@@ -127,7 +123,7 @@ class HookLoadControl(_Control):
         *,
         t_end: float,
         after: float = 0.0,
-        dt: float = 0.1,
+        dt_out: float = 0.1,
         link: str | None = None,
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
@@ -138,14 +134,14 @@ class HookLoadControl(_Control):
         self._length = float(np.linalg.norm(below)) + float(joint.parameters["length"])
         self._mass, self._gravity = load.mass, scene.gravity
         motions = [
-            Motion(body=body, axis=axis, point=point, derivative=order)
+            Motion(channel=channel, body=body, axis=axis, point=point)
             for axis in ("x", "y")
-            for order in (0, 1)
+            for channel in ("position", "velocity")
             for body, point in ((joint.second, None), (joint.first, head))
         ]
-        lift = Motion(body=joint.first, axis="z", point=head, derivative=2)
+        lift = Motion(channel="acceleration", body=joint.first, axis="z", point=head)
         self._motions = LinearMotions(
-            scene, [*motions, lift], t_end=t_end, after=after, dt=dt, words=words, state=state
+            scene, [*motions, lift], t_end=t_end, after=after, dt_out=dt_out, words=words, state=state
         )
 
     def series(self, seed: int) -> Array:

@@ -12,61 +12,79 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.frequency_domain import component_forces
 from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.shown import shown
+from seacrane.inputs.frames import heading_of, rotation_about_z
 from seacrane.one_thread import one_thread
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+ANGLES = ("heel", "trim", "yaw")
+ORDERS = {  # of the derivatives that channels are
+    **dict.fromkeys(("position", *ANGLES), 0),
+    **dict.fromkeys(("velocity", "angular_velocity"), 1),
+    **dict.fromkeys(("acceleration", "angular_acceleration"), 2),
+}
 MOST_TIMES = 10**6
 
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """One coordinate of a point, or its speed (derivative 1) or acceleration (2).
+    """One coordinate of a point of a body that rests upright, or its rate of a higher order.
 
     Attributes
     ----------
-    body, axis : str
-    point : array_like or None
-        Body coordinates, m; None: the centre of mass.
-    derivative : int
+    channel : One of `ORDERS`.
+    axis : x, y or z; nothing of an angle.
+    point : Body coordinates, m; None: the centre of mass.
     """
 
+    channel: str
     body: str
-    axis: str
+    axis: str = ""
     point: ArrayLike | None = None
-    derivative: int = 0
 
     def row(self, linear: LinearModel) -> Array:
-        """Of the states of a linear model."""
-        place = self.point
-        if place is None:
-            known = linear.scene.bodies
-            place = known[self.body].center_of_mass if self.body in known else (0.0, 0.0, 0.0)
-        return np.asarray(linear.output(body=self.body, point=place)[AXES.index(self.axis)])
+        """The weights of the states of a linear model."""
+        body = linear.scene.bodies.get(self.body)
+        place = self.point if self.point is not None or body is None else body.center_of_mass
+        rows = linear.output(body=self.body, point=(0.0, 0.0, 0.0) if place is None else place)
+        if self.channel in ANGLES:
+            assert body is not None
+            turned = rotation_about_z(heading_of(body.quaternion)).T @ rows[3:]
+            return np.asarray(turned[ANGLES.index(self.channel)])
+        first = 3 if self.channel.startswith("angular") else 0
+        return np.asarray(rows[first + FIXED["axis"].index(self.axis)])
 
-    def require(self) -> None:
-        """Raise SceneError for an axis or a derivative that is none."""
-        if self.axis not in AXES:
-            raise SceneError(f"control: axis is {shown(self.axis)}; choose from {', '.join(AXES)}")
-        if self.derivative not in (0, 1, 2):
-            raise SceneError(f"control: derivative is {shown(self.derivative)}; give 0, 1 or 2")
+
+def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
+    """The motion that a text picks, at a point of its body.
+
+    Raises
+    ------
+    SceneError
+        For a channel that is no motion of a body, and one that is not a single curve.
+    """
+    pick = pick_of("control", channel)
+    if pick.channel not in ORDERS:
+        raise SceneError(f"control: {pick.channel} is no motion of a body; choose from {', '.join(ORDERS)}")
+    missing = [dim for dim in CHANNELS[pick.channel].dims_of_several[1:] if dim not in pick.names]
+    if missing or pick.parts:
+        wrong = f"name its {missing[0]}" if missing else f"give {pick.parts} beside it"
+        raise SceneError(f"control: {pick}: {wrong}, as in 'position[load, z]'")
+    return Motion(channel=pick.channel, **pick.names, point=point)
 
 
 class LinearMotions:
     """Several motions at even times, in the sea of any seed: what the constructors of controls share.
 
-    Raises
-    ------
-    SceneError
-        For a scene without a sea of one wave system, a value that makes no sense, or a vessel whose memory is
-        a convolution.
+    Raises SceneError for a scene without a sea of one wave system, a value that makes no sense, or a vessel
+    whose memory is a convolution.
     """
 
     def __init__(
@@ -76,12 +94,10 @@ class LinearMotions:
         *,
         t_end: float,
         after: float,
-        dt: float,
+        dt_out: float,
         words: Mapping[str, Value] | None,
         state: _core.State | None,
     ) -> None:
-        for motion in motions:
-            motion.require()
         self._words = dict(words or {})
         for word in self._words:
             if word not in WORDS or word == "seed":
@@ -95,11 +111,11 @@ class LinearMotions:
                 "control: the memory of a vessel is a convolution, whose start from rest the linear model "
                 "does not know; take a fitted one, such as memory='by-motion'"
             )
-        self.times = _times(t_end, after, dt)
+        self.times = _times(t_end, after, dt_out)
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
         self._resolvent = Resolvent(linear)
         self._rows = np.array([motion.row(linear) for motion in motions])
-        self._orders = [motion.derivative for motion in motions]
+        self._orders = [ORDERS[motion.channel] for motion in motions]
         self._decays = _decays(linear.a, self._rows, self._orders, self.times)
 
     def series(self, seed: int) -> Array:
@@ -116,14 +132,14 @@ class LinearMotions:
         return np.asarray(steady - self._decays @ x.sum(axis=0).real)
 
 
-def _times(t_end: Any, after: Any, dt: Any) -> Array:
+def _times(t_end: Any, after: Any, dt_out: Any) -> Array:
     end, begin, step = (
-        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt", dt))
+        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt_out", dt_out))
     )
     if not (0.0 <= begin < end and 0.0 < step <= end - begin and end / step < MOST_TIMES):
         raise SceneError(
-            f"control: t_end is {end:g} s, after {begin:g} s, dt {step:g} s; give outputs between after and "
-            f"t_end, at most {MOST_TIMES}"
+            f"control: t_end is {end:g} s, after {begin:g} s, dt_out {step:g} s; give outputs between after "
+            f"and t_end, at most {MOST_TIMES}"
         )
     times = step * np.arange(round(end / step) + 1)
     return np.asarray(times[times >= begin - 1e-9 * step])

@@ -28,8 +28,7 @@ class Members:
     ----------
     axes : mapping of str to tuple
         Values of each parameter: of a grid along its axis, of a list by member.
-    grid : bool
-        Whether all combinations are run, those of the last parameter next to each other.
+    grid : Whether all combinations are run, those of the last parameter next to each other.
     """
 
     axes: Mapping[str, tuple[Value, ...]]
@@ -59,11 +58,8 @@ class Members:
 def members_of(over: Over) -> Members:
     """The members that `over` asks for.
 
-    Raises
-    ------
-    SceneError
-        For what is no grid, list or design, values that are no numbers or texts, values given twice on an
-        axis, rows of different names, or more than a million members.
+    Raises SceneError for what is no grid, list or design, values that are no numbers or texts, values given
+    twice on an axis, rows of different names, or more than a million members.
     """
     if isinstance(over, LatinHypercube):
         return Members(axes=over.columns(), grid=False)

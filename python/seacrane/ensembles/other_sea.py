@@ -123,10 +123,7 @@ def _put(scene: Scene, body: str, hull: HullLoads, old: Waves) -> None:
 def sea_state_of(record: Mapping[str, Any], seed: Any) -> SeaState:
     """What `SeaState.description` tells, with a seed.
 
-    Raises
-    ------
-    SceneError
-        For a measured record, or a spectrum that its parts do not tell.
+    Raises SceneError for a measured record, or a spectrum that its parts do not tell.
     """
     return SeaState(
         systems=[_system(system) for system in record["systems"]],

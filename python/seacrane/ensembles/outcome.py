@@ -14,13 +14,10 @@ class Outcome:
 
     Attributes
     ----------
-    index : int
     kept : mapping of str to Labelled
         Empty where it failed.
-    failure : str
-        Why it failed; empty where it did not.
-    validity : str
-        What was out of range in its run, as of a result's stats.
+    failure : Why it failed; empty where it did not.
+    validity : What was out of range in its run, as of a result's stats.
     kept_apart : str
         Why it was stepped by itself where others were to be stepped beside it; empty where it was not.
     """

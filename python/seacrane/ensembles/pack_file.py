@@ -25,10 +25,7 @@ def write_pack(path: Path, outcomes: list[Outcome]) -> None:
 
     Members that lie alike share a group: as a rule there is one.
 
-    Raises
-    ------
-    OSError
-        If it cannot be written; it names the file, the cause and the space left.
+    Raises OSError if it cannot be written; it names the file, the cause and the space left.
     """
     import netCDF4
 

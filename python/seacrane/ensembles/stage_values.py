@@ -38,7 +38,7 @@ def scene_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def stage_paths(stages: Stages) -> list[str]:
-    """Of every number of the stages; of stages that a function tells none is known before it is called."""
+    """Paths of every number of the stages; those of a function's stages are known once it is called."""
     if callable(stages):
         return [START_TIME]
     return [START_TIME] * bool(stages) + [path for stage in stages for path, _ in _places(stage)]

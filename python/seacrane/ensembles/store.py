@@ -37,10 +37,10 @@ class Store(Protocol):
         """Take a pack."""
 
     def of(self, pack: int) -> list[Outcome]:
-        """Of one pack that is there."""
+        """The outcomes of one pack that is there."""
 
     def outcomes(self) -> Iterator[Outcome]:
-        """Of all packs that are there, in order."""
+        """The outcomes of all packs that are there, in order."""
 
     def dataset(self, members: Members) -> xarray.Dataset:
         """All that is there, over these members."""

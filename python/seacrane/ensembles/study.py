@@ -36,20 +36,16 @@ class Study:
     Attributes
     ----------
     source : Scene or callable
-    t_end : float
-        s.
+    t_end : s.
     method, outputs
         Of every run.
-    keep : mapping
-        What is kept of each, by name.
+    keep : What is kept of each, by name.
     start : State or callable, optional
         Where every run begins, or a function of its scene that tells it; default: its assembled start.
-    lanes : int
-        Runs that are stepped side by side, by the number of the member; 1: none.
+    lanes : Runs that are stepped side by side, by the number of the member; 1: none.
     stages : sequence of Stage, or callable
         Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
-    start_times : tuple of float
-        At which lifts in stages begin, where that varies, s, ascending.
+    start_times : At which lifts in stages begin, where that varies, s, ascending.
     """
 
     source: Source
@@ -72,7 +68,7 @@ class Study:
             require_same_sea(self.source, words)
 
     def parts(self, values: Values) -> tuple[Values, Values]:
-        """Of the values of a member, words of the sea and the others."""
+        """From the values of a member, words of the sea and the others."""
         sea = {name: value for name, value in values.items() if name in WORDS}
         return sea, {name: value for name, value in values.items() if name not in WORDS}
 
@@ -88,7 +84,7 @@ class Study:
         return made
 
     def stages_of(self, scene: Scene, values: Values) -> list[Stage]:
-        """Of a member, its stages with their own values."""
+        """A member's stages with their own values."""
         given = self.stages(scene) if callable(self.stages) else self.stages
         return with_stage_values(given, values)
 

@@ -41,10 +41,8 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
 
     Parameters
     ----------
-    path : path
-        Its parent must exist.
-    study : mapping
-        Plain data: "identity", and what is needed to read the folder later.
+    path : Its parent must exist.
+    study : Plain data: "identity", and what is needed to read the folder later.
 
     Raises
     ------

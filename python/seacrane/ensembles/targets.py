@@ -30,18 +30,12 @@ class Target:
 
     Attributes
     ----------
-    variable : str
-        Name of what is kept.
-    number : str
-        "mpm", "mean" or "p90" of largest or smallest values, else "mean".
-    half_width : float
-        Of the 95 % interval, as a share of the dynamic part.
-    sign : float
-        1, or -1 for smallest values.
-    gumbel : bool
-        Whether values are extremes; else their mean is asked for.
-    static : str or None
-        What is kept for the static part; None: zero.
+    variable : Name of what is kept.
+    number : "mpm", "mean" or "p90" of largest or smallest values, else "mean".
+    half_width : Of the 95 % interval, as a share of the dynamic part.
+    sign : 1, or -1 for smallest values.
+    gumbel : Whether values are extremes; else their mean is asked for.
+    static : What is kept for the static part; None: zero.
     """
 
     variable: str
@@ -87,7 +81,7 @@ class Target:
 
     @property
     def _share(self) -> float:
-        """Of values that are smaller than the statistic: by Gumbel's distribution, or a symmetric one."""
+        """Share of values below the statistic, by Gumbel's distribution or a symmetric one."""
         return float(np.exp(-np.exp(-REDUCED[self.number]))) if self.gumbel else 0.5
 
     def length(self, values: Array, share: float) -> float:

@@ -37,8 +37,7 @@ def chunks_of(
 
     Parameters
     ----------
-    folder : Path
-        Of the group.
+    folder : Of the group.
     dims : mapping of str to int
         Number of own dimensions of each variable, each of one chunk.
     indices, shape
@@ -80,10 +79,7 @@ def mark_text(indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]]) -> 
 def read_mark(path: Path) -> tuple[list[int], dict[str, list[Noted]] | None]:
     """Members of a pack, and what it left of each; None in a mark that tells no chunks.
 
-    Raises
-    ------
-    FileFormatError
-        If it is no mark.
+    Raises FileFormatError if it is no mark.
     """
     found = json_of(read_whole(path, LARGEST_MARK, "no mark of a pack is"), str(path))
     members = found.get("members") if isinstance(found, dict) else found

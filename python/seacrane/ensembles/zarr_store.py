@@ -70,10 +70,7 @@ class ZarrStore:
     holding : callable
         The members that there are room for, once one of this number is to be kept.
 
-    Raises
-    ------
-    SceneError
-        Where Zarr is not installed.
+    Raises SceneError where Zarr is not installed.
     """
 
     def __init__(self, path: Path, holding: Callable[[int], Members]) -> None:
@@ -126,10 +123,7 @@ class ZarrStore:
     def dataset(self, members: Members) -> xarray.Dataset:
         """What is there, read as it is asked for; members of which a chunk is missing are failures.
 
-        Raises
-        ------
-        FileFormatError
-            For what is damaged or none of ours.
+        Raises FileFormatError for what is damaged or none of ours.
         """
         import xarray
 
@@ -419,9 +413,7 @@ def require_bounded(group: Any, over: int) -> None:
 
     Parameters
     ----------
-    group : zarr.Group
-    over : int
-        Number of dimensions of the ensemble.
+    over : Number of dimensions of the ensemble.
 
     Raises
     ------
@@ -440,9 +432,7 @@ def require_arrays(group: Any, members: Members, first: Mapping[str, Labelled]) 
 
     Parameters
     ----------
-    group : zarr.Group
-    members : Members
-        That there is room for.
+    members : That there is room for.
     first : mapping of str to Labelled
         How arrays lie.
 

@@ -19,11 +19,8 @@ def atomic_write(path: Path, *, tidy: bool = True) -> Iterator[Path]:
     Where `path` is a link, the file that it names is replaced, not the link. What processes that were killed
     left of the same file is removed, but where `tidy` is False.
 
-    Raises
-    ------
-    OSError
-        Naming the target, the cause and the space left, if the draft cannot be written, or if what has the
-        name is a folder, a device or write-protected.
+    Raises OSError naming the target, the cause and the space left, if the draft cannot be written, or if what
+    has the name is a folder, a device or write-protected.
     """
     target = path.resolve()
     draft = draft_of(target)

@@ -13,17 +13,12 @@ def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
 
     Parameters
     ----------
-    path : Path
-        Target; nothing need be there.
+    path : Target; nothing need be there.
     overwrite : bool or None
         None: only a file in whose first kB the mark stands is replaced. True: any. False: none.
-    mark : str
-        What files of this kind begin with.
+    mark : What files of this kind begin with.
 
-    Raises
-    ------
-    FileExistsError
-        If there is a file that is to stay.
+    Raises FileExistsError if there is a file that is to stay.
     """
     if overwrite or not path.exists():
         return

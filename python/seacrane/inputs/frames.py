@@ -46,7 +46,7 @@ def rotation_about_z(angle: float) -> Array:
 
 
 def quaternion_product(first: Any, second: Any) -> Array:
-    """Of the rotation `second` followed by `first`, (4,), scalar first."""
+    """The quaternion of the rotation `second` followed by `first`, (4,), scalar first."""
     (w, *u), (p, *v) = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     return np.array([w * p - np.dot(u, v), *(w * np.array(v) + p * np.array(u) + np.cross(u, v))])
 

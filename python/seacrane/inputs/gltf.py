@@ -41,12 +41,7 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
     ----------
     path : path-like
         .glb, or .gltf with its buffers inside.
-    most : int
-        Triangles that it may have.
-
-    Returns
-    -------
-    (n, 3, 3) triangle, vertex, xyz.
+    most : Triangles that it may have.
 
     Raises
     ------
@@ -116,7 +111,7 @@ class _Model:
             raise FileFormatError(f"{source}: needs the extension {names}; export it without compression")
 
     def triangles(self, most: int) -> FloatArray:
-        """Of all nodes of the scene, z up; of all meshes where there is no scene."""
+        """The triangles of all nodes of the scene, z up; of all meshes where there is no scene."""
         found: list[FloatArray] = []
         count = 0
         for mesh, turn in self._instances():
@@ -160,7 +155,7 @@ class _Model:
             yield from self._below(child.whole(), turn, deep - 1)
 
     def _matrix(self, node: Node) -> FloatArray:
-        """Of a node over its parent."""
+        """The matrix of a node over its parent."""
         if "matrix" in node.value:
             return node.at("matrix").array((16,)).reshape(4, 4).T
         turn = np.eye(4)

@@ -18,16 +18,12 @@ def json_of(data: bytes, place: str, **hooks: Any) -> Any:
 
     Parameters
     ----------
-    data : bytes
-    place : str
-        Where they are, for messages.
+    place : Where they are, for messages.
     **hooks
         Of `json.loads`; what they raise as ValueError is told.
 
-    Raises
-    ------
-    FileFormatError
-        With line and column for what is no JSON; for what is nested too deeply, or is nothing but brackets.
+    Raises FileFormatError with line and column for what is no JSON; for what is nested too deeply, or is
+    nothing but brackets.
     """
     taken = LIST * data.count(b"[") + OBJECT * data.count(b"{") + TEXT * data.count(b'"') // 2
     if taken > LOOSEST * len(data) + SMALL:

@@ -24,12 +24,10 @@ def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARG
 
     Parameters
     ----------
-    path : Path
     largest : int
         Bytes that all arrays together may take in memory: a compressed or unwritten array takes a few bytes
         in the file, whatever size it is of.
-    fix : str
-        What the message asks for where they take more.
+    fix : What the message asks for where they take more.
 
     Raises
     ------

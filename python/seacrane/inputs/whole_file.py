@@ -16,11 +16,8 @@ def read_whole(path: Path, largest: int = LARGEST_TABLE, fix: str = "export less
 
     Parameters
     ----------
-    path : Path
-    largest : int
-        Bytes that a file of this kind may have.
-    fix : str
-        What the message asks for where it has more.
+    largest : Bytes that a file of this kind may have.
+    fix : What the message asks for where it has more.
 
     Raises
     ------

@@ -203,15 +203,11 @@ def feed_forward_of(
 
     Parameters
     ----------
-    scene : Scene
-    start : Balance or None
-        Of the scene, where it is known.
+    start : Of the scene, where it is known.
     references : mapping of str to Curve
         By command.
-    settings : mapping
-        Keywords of [control].
-    at_rest : callable
-        Makes the scene without waves and fluid memory.
+    settings : Keywords of [control].
+    at_rest : Makes the scene without waves and fluid memory.
     """
     kind = settings.get("feed_forward", "references")
     if kind != "references":

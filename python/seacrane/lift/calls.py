@@ -50,17 +50,11 @@ def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None
 
     Parameters
     ----------
-    keys : iterable of Key
-        That the table may have.
-    values : mapping
-        By spelling.
-    scene : Scene, optional
-        Whose joints decide between the units of a displacement and of an angle.
+    keys : That the table may have.
+    values : By spelling.
+    scene : Whose joints decide between the units of a displacement and of an angle.
 
-    Raises
-    ------
-    SceneError
-        For a unit that the joint's coordinate has not, or a value that makes no sense.
+    Raises SceneError for a unit that the joint's coordinate has not, or a value that makes no sense.
     """
     found = {}
     for key in keys:
@@ -122,7 +116,7 @@ def require_unit_of_channel(
 
 
 def _unit_of_own(scene: Scene, channel: str, names: Mapping[str, str]) -> str:
-    """Of a channel of one's own, which its expression says; no text for others."""
+    """The unit of a channel of one's own, which its expression says; no text for others."""
     if channel.partition("[")[0].strip() != OWN:
         return ""
     name = pick_of("limit state", channel, names).names.get("expression", "")

@@ -53,10 +53,7 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
 
     Paths of files become absolute, from `folder`.
 
-    Raises
-    ------
-    FileFormatError
-        With file, line, key and the nearest name.
+    Raises FileFormatError with file, line, key and the nearest name.
     """
     document.require_version()
     checker = Checker(document, folder, LIFT_KEYS)
@@ -70,7 +67,7 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
 
 
 def _entries(checker: Checker, table: Table) -> Iterable[Entry]:
-    """Of a table, and of those that were called otherwise."""
+    """The entries of a table, and of those that were called otherwise."""
     older = {old: more for old, (new, more) in LIFT_TABLES.items() if new == table.name}
     names: dict[str, dict[str, Any]] = {table.name: {}, **older}
     for name, more in names.items():
@@ -97,12 +94,8 @@ class Checker:
 
     Attributes
     ----------
-    document : Document
-    folder : Path
-    renamed : mapping
-        Keys that were called otherwise, by table.
-    older : dict
-        Those that were found, with what they are now.
+    renamed : Keys that were called otherwise, by table.
+    older : Those that were found, with what they are now.
     """
 
     document: Document
@@ -259,7 +252,7 @@ def _chosen(node: Node, key: Key) -> str:
 
 
 def _array(node: Node, key: Key) -> Any:
-    """Of the shape that fits; lists become tuples, so that what is checked stays as it is."""
+    """An array of the shape that fits; lists become tuples, so that what is checked stays as it is."""
     shapes = [shape for shape in key.shapes if _deep(node.value) == len(shape)] or key.shapes
     array = node.array(shapes[0])
     return _fixed(array.tolist())

@@ -25,13 +25,9 @@ def curve_from(given: Any, unit: str) -> float | Curve:
     ----------
     given : float, mapping, or tuple of mapping
         Checked.
-    unit : str
-        Of its values.
+    unit : Of its values.
 
-    Raises
-    ------
-    SceneError
-        For a curve that makes no sense.
+    Raises SceneError for a curve that makes no sense.
     """
     scale = into_si(unit)
     if isinstance(given, float):

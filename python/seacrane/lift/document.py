@@ -44,13 +44,9 @@ class Document:
 
     Attributes
     ----------
-    source : str
-        Name of the file, as messages give it.
-    data : mapping
-    lines : mapping
-        Line by path; empty where the tables come from no file.
-    told : bool
-        Whether its old keys have been told.
+    source : Name of the file, as messages give it.
+    lines : Line by path; empty where the tables come from no file.
+    told : Whether its old keys have been told.
     """
 
     source: str

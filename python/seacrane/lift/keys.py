@@ -31,23 +31,15 @@ class Key:
 
     Attributes
     ----------
-    name : str
-        The keyword.
-    type : str
-        text, texts, number, whole, flag, array, curve, file, table, tables, names or notes.
-    unit : str
-        As in `FIELDS` of the core's classes.
+    name : The keyword.
+    type : text, texts, number, whole, flag, array, curve, file, table, tables, names or notes.
+    unit : As in `FIELDS` of the core's classes.
     shapes : tuple of tuple of int
         That an array may have; -1: any length.
-    required : bool
-    text : str
-        What it is, for people.
-    choices : tuple of str
-        The texts that it may be; of a number, those that stand for one.
-    bounds : mapping of str to float
-        What its numbers must be, in the words of JSON Schema and in `unit`.
-    keys : tuple of Key
-        Of a table, or of each table in a list.
+    text : What it is, for people.
+    choices : The texts that it may be; of a number, those that stand for one.
+    bounds : What its numbers must be, in the words of JSON Schema and in `unit`.
+    keys : Of a table, or of each table in a list.
     """
 
     name: str
@@ -103,16 +95,14 @@ def keys_of(
 
     Parameters
     ----------
-    call : callable
-        A function or a dataclass; types come from its signature.
+    call : A function or a dataclass; types come from its signature.
     *classes : type
         Of the core, whose FIELDS give type, shape, unit and text of the keywords of the same name.
     more : mapping of str to mapping, optional
         Attributes of `Key` by keyword, which neither knows.
     without, only : collection of str
         Keywords that a file does not hold, or those that it holds.
-    described : callable, optional
-        Whose docstring says what the keywords are; default: `call`.
+    described : Whose docstring says what the keywords are; default: `call`.
     """
     fields = {field.name: field for kind in classes for field in kind.FIELDS}  # type: ignore[attr-defined]
     texts = parameter_texts(call if described is None else described)

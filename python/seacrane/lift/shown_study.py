@@ -42,16 +42,11 @@ class Cell:
 
     Attributes
     ----------
-    parameters : mapping
-        All but the seed.
-    failed : int
-        Seeds that failed: intervals would not hold for them.
-    values : ndarray, shape (k,)
-        Of the seeds, or of the one member; without those that failed or were not run.
-    sign : float
-        -1 for smallest values.
-    extremes : SeedExtremes or None
-        Of the values times the sign, where they are extremes of several seeds.
+    parameters : All but the seed.
+    failed : Seeds that failed: intervals would not hold for them.
+    values : (k,) Of the seeds, or of the one member; without those that failed or were not run.
+    sign : -1 for smallest values.
+    extremes : Of the values times the sign, where they are extremes of several seeds.
     """
 
     parameters: Mapping[str, Value]
@@ -85,13 +80,9 @@ class Told:
 
     Attributes
     ----------
-    name, unit, what : str
-        `what` is a sentence.
-    over_seeds : bool
-        Whether cells hold seeds.
-    exposure : float or None
-        Of extremes, s; None: of one lift in stages.
-    cells : tuple of Cell
+    name, unit, what : `what` is a sentence.
+    over_seeds : Whether cells hold seeds.
+    exposure : Of extremes, s; None: of one lift in stages.
     """
 
     name: str
@@ -145,13 +136,9 @@ class ShownStudy:
     ----------
     members, failed, not_run : int
         How many there are; with `until` so far, and those not run may not be needed.
-    tables : tuple of Told
-    not_told : tuple of str
-        What is kept and is no single number.
-    failures : tuple of str
-        Why members failed, each reason once.
-    certainty : tuple of Certainty
-        Of the statistics that `until` names.
+    not_told : What is kept and is no single number.
+    failures : Why members failed, each reason once.
+    certainty : Of the statistics that `until` names.
     """
 
     members: int
@@ -277,7 +264,7 @@ def _finite(values: Array) -> Array:
 
 
 def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExtremes | None:
-    """Of largest values; None for too few."""
+    """Statistics of largest values; None for too few."""
     if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
         return None
     with warnings.catch_warnings():

@@ -33,10 +33,7 @@ OF_LOADS = {
 def stages_of(document: Document, entries: Iterable[Entry]) -> tuple[Stage, ...]:
     """The stages, as far as they make sense by themselves.
 
-    Raises
-    ------
-    FileFormatError
-        With the line of the table.
+    Raises FileFormatError with the line of the table.
     """
     made = []
     for entry in _tables(entries):

@@ -40,11 +40,9 @@ class StudyFile:
 
     Attributes
     ----------
-    members : Members
     keep : mapping of str to Kept or StageTime
     until : mapping of str to float, or None
-    exposure : float or None
-        Of largest values, s; None: the length of a run.
+    exposure : Of largest values, s; None: the length of a run.
     accuracy : mapping of str to float, or None
         Largest error by quantity.
     """
@@ -92,10 +90,7 @@ class StudyFile:
     def lift(self) -> Lift:
         """The lift.
 
-        Raises
-        ------
-        FileFormatError
-            With the line of what is wrong in it.
+        Raises FileFormatError with the line of what is wrong in it.
         """
         return lift_of(*self._lift_document())
 

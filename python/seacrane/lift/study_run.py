@@ -34,13 +34,10 @@ def run_study(
 
     Parameters
     ----------
-    path : path
-        Of the study file.
-    folder : path
-        Made if absent. It will hold a copy of the file, and the members as they come.
+    path : Of the study file.
+    folder : Made if absent. It will hold a copy of the file, and the members as they come.
     executor : concurrent.futures.Executor, optional
-    progress : bool
-        Show a bar with the time left.
+    progress : Show a bar with the time left.
 
     Raises
     ------

@@ -90,12 +90,8 @@ class Table:
 
     Attributes
     ----------
-    name : str
-    text : str
-        What it is, for people.
-    keys : tuple of Key
-    several : bool
-        Whether there may be more than one, each as ``[[name]]``.
+    text : What it is, for people.
+    several : Whether there may be more than one, each as ``[[name]]``.
     add : callable, optional
         What is called with the scene and the keywords; default: the table needs more than one call.
     """
@@ -121,7 +117,7 @@ READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # 
 
 
 def _vessel_keys() -> tuple[Key, ...]:
-    """Of `add_vessel` with a database, and of reading that."""
+    """The keys of `add_vessel` with a database, and of reading that."""
     mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
     matrix = "Stiffness of the mooring about the reference point, vessel's axes."
     keys = keys_of(
@@ -146,7 +142,7 @@ def _vessel_keys() -> tuple[Key, ...]:
 
 
 def _given_vessel_keys() -> tuple[Key, ...]:
-    """Of `add_given_vessel`, whose motion is one of four keys."""
+    """The keys of `add_given_vessel`, whose motion is one of four keys."""
     motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
     history = keys_of(
         MotionHistory,
@@ -176,7 +172,7 @@ def _given_vessel_keys() -> tuple[Key, ...]:
 
 
 def _rao_keys() -> tuple[Key, ...]:
-    """Of `MotionRaos`, whose values are written heading by heading."""
+    """The keys of `MotionRaos`, whose values are written heading by heading."""
     columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
     at_heading = (
         Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
@@ -195,7 +191,7 @@ def _rao_keys() -> tuple[Key, ...]:
 
 
 def _joint_keys() -> tuple[Key, ...]:
-    """Of `add_joint`, and the parameters of all kinds of joints."""
+    """The keys of `add_joint`, and the parameters of all kinds of joints."""
     frame = {"type": "table", "keys": fields_of(_core.Frame)}
     places = {key: POINT for key in ("point", "second_point")} | {
         key: DIRECTION for key in ("axis", "second_axis")
@@ -385,7 +381,7 @@ _ALL = (
     ),
     _call(
         "slack_tank", slack_tank.add_slack_tank,
-        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, body={"type": "text"},
+        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, vessel={"type": "text"},
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=_sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),

@@ -34,8 +34,7 @@ def lines_of(text: str) -> dict[Place, int]:
 
     Parameters
     ----------
-    text : str
-        A TOML document that `tomllib` has read without an error.
+    text : A TOML document that `tomllib` has read without an error.
 
     Returns
     -------
@@ -75,7 +74,7 @@ class _Scanner:
         return self.now.kind == "mark" and self.now.text in marks
 
     def _header(self) -> Place:
-        """Of a table, or of one more in a list of tables."""
+        """The header of a table, or of one more in a list of tables."""
         line = self._pass().line
         several = self._is("[")
         if several:

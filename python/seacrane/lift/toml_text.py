@@ -17,10 +17,7 @@ WHOLE = 1e15  # numbers below are written without a point where they have no fra
 def toml_text(tables: Mapping[str, Any]) -> str:
     """Format, version, then the tables.
 
-    Raises
-    ------
-    SceneError
-        For a value that TOML has no word for.
+    Raises SceneError for a value that TOML has no word for.
     """
     lines = [f'format = "{FORMAT}"', f"version = {VERSION}"]
     for name, given in tables.items():

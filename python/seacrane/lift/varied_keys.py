@@ -89,8 +89,7 @@ class LiftScenes:
 
     Attributes
     ----------
-    tables : mapping
-        Of the lift.
+    tables : Of the lift.
     places : mapping of str to KeyPlace
         Of its keys that vary.
     """

@@ -414,12 +414,7 @@ def _bar(what: str, total: int, wanted: bool) -> Iterator[Callable[[int], Any]]:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SteadyStart:
-    """The steady response of a linear model to the waves of a scene, at the time of its state at rest.
-
-    Attributes
-    ----------
-    model : LinearModel
-    """
+    """The steady response of a linear model to the waves of a scene, at the time of its state at rest."""
 
     model: LinearModel
 

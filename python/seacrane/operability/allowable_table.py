@@ -233,12 +233,9 @@ def over_circle(directions: Array, values: Array, asked: Array) -> Array:
 
     Parameters
     ----------
-    directions : ndarray, shape (k,)
-        Ascending, over less than a circle, degrees.
-    values : ndarray, shape (k, ...)
-        One for each direction and each of `asked`.
-    asked : ndarray, shape (...)
-        Degrees; 370 is 10.
+    directions : (k,) Ascending, over less than a circle, degrees.
+    values : (k, ...) One for each direction and each of `asked`.
+    asked : (...) Degrees; 370 is 10.
 
     Returns
     -------

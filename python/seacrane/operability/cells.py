@@ -22,19 +22,14 @@ class Cells:
 
     Attributes
     ----------
-    criteria : tuple of Criterion
-    tp, directions : tuple of float
-        s, and degrees.
-    largest : float
-        Hs up to which was looked, m.
+    tp, directions : s, and degrees.
+    largest : Hs up to which was looked, m.
     by_criterion, low, high : ndarray, shape (criteria, periods, directions)
         Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
     difference : ndarray, shape (criteria, periods, directions)
         Between run and linear model, over the allowance; NaN where it was not tested.
-    domain, reason : ndarray of str, shape (periods, directions)
-    energy_share : ndarray, shape (periods,)
-        Of the waves, within the database.
-    linear : LinearSeas or None
+    domain, reason : (periods, directions)
+    energy_share : (periods,) Of the waves, within the database.
     """
 
     criteria: tuple[Criterion, ...]

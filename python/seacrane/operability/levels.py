@@ -27,9 +27,7 @@ def gaussian_level(criterion: Criterion, moments: Array) -> float:
 
     Parameters
     ----------
-    criterion : Criterion
-    moments : ndarray, shape (3,)
-        m0, m1, m2 over frequency in rad/s.
+    moments : (3,) m0, m1, m2 over frequency in rad/s.
     """
     if criterion.statistic == "significant":
         return 2.0
@@ -53,13 +51,10 @@ class RecordNumbers:
 
     Attributes
     ----------
-    channel : str
     names : mapping of str to str
         Names along its dimensions.
-    after : float
-        s: earlier outputs are left out.
-    stage : str
-        Of a lift in stages: the outputs of this one alone.
+    after : s: earlier outputs are left out.
+    stage : Of a lift in stages: the outputs of this one alone.
     """
 
     channel: str
@@ -99,10 +94,7 @@ def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
 
     Parameters
     ----------
-    criterion : Criterion
-    numbers : ndarray, shape (..., 4)
-        `record_numbers` of each record.
-    rest : float
+    numbers : (..., 4) `record_numbers` of each record.
     """
     first = 2 if criterion.statistic == "significant" else 0
     sides = [
@@ -117,11 +109,8 @@ def seeds_level(criterion: Criterion, values: Array, duration: float | None) -> 
 
     Parameters
     ----------
-    criterion : Criterion
-    values : ndarray, shape (n,)
-        `reached` of each, NaN where a seed failed.
-    duration : float or None
-        Of each record, s; None: each is one lift, and so is what is asked for.
+    values : (n,) `reached` of each, NaN where a seed failed.
+    duration : Of each record, s; None: each is one lift, and so is what is asked for.
 
     Returns
     -------

@@ -31,13 +31,9 @@ class LinearChannels:
 
     Attributes
     ----------
-    model : LinearModel
-    rest : ndarray, shape (m,)
-        Values at rest, in the units of the channels.
-    c : ndarray, shape (m, n)
-        Per x of the model.
-    d : ndarray, shape (m, 6)
-        Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
+    rest : (m,) Values at rest, in the units of the channels.
+    c : (m, n) Per x of the model.
+    d : (m, 6) Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
     """
 
     model: LinearModel
@@ -57,10 +53,8 @@ class LinearChannels:
 def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> LinearChannels:
     """The channels of criteria, by differences of what a run records where it begins.
 
-    Raises
-    ------
-    SceneError
-        For a channel or a name that the scene does not have, memory by frequency, or a model without vessel.
+    Raises SceneError for a channel or a name that the scene does not have, memory by frequency, or a model
+    without vessel.
     """
     if model.memories:
         raise SceneError(

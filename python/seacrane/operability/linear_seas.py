@@ -37,10 +37,7 @@ class LinearSeas:
         At rest.
     criteria : sequence of Criterion
 
-    Raises
-    ------
-    SceneError
-        Where the scene has no linear model, or its spectrum changes shape with Hs.
+    Raises SceneError where the scene has no linear model, or its spectrum changes shape with Hs.
     """
 
     def __init__(self, scene: Scene, state: _core.State, criteria: Sequence[Criterion]) -> None:

@@ -43,11 +43,7 @@ class Probe:
 
     Attributes
     ----------
-    scene : Scene
-    start : State
-    t_end : float
-        s.
-    criteria : tuple of Criterion
+    t_end : s.
     method, outputs
         Of the run.
     """
@@ -80,12 +76,8 @@ class Prober:
 
     Attributes
     ----------
-    scene : Scene
-        Its references held.
-    linear : LinearSeas
-    criteria : tuple of Criterion
-    start, duration : float
-        s.
+    scene : Its references held.
+    start, duration : s.
     method, outputs
         Of the runs.
     """

@@ -46,22 +46,14 @@ class Storms:
 
     Attributes
     ----------
-    scene : Scene
-        Its references held, with its sea.
-    begin : float
-        Time of the state at rest, s.
+    scene : Its references held, with its sea.
+    begin : Time of the state at rest, s.
     start : State or SteadyStart
         Where runs begin.
-    start_up : float
-        Left out, s.
-    duration : float or None
-        Evaluated, s; None of lifts in stages, each of which is one.
-    hs : tuple of float
-        m, ascending.
-    seeds : tuple of int
-    criteria : tuple of Criterion
-    rest : ndarray
-        Value of each at rest.
+    start_up : Left out, s.
+    duration : Evaluated, s; None of lifts in stages, each of which is one.
+    hs : m, ascending.
+    rest : Value of each at rest.
     method, outputs
         Of the runs.
     stages

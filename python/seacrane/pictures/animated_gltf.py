@@ -40,10 +40,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
     The sea is left out.
 
-    Raises
-    ------
-    SceneError
-        For a run too long for one file.
+    Raises SceneError for a run too long for one file.
     """
     model = _Model(drawing)
     model.bodies()
@@ -178,7 +175,7 @@ def _xyzw(quaternion: Array) -> Array:
 
 
 def _linear(value: float) -> float:
-    """Of sRGB."""
+    """Linear colours of sRGB ones."""
     return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 6)
 
 
@@ -202,7 +199,7 @@ def _shortest(start: Array, ends: Array) -> Array:
 
 
 def _product(p: Array, q: Array) -> Array:
-    """Of quaternions (n, 4) with one (4,), which turns first."""
+    """Products of quaternions (n, 4) with one (4,), which turns first."""
     v, w = p[:, :3], p[:, 3:]
     vector = w * q[:3] + q[3] * v + np.cross(v, q[:3])
     return np.column_stack([vector, w[:, 0] * q[3] - v @ q[:3]])
@@ -221,11 +218,8 @@ class Glb:
 
         Parameters
         ----------
-        values : array_like
-        target : int, optional
-            VERTICES or INDICES.
-        bounds : bool
-            Whether to tell the lowest and highest, as glTF demands of positions and times.
+        target : VERTICES or INDICES.
+        bounds : Whether to tell the lowest and highest, as glTF demands of positions and times.
         """
         array = np.asarray(values)
         whole = array.dtype.kind in "iu"

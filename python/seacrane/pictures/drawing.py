@@ -37,11 +37,7 @@ class Drawing:
 
     Attributes
     ----------
-    title : str
-    scene : Description
-    result : Result or None
-        None: bodies stand at their assembled start.
-    motion : Motion
+    result : None: bodies stand at their assembled start.
     looks : mapping of str to Look
         By body, in the order of the motion.
     """
@@ -119,7 +115,7 @@ class Drawing:
         return 0.002 * self.radius
 
     def radius_of(self, wire: Mapping[str, Any]) -> float:
-        """Of a wire as drawn, m."""
+        """The radius of a wire as drawn, m."""
         return max(self.wire_radius, float(wire["radius"]))
 
     def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:

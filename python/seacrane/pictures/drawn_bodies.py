@@ -52,16 +52,13 @@ COLOURS = {
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Look:
-    """Of one body.
+    """The looks of one body.
 
     Attributes
     ----------
-    role : str
-        "vessel", "payload", "crane" or "body".
-    shapes : list of Shape
-        Relative to the centre of mass, body axes, m.
-    note : str
-        What the shapes stand for, where they are no more than that.
+    role : "vessel", "payload", "crane" or "body".
+    shapes : Relative to the centre of mass, body axes, m.
+    note : What the shapes stand for, where they are no more than that.
     """
 
     role: str
@@ -79,10 +76,7 @@ def looks(
 ) -> dict[str, Look]:
     """The look of every body, by name.
 
-    Raises
-    ------
-    SceneError
-        For a hull that is none, or of a body that is no vessel.
+    Raises SceneError for a hull that is none, or of a body that is no vessel.
     """
     floating = floating_bodies(scene)
     given = _checked_hulls(hulls or {}, floating)
@@ -106,7 +100,7 @@ def looks(
 
 
 def _on_lines(scene: Description, holding: Set[str]) -> Iterator[str]:
-    """Of each elastic line the last body on its path that is none of those that hold lines."""
+    """For each elastic line the last body on its path that is none of those that hold lines."""
     for line in lines_of(scene.loads).values():
         free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
         yield from free[-1:]

@@ -72,15 +72,10 @@ def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> 
 
     Parameters
     ----------
-    time, values : ndarray, shape (n,)
-        s, and any unit.
-    period, start : float
-        s; at least two periods must follow the start.
+    time, values : (n,) s, and any unit.
+    period, start : s; at least two periods must follow the start.
 
-    Raises
-    ------
-    ValueError
-        If fewer than two periods follow the start.
+    Raises ValueError if fewer than two periods follow the start.
     """
     late = time >= start
     if not late.any() or time[-1] - time[late][0] < 2 * period:

@@ -19,31 +19,31 @@ LEVEL = 1e-6  # of the length: edges that near to the waterline lie on it
 STATIONS = 40
 
 
-def hull_shape(hull: Hull, deck: float, centre_of_mass: Array) -> HullShape:
+def hull_shape(hull: Hull, deck: float, center_of_mass: Array) -> HullShape:
     """The panels of a hull (body axes from the body's origin) and topsides straight up to a deck at height
     `deck`, m."""
     panels = np.asarray(hull.panels)
     triangles = np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]])
     x, half = _waterline(panels)
-    soup = np.concatenate([triangles, _topsides(x, half, deck)]) - centre_of_mass
-    return _shape(soup, -float(centre_of_mass[2]))
+    soup = np.concatenate([triangles, _topsides(x, half, deck)]) - center_of_mass
+    return _shape(soup, -float(center_of_mass[2]))
 
 
-def schematic_hull(mass: float, inertia: Array, deck: float | None, centre_of_mass: Array) -> HullShape:
+def schematic_hull(mass: float, inertia: Array, deck: float | None, center_of_mass: Array) -> HullShape:
     """A box with a bow whose length and breadth have the usual ratio to the radii of gyration, and whose
     draught displaces the mass; the deck at height `deck`, m, or half a draught above the water."""
-    return box_hull(*schematic_size(mass, inertia), deck, centre_of_mass)
+    return box_hull(*schematic_size(mass, inertia), deck, center_of_mass)
 
 
 def box_hull(
-    length: float, breadth: float, draught: float, deck: float | None, centre_of_mass: Array
+    length: float, breadth: float, draught: float, deck: float | None, center_of_mass: Array
 ) -> HullShape:
     """A box with a bow, of that size in m; the deck at height `deck`, m, or half a draught above water."""
     deck = 0.5 * draught if deck is None else deck
     x = length * np.concatenate([[-0.5], np.linspace(0.5 - BOW, 0.5, 8)])
     half = 0.5 * breadth * np.concatenate([[1.0], 1.0 - np.linspace(0.0, 1.0, 8) ** 2])
     soup = np.concatenate([_topsides(x, half, deck), _sides(x, half, -draught, 0.0), _lid(x, half, -draught)])
-    return _shape(soup - centre_of_mass, -float(centre_of_mass[2]))
+    return _shape(soup - center_of_mass, -float(center_of_mass[2]))
 
 
 def schematic_size(mass: float, inertia: Array) -> tuple[float, float, float]:

@@ -24,11 +24,10 @@ WIRES = {
 }
 SLACK = "#e0701a"
 TRACKS = {"tip": "#ffffff", "payload": "#ffe14d"}
-SKY = "#dfeaf2"
 
 
 def body_colour(part: str, role: str, number: int) -> str:
-    """Of a part, else of its body's role, else one of the plain ones by the body's number."""
+    """The colour of a part, else of its body's role, else one of the plain ones by the body's number."""
     return BODIES.get(part) or BODIES.get(role) or PLAIN[number % len(PLAIN)]
 
 

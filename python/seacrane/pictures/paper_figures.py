@@ -222,8 +222,7 @@ def crane_skeleton(
 
     Parameters
     ----------
-    crane : KnuckleBoomCrane, optional
-        The shipped crane if None.
+    crane : The shipped crane if None.
     foot : (float, float, float), optional
         Crane foot in the vessel frame, m; the shipped place if None.
 

@@ -231,7 +231,7 @@ def plot_rao(
     *,
     body: str,
     point: Any = (0.0, 0.0, 0.0),
-    headings_deg: Sequence[float] = HEADINGS_DEG,
+    directions_deg: Sequence[float] = HEADINGS_DEG,
     omega: Any = None,
 ) -> Figure:
     """Draw the motion of a point of any body per metre of wave amplitude, over frequency.
@@ -243,7 +243,7 @@ def plot_rao(
     ----------
     scene, body, point
         As `motion_rao`.
-    headings_deg : sequence of float
+    directions_deg : sequence of float
         Directions that the waves travel to, deg; 0 following.
     omega : array_like, shape (n,), optional
         rad/s; default: the database's.
@@ -257,22 +257,22 @@ def plot_rao(
     SceneError
         As `motion_rao`.
     """
-    return draw(rao_sheet(scene, body, point, headings_deg, omega))
+    return draw(rao_sheet(scene, body, point, directions_deg, omega))
 
 
 def rao_sheet(
     scene: Scene | LinearModel,
     body: str,
     point: Any,
-    headings_deg: Sequence[float],
+    directions_deg: Sequence[float],
     omega: Any,
 ) -> Sheet:
     """The panels of `plot_rao` with their numbers."""
     linear = linear_of(scene, None)
     database = excitation_of(linear, None)
     frequency = np.asarray(database.omega if omega is None else omega, dtype=float)
-    heading = np.deg2rad(np.asarray(headings_deg, dtype=float))
-    motion = np.abs(motion_rao(linear, omega=frequency, heading=heading[:, None], body=body, point=point))
+    heading = np.deg2rad(np.asarray(directions_deg, dtype=float))
+    motion = np.abs(motion_rao(linear, omega=frequency, direction=heading[:, None], body=body, point=point))
     motion[..., 3:] = np.rad2deg(motion[..., 3:])
     rotations = ("about x", "about y", "about z")
     panels = tuple(
@@ -281,7 +281,7 @@ def rao_sheet(
             unit="m/m" if i < 3 else "deg/m",
             lines=tuple(
                 Line(label=f"{angle:g} deg", values=motion[j, :, i], colour=j)
-                for j, angle in enumerate(headings_deg)
+                for j, angle in enumerate(directions_deg)
             ),
         )
         for i, name in enumerate(("x", "y", "z", *rotations))

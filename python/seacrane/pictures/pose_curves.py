@@ -27,13 +27,10 @@ class Motion:
 
     Attributes
     ----------
-    start, interval : float
-        s.
-    bodies : tuple of str
+    start, interval : s.
     position, quaternion, velocity, angular_velocity : ndarray, shape (frames, bodies, 3 or 4)
         Of centres of mass, as in a result, rounded to `STEPS`.
-    error : (float, float)
-        Largest distance (m) and angle (rad) between the curves and the run's outputs.
+    error : Largest distance (m) and angle (rad) between the curves and the run's outputs.
     """
 
     start: float

@@ -1,4 +1,4 @@
-"""The channels that the page draws over time, chosen by name."""
+"""The channels that the page draws over time, chosen as `Result.plot` chooses."""
 
 from __future__ import annotations
 
@@ -7,42 +7,30 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.pictures.packing import Blob
 from seacrane.pictures.pose_curves import Motion, linear_rows
-from seacrane.result import CHANNELS, Result
-
-Array = NDArray[np.float64]
-Choice = str | tuple[str, ...]
+from seacrane.result import Result
+from seacrane.result.history import wanted_traces
+from seacrane.result.traces import Trace
 
 MOST_LINES, MOST_PANELS, USUAL_PANELS = 6, 8, 4
 FINENESS = 2.0**-13  # step of a line over its range
-USUAL: Sequence[Choice] = (
-    "link_tension",
-    "line_tension",
-    ("vessel_motion", "roll"),
-    ("vessel_motion", "heave"),
-    "wave_elevation",
-    "limit_force",
-    "stroke",
-    "coordinate",
-)
-PREFIXES = ((1e6, "M"), (1e3, "k"))
+USUAL = (
+    "link_tension", "line_tension", "roll", "heave", "wave_elevation", "limit_force", "stroke", "coordinate",
+)  # fmt: skip
 
 
 def strip_of(
-    result: Result | None, channels: Sequence[Choice] | None, motion: Motion, blob: Blob
+    result: Result | None, channels: Sequence[str | Pick] | None, motion: Motion, blob: Blob
 ) -> list[dict[str, Any]]:
     """Panels of the strip: title, unit, and lines over the frames.
 
-    Raises
-    ------
-    SceneError
-        For a channel that the result does not hold, a name along its dimensions that there is not, or more
-        lines than a panel shows.
+    Raises SceneError for a channel that the result does not hold, a name along its dimensions that there is
+    not, or more lines than a panel shows.
     """
     if result is None:
         if channels:
@@ -53,76 +41,39 @@ def strip_of(
         return [_panel(result, choice, motion, blob) for choice in itertools.islice(usual, USUAL_PANELS)]
     if isinstance(channels, str) or not isinstance(channels, Sequence) or len(channels) > MOST_PANELS:
         raise SceneError(
-            f"view: channels is {shown(channels)}; give a list of at most {MOST_PANELS}, each a channel's "
-            "name or a tuple of it and names along its dimensions, such as ('vessel_motion', 'roll')"
+            f"view: channels is {shown(channels)}; give a list of at most {MOST_PANELS}, such as "
+            "['link_tension', 'vessel_motion[roll]']"
         )
     return [_panel(result, choice, motion, blob) for choice in channels]
 
 
-def _held(result: Result, choice: Choice) -> bool:
+def _held(result: Result, choice: str) -> bool:
     try:
         return len(_lines(result, choice)) <= MOST_LINES
     except SceneError:
         return False
 
 
-def _lines(result: Result, choice: Choice) -> dict[str, Array]:
-    """Values (n,) by what tells the lines of a panel apart."""
-    name, *picked = (choice,) if isinstance(choice, str) else choice
-    if name not in result.channels:
-        known = ", ".join(result.channels)
-        raise SceneError(f"view: no channel {shown(name)} in the result; it holds {known}")
-    dims = result.dims[name][1:]
-    array, left = result[name], []
-    for place, dim in enumerate(dims):
-        names = result.coords[dim]
-        found = next((one for one in picked if one in names), None)
-        if found is None:
-            left.append(names)
-            continue
-        picked.remove(found)
-        array = np.take(array, [names.index(found)], axis=place + 1)
-    if picked:
-        about = "; ".join(f"{dim}: {', '.join(result.coords[dim])}" for dim in dims) or "nothing to pick"
-        raise SceneError(f"view: channel {name!r} has no {shown(picked[0])}; it has {about}")
-    columns = array.reshape(len(array), -1).T
-    labels = [" ".join(words) for words in itertools.product(*left)]
-    return dict(zip(labels, columns, strict=True))
+def _lines(result: Result, choice: str | Pick) -> list[Trace]:
+    return next(iter(wanted_traces(result, [choice], {}).values()))
 
 
-def _panel(result: Result, choice: Choice, motion: Motion, blob: Blob) -> dict[str, Any]:
+def _panel(result: Result, choice: str | Pick, motion: Motion, blob: Blob) -> dict[str, Any]:
     lines = _lines(result, choice)
-    words = [choice] if isinstance(choice, str) else list(choice)
     if len(lines) > MOST_LINES:
-        first = result.coords[result.dims[words[0]][1]][0]
+        names = ", ".join(one.label for one in lines[:12])
         raise SceneError(
-            f"view: channel {words[0]!r} has {len(lines)} lines, a panel shows {MOST_LINES}; pick among "
-            f"{', '.join(list(lines)[:12])} with a tuple, such as {(words[0], first)!r}"
+            f"view: {choice} has {len(lines)} lines, a panel shows {MOST_LINES}; pick among {names}, such as "
+            f"'{lines[0].channel}[{lines[0].names[0]}]'"
         )
-    unit, factor = _unit(words, np.array(list(lines.values())))
-    rows = factor * linear_rows(motion, result.time, np.array(list(lines.values())).T)
+    rows = linear_rows(motion, result.time, np.array([one.values for one in lines]).T)
     low, high = float(rows.min()), float(rows.max())
+    alone = len(lines) == 1
     return {
-        "title": " ".join(words).replace("_", " "),
-        "unit": unit,
-        "labels": [label.strip() for label in lines],
+        "title": lines[0].title if alone else str(choice).replace("_", " "),
+        "unit": ", ".join(dict.fromkeys(one.unit for one in lines)),
+        "labels": ["" if alone else one.label for one in lines],
         "low": low,
         "high": high,
         "values": blob.series(rows, max((high - low) * FINENESS, 1e-12)),
     }
-
-
-def _unit(words: Sequence[str], values: Array) -> tuple[str, float]:
-    """Of what is shown, and the factor to it: degrees for radians, k and M for large loads."""
-    unit = CHANNELS[words[0]].unit
-    if "(" in unit:  # of motions, by name: "m (surge, ...), rad (roll, ...)"
-        parts = [part.partition(" (") for part in unit.split("), ")]
-        unit = next((one for one, _, names in parts if any(word in names for word in words[1:])), unit)
-    if unit.split("/")[0] == "rad":
-        return unit.replace("rad", "deg", 1), float(np.degrees(1.0))
-    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-    if unit[0] in "NJ":
-        for size, prefix in PREFIXES:
-            if largest >= size:
-                return " or ".join(prefix + one for one in unit.split(" or ")), 1.0 / size
-    return unit, 1.0

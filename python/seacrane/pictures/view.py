@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.crane import Crane
 from seacrane.description.description import Description
+from seacrane.description.pick import Pick
 from seacrane.description.suspension import suspensions
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
@@ -37,7 +38,7 @@ from seacrane.pictures.page_sea import sea_components, without_sea
 from seacrane.pictures.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.pictures.pose_curves import POSES, STEPS, Motion, linear_rows
 from seacrane.pictures.shapes import HullShape, MeshShape
-from seacrane.pictures.strip import Choice, strip_of
+from seacrane.pictures.strip import strip_of
 from seacrane.pictures.wheels import Wheel
 from seacrane.pictures.wires import end_of
 from seacrane.result import Result
@@ -161,7 +162,7 @@ def view(
     what: Result | Scene,
     *,
     scene: Scene | None = None,
-    channels: Sequence[Choice] | None = None,
+    channels: Sequence[str | Pick] | None = None,
     hulls: Mapping[str, Hull] | None = None,
     crane: Crane | None = None,
     height: int = 640,
@@ -178,8 +179,7 @@ def view(
     scene : Scene, optional
         That the result belongs to; needed for a result that holds none: a copy, a file of version 0.1.
     channels : sequence, optional
-        What is drawn over time: names of channels, or tuples of a channel and names along its dimensions,
-        such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default:
+        What is drawn over time, such as ``["link_tension", "roll", "position[payload, z]"]``. Default:
         tensions, roll and heave, and what else the result has of the usual; () for none.
     hulls : mapping of str to Hull, optional
         Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a

@@ -30,16 +30,11 @@ class Wheel:
 
     Attributes
     ----------
-    name : str
-        Such as "hoist sheave 1" or "hoist drum".
-    at : list of float
-        Its centre, as the end of a wire.
-    axis : ndarray, shape (3,)
-        Of length one, body axes.
-    kind : str
-        "sheave" or "drum".
-    shapes : list of TubeShape
-        Relative to the centre, body axes.
+    name : Such as "hoist sheave 1" or "hoist drum".
+    at : Its centre, as the end of a wire.
+    axis : (3,) Of length one, body axes.
+    kind : "sheave" or "drum".
+    shapes : Relative to the centre, body axes.
     angle : ndarray, shape (frames,), or None
         By which it has turned about its axis, rad; None for what stands still on its body.
     """

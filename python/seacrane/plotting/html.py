@@ -44,5 +44,5 @@ def table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = 
 
 
 def notebook_table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str) -> str:
-    """The same for an output cell, whose own style would set texts to the right."""
+    """A table for an output cell, whose own style would set texts to the right."""
     return f'<div class="seacrane"><style>{NOTEBOOK}</style>{table(head, rows, caption=caption)}</div>'

@@ -19,11 +19,8 @@ class StageSpan:
 
     Attributes
     ----------
-    name : str
-    start, end : float
-        s.
-    ended_by : str
-        The condition in words, "duration", or "" where something stopped it.
+    start, end : s.
+    ended_by : The condition in words, "duration", or "" where something stopped it.
     """
 
     name: str

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -20,24 +19,21 @@ Array = NDArray[np.float64]
 
 def dataframe_of(
     time: Array,
-    picks: Sequence[tuple[Pick, Array]],
+    picks: Sequence[Pick],
+    channels: Mapping[str, Array],
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
     part: slice,
 ) -> pandas.DataFrame:
-    """A column for each curve of each (selector, values of `Result.select`), by the times of a part."""
+    """A column for each curve of each selector, by the times of a part."""
     import pandas
 
     columns: dict[str, Array] = {}
     units: dict[str, str] = {}
-    for pick, values in picks:
-        own = dims[pick.channel][1:]
-        left = [dim for dim in own if dim not in pick.names]
-        curves = values.reshape(time.size, -1).T
-        for curve, rest in zip(curves, itertools.product(*(coords[dim] for dim in left)), strict=True):
-            named = {**pick.names, **dict(zip(left, rest, strict=True))}
-            name = column_name(pick.channel, [named[dim] for dim in own])
-            columns[name], units[name] = curve[part], unit_of(pick.channel, named.values())
+    for pick in picks:
+        for names, curve in pick.curves(channels[pick.channel], dims[pick.channel], coords):
+            name = column_name(pick.channel, list(names.values()))
+            columns[name], units[name] = curve[part], unit_of(pick.channel, names.values())
     table = pandas.DataFrame(columns, index=pandas.Index(time[part], name="time"))
     table.attrs["units"] = units
     return table

@@ -32,10 +32,7 @@ def wanted_traces(
 ) -> dict[str, list[Trace]]:
     """Traces of each channel; each name picks where the channel has its dimension.
 
-    Raises
-    ------
-    SceneError
-        For a channel that was not recorded, or a name that no channel holds.
+    Raises SceneError for a channel that was not recorded, or a name that no channel holds.
     """
     if not channels:
         raise SceneError(f"channels: none is named; this result holds {', '.join(result.channels)}")

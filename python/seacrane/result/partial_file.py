@@ -46,18 +46,12 @@ class Piece:
         "time" and the channels.
     coords : mapping of str to sequence of str
         As `Result.coords`.
-    stats : mapping
-        As `Result.stats`, of all of the run until here.
-    about : About
-        As `Result.about`.
-    events : sequence of Event
-        Of this piece.
-    interrupted : bool
-        False for the last piece of a run that reached its end.
-    state : bytes
-        Where the piece ends, as a state file; empty where there is none.
-    scene : bytes
-        What is run, as a scene file, in the first piece of a file; empty in the others.
+    stats : As `Result.stats`, of all of the run until here.
+    about : As `Result.about`.
+    events : Of this piece.
+    interrupted : False for the last piece of a run that reached its end.
+    state : Where the piece ends, as a state file; empty where there is none.
+    scene : What is run, as a scene file, in the first piece of a file; empty in the others.
     """
 
     arrays: Mapping[str, Array]
@@ -76,7 +70,7 @@ class Piece:
 
     @property
     def dims(self) -> dict[str, tuple[str, ...]]:
-        """Of each channel."""
+        """The dimensions of each channel."""
         return {name: CHANNELS[name].dims_of(array.ndim) for name, array in self.arrays.items()
                 if name != "time"}  # fmt: skip
 
@@ -138,10 +132,7 @@ def is_partial(path: Path) -> bool:
 def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
     """All whole pieces, and the places where they end.
 
-    Raises
-    ------
-    FileFormatError
-        For a file of another kind, or a whole record that is no piece.
+    Raises FileFormatError for a file of another kind, or a whole record that is no piece.
     """
     file.seek(0)
     start = file.read(len(MAGIC))
@@ -251,10 +242,7 @@ class PartialFile:
     def append(self, piece: Piece) -> None:
         """Add a piece, which the disk holds when this returns.
 
-        Raises
-        ------
-        OSError
-            If there is no room; what was there before stays as it was.
+        Raises OSError if there is no room; what was there before stays as it was.
         """
         body = piece.to_bytes()
         head = LENGTH.pack(len(body))

@@ -410,14 +410,16 @@ class Result(Mapping[str, Array]):
             As `select`; ValueError too where selectors begin at different times.
         """
         picks = [self._picked(channel, {}) for channel in channels or self.channels]
-        arrays = [(pick, self.select(pick.channel, **pick.names)) for pick in picks]
-        parts = {(pick.after, pick.stage) for pick, _ in arrays}
+        for pick in picks:
+            self.select(pick.channel, **pick.names)  # which refuses what is not there
+        parts = {(pick.after, pick.stage) for pick in picks}
         if len(parts) > 1:
             raise SceneError(
                 "table: its columns are of one part of the run; give all the same after= and stage="
             )
         (after, stage) = next(iter(parts), (None, None))
-        return dataframe_of(self.time, arrays, self.dims, self.coords, self.part(after=after, stage=stage))
+        part = self.part(after=after, stage=stage)
+        return dataframe_of(self.time, picks, self.channels, self.dims, self.coords, part)
 
     def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
         """Write curves as comma-separated values: a line for each output, time first; SI units and radians.

@@ -31,14 +31,11 @@ class Contents:
 
     Attributes
     ----------
-    outputs : int
-        How many.
+    outputs : How many.
     dims : mapping of str to tuple of str
         Of each channel.
-    state : bytes
-        As a state file; empty where there is none.
-    scene : bytes
-        As a scene file; empty where there is none.
+    state : As a state file; empty where there is none.
+    scene : As a scene file; empty where there is none.
     """
 
     outputs: int
@@ -52,7 +49,7 @@ class Contents:
     scene: bytes
 
     def shape(self, dims: Sequence[str]) -> tuple[int, ...]:
-        """Of one output of a channel."""
+        """The shape of one output of a channel."""
         return tuple(len(self.coords[dim]) for dim in dims[1:])
 
     @property

@@ -39,6 +39,6 @@ def as_text(
 
 
 def _extremes(values: NDArray[np.float64]) -> tuple[str, str]:
-    """Of what is finite."""
+    """The extremes of what is finite."""
     finite = values[np.isfinite(values)]
     return (f"{finite.min():.4g}", f"{finite.max():.4g}") if finite.size else ("", "")

@@ -44,18 +44,12 @@ class Left:
 
     Attributes
     ----------
-    source : Path
-        Where it is.
-    piece : Piece
-        The last outputs, and the state where they end.
-    first : float
-        Time of the first output, s.
-    outputs : int
-        All outputs until the state.
-    events : int
-        All events until the state.
-    end : int
-        Where the piece ends in a partial file; 0 where it is of a result's file.
+    source : Where it is.
+    piece : The last outputs, and the state where they end.
+    first : Time of the first output, s.
+    outputs : All outputs until the state.
+    events : All events until the state.
+    end : Where the piece ends in a partial file; 0 where it is of a result's file.
     """
 
     source: Path
@@ -233,19 +227,13 @@ class ResultFile:
 
         Parameters
         ----------
-        result : Result, optional
-            None: there are no new outputs.
+        result : None: there are no new outputs.
         stats, about, events
             Of the run until now, as a result has them.
-        state : bytes
-            As `state_to_bytes` gives it.
-        interrupted : bool
-            False at the end of the run.
+        state : As `state_to_bytes` gives it.
+        interrupted : False at the end of the run.
 
-        Raises
-        ------
-        OSError
-            If the disk has no room for them; the files then are as they were before.
+        Raises OSError if the disk has no room for them; the files then are as they were before.
         """
         if result is not None:
             new = slice(int(np.searchsorted(result.time, self._last_time, "right")), None)
@@ -292,10 +280,7 @@ class ResultFile:
 
         A run that stopped before its end leaves an older result alone, unless it has gone on with it.
 
-        Raises
-        ------
-        OSError
-            If there is no room; the partial file then holds everything.
+        Raises OSError if there is no room; the partial file then holds everything.
         """
         if not reached_end and self.path.exists() and self._source is None:
             return self._partial.path
@@ -326,7 +311,7 @@ class ResultFile:
         write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
 
     def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
-        """Of all pieces of the run: counters and simulated time of the one before are added."""
+        """The stats of all pieces of the run: counters and simulated time of the one before are added."""
         out = dict(stats)
         for name in ("simulated_s", *COUNTERS):
             if name in self._before and name in stats:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -54,12 +53,9 @@ class Trace:
 
     Attributes
     ----------
-    channel : str
-    names : tuple of str
-        Along the channel's dimensions but time.
-    unit : str
-        Of the values: degrees for radians, kN for newtons where they are large.
-    values : ndarray, shape (n,)
+    names : Along the channel's dimensions but time.
+    unit : Of the values: degrees for radians, kN for newtons where they are large.
+    values : (n,)
     """
 
     channel: str
@@ -83,34 +79,29 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
 
     Parameters
     ----------
-    result : Record
-    channel : str
     **names : str
         As of `Result.select`, such as ``body="payload"``.
 
-    Raises
-    ------
-    KeyError, ValueError
-        As `Result.select`.
+    Raises KeyError or ValueError as `Result.select`.
     """
-    array = result.select(channel, **names)
-    left = [dim for dim in result.dims[channel][1:] if dim not in names]
-    every = list(itertools.product(*(result.coords[dim] for dim in left)))
-    columns = array.reshape(len(result.time), len(every)).T
-    units = [_unit(result, channel, (*names.values(), *one)) for one in every]
-    kept = tuple(names.values())
-    found: list[Trace] = []
-    for one, values, unit in zip(every, columns, units, strict=True):
-        same = [column for column, other in zip(columns, units, strict=True) if other == unit]
-        factor, shown = shown_unit(unit, same)
-        found.append(
-            Trace(channel=channel, names=(*kept, *one), unit=shown, values=np.asarray(factor * values))
+    result.select(channel, **names)  # which refuses what is not there
+    curves = [
+        ((*names.values(), *(name for dim, name in named.items() if dim not in names)), values)
+        for named, values in Pick(channel=channel, names=names).curves(
+            result.channels[channel], result.dims[channel], result.coords
         )
+    ]
+    units = [_unit(result, channel, named) for named, _ in curves]
+    found: list[Trace] = []
+    for (named, values), unit in zip(curves, units, strict=True):
+        same = [other for (_, other), one in zip(curves, units, strict=True) if one == unit]
+        factor, shown = shown_unit(unit, same)
+        found.append(Trace(channel=channel, names=named, unit=shown, values=np.asarray(factor * values)))
     return found
 
 
 def _unit(result: Record, channel: str, names: tuple[str, ...]) -> str:
-    """Of one curve."""
+    """The unit of one curve."""
     if channel == "limit_force":
         return _unit_of_limit(result, names[-1])
     return unit_of(channel, names)
@@ -139,7 +130,7 @@ def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
 
 
 def beyond_rounding(found: Iterable[Trace]) -> list[Trace]:
-    """Those that are not zero up to rounding, beside the largest of the same unit."""
+    """The curves that are not zero up to rounding, beside the largest of the same unit."""
     every = list(found)
     largest: dict[str, float] = {}
     for one in every:

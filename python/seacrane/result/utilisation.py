@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
+from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
@@ -28,17 +28,11 @@ class Utilised:
 
     Attributes
     ----------
-    name, channel : str
-    curve : str
-        Which of the channel's curves is the worst, by its names; empty where there is one only.
-    unit : str
-        Of the limit and of what was reached, SI; the table prints kN, kN m, deg, bar.
-    limit : float
-        The bound that is nearest to being reached.
-    reached : float
-        Worst value; NaN where the channel was not recorded.
-    at : float
-        When, s; NaN likewise.
+    curve : Which of the channel's curves is the worst, by its names; empty where there is one only.
+    unit : Of the limit and of what was reached, SI; the table prints kN, kN m, deg, bar.
+    limit : The bound that is nearest to being reached.
+    reached : Worst value; NaN where the channel was not recorded.
+    at : When, s; NaN likewise.
     utilisation : float
         1 at the limit: reached over limit, or limit over reached where the limit is one from below (or, of
         negative values, from above); infinite where such a value has changed its sign. NaN where the channel
@@ -84,7 +78,7 @@ class Utilisation(Sequence[Utilised]):
 
     @property
     def largest(self) -> float:
-        """Of all that are known; NaN where none is."""
+        """The largest of all that are known; NaN where none is."""
         known = [state.utilisation for state in self.states if not math.isnan(state.utilisation)]
         return max(known, default=math.nan)
 
@@ -119,7 +113,7 @@ def utilisation_of(
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilisation:
-    """Of the limit states that a run noted, by its channels; FileFormatError for notes that no run writes."""
+    """Utilisation of the limit states that a run noted; FileFormatError for notes that no run writes."""
     try:
         return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in limit_states))
     except (LookupError, TypeError, ValueError, AttributeError) as error:
@@ -142,15 +136,10 @@ def _utilised(
             limit=bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
-    free = [dim for dim in dims[channel][1:] if dim not in where]
-    picked = channels[channel][
-        (slice(None), *(coords[d].index(where[d]) if d in where else slice(None) for d in dims[channel][1:]))
-    ]
-    every = list(itertools.product(*(coords[dim] for dim in free)))
-    curves = picked.reshape(len(time), -1).T
+    curves = Pick(channel=channel, names=where).curves(channels[channel], dims[channel], coords)
     found = [
-        (*_worst(values, kind, bound), bound, names)
-        for values, names in zip(curves, every, strict=True)
+        (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
+        for names, values in curves
         for kind, bound in bounds
     ]
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])

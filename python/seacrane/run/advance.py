@@ -183,11 +183,8 @@ def step_advice(integrator: str, step: float, fastest: float | None) -> str:
 
     Parameters
     ----------
-    integrator : str
-    step : float
-        s.
-    fastest : float or None
-        Largest |eigenvalue| at the start, 1/s.
+    step : s.
+    fastest : Largest |eigenvalue| at the start, 1/s.
     """
     limit = integrator_of(integrator).stable_up_to
     if not limit or not fastest or fastest * step <= limit:

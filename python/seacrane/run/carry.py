@@ -26,8 +26,7 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
 
     Parameters
     ----------
-    measured : mapping
-        Channels of the present instant.
+    measured : Channels of the present instant.
     """
     out = scene.copy()
     floating = {vessel.body: None for vessel in scene.vessels.values() if vessel.floats}

@@ -85,7 +85,7 @@ def require_names(scene: Description, wanted: Iterable[str]) -> None:
 
 
 def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
-    """Of derived channels that nothing in the scene has: what each needs."""
+    """What derived channels that nothing in the scene has: what each needs."""
     names = derived_coords(scene)
     dims = {channel: CHANNELS[channel].dims for channel in wanted if channel in DERIVED}
     return {

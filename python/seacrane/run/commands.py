@@ -79,10 +79,7 @@ def check_command(what: str, name: str, value: object, known: Mapping[str, Targe
 def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: float) -> Some:
     """The scene with commands that begin at a time, s; the curves until then stay.
 
-    Raises
-    ------
-    SceneError
-        For a curve that does not begin where the command stands.
+    Raises SceneError for a curve that does not begin where the command stands.
     """
     out = scene.copy()
     known = targets(out)  # type: ignore[arg-type]

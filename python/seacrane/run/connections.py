@@ -19,10 +19,7 @@ TABLES = ("joints", "drivers", *LOADS)
 def table_of(scene: Scene, what: str, name: str) -> str:
     """The table of a connection; a joint goes before what acts on it and bears its name.
 
-    Raises
-    ------
-    SceneError
-        For a name that is not there, or is that of several elements.
+    Raises SceneError for a name that is not there, or is that of several elements.
     """
     found = [table for table in TABLES if name in getattr(scene, table)]
     if "joints" in found:

@@ -26,10 +26,7 @@ def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Sc
     The scene is another one, stabilised by Baumgarte's method, where its joints have to be kept by an
     integrator that cannot project.
 
-    Raises
-    ------
-    SceneError
-        For a combination that does not exist.
+    Raises SceneError for a combination that does not exist.
     """
     model = scene.compile() if model is None else model
     known = integrator(method.integrator)

@@ -37,7 +37,7 @@ class _Growth:
     rings: list[bool]
 
     def fastest(self, most: float) -> float:
-        """Of the rates (1/s) that a run can have had."""
+        """The fastest of the rates (1/s) that a run can have had."""
         return max((rate for rate in self.rates if rate <= most), default=-math.inf)
 
     def words(self, one: int) -> str:
@@ -63,14 +63,11 @@ def growing(
 
     Parameters
     ----------
-    modes : Modes
-        At rest in the poses of the states; the mode counts that grows most.
-    stats, settings : mapping
-        Of the run: `Result.stats`, `Result.settings`.
+    modes : At rest in the poses of the states; the mode counts that grows most.
+    stats, settings : Of the run: `Result.stats`, `Result.settings`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
-    near : float
-        Share of the limits, and of what damps the modes, from which on it is told.
+    near : Share of the limits, and of what damps the modes, from which on it is told.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)

@@ -63,7 +63,7 @@ def swings(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
 
 
 def sling_angles(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
-    """Of the last straight part of every rod, wire and line above the horizontal, rad, (time, suspension)."""
+    """Angle of the last straight part of rods and lines above the horizontal, rad, (time, suspension)."""
     found: dict[str, Array] = {}
     if not all(name in arrays for name in POSE):
         return None

@@ -32,17 +32,14 @@ class Piece:
 
     Attributes
     ----------
-    result : Result
     names : dict of str to tuple of str
         All names along each dimension, also of channels that are not recorded.
     start, end : dict of str to array
         Values of `COUNTED_ON` and of angles that count turns.
     reached : dict of str to array
         Values of `COUNTED_ON` before these changes, counted from the first start.
-    lost : float
-        J, in connections made and released just before it.
-    before : list of Event
-        These changes.
+    lost : J, in connections made and released just before it.
+    before : These changes.
     """
 
     result: Result

@@ -32,10 +32,7 @@ def module_of(lanes: int) -> ModuleType | None:
 def lanes_of(given: int | None) -> int:
     """How many lanes a call asks for; None: the usual number, or 1 where there are none.
 
-    Raises
-    ------
-    SceneError
-        For another number than 1 and those that lanes exist for.
+    Raises SceneError for another number than 1 and those that lanes exist for.
     """
     if given is None:
         return 1 if module_of(USUAL) is None else USUAL
@@ -49,11 +46,8 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
 
     Parameters
     ----------
-    runs : sequence of Run
-        No more than `lanes`, with one method and one end time.
-    lanes : int
-    look : callable
-        Called with the time now and then.
+    runs : No more than `lanes`, with one method and one end time.
+    look : Called with the time now and then.
 
     Returns
     -------

@@ -42,9 +42,7 @@ class LineRung:
 
     Attributes
     ----------
-    name : str
-        "elastic" or "quasi-static".
-    reason : str
+    name : "elastic" or "quasi-static".
     """
 
     name: str
@@ -67,17 +65,11 @@ def line_rungs(
 
     Parameters
     ----------
-    scene : Scene
-    known : Integrator
-        That steps it.
-    end : float
-        s.
-    start : State, optional
-        Where it begins; default: the assembled start of the scene.
-    in_memory : bool
-        Whether its outputs stay in memory, so that another run can take its place.
-    controlled : bool
-        Whether inputs are set during the run.
+    known : That steps it.
+    end : s.
+    start : Where it begins; default: the assembled start of the scene.
+    in_memory : Whether its outputs stay in memory, so that another run can take its place.
+    controlled : Whether inputs are set during the run.
     """
     lines = automatic(scene)
     if not lines:
@@ -229,7 +221,7 @@ def _bounded(
 def _worst_error(
     line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
 ) -> tuple[float, str]:
-    """Of a line's tension, of what the source makes of it that is named."""
+    """The error of a line's tension, of what the source makes of it that is named."""
     own = now[line.name]
     swing = np.array([2.0 * max(now[name].swing for name in own.coupled)])  # of the tension of what swings
     every = [*sources, ("the swing of its load", swing, np.ones(1))]
@@ -254,14 +246,10 @@ def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.
 
     Parameters
     ----------
-    omega : ndarray
-        rad/s.
-    settling : float
-        s.
-    own : float
-        Frequency of the elastic line, rad/s.
-    loss : float
-        Of its damping at that frequency: c own over the stiffness.
+    omega : rad/s.
+    settling : s.
+    own : Frequency of the elastic line, rad/s.
+    loss : Of its damping at that frequency: c own over the stiffness.
     """
     p, x = 1j * settling * np.asarray(omega, dtype=float), np.asarray(omega, dtype=float) / own
     settled = p**2 * (2.0 + p) / (1.0 + p)  # T / (EA e) - 1

@@ -33,11 +33,8 @@ class Course:
     ----------
     scene, model, method, outputs
         What is stepped, how, and what is recorded, the channels of conditions among it.
-    first : float
-        Time from which outputs are counted, s.
-    interrupts : Interrupts
-    calls : Calls
-        Of controllers.
+    first : Time from which outputs are counted, s.
+    calls : Of controllers.
     began, done : callables
         Told of each run that begins, and of each that is part of the result.
     """
@@ -90,10 +87,7 @@ class Course:
 def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
     """Run a stage from a state; returns what ended it, "" for an interruption.
 
-    Raises
-    ------
-    SimulationError
-        For a stage whose conditions are not met within its `maximum_duration`.
+    Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
         course.calls.begin(replayed=False)
@@ -168,7 +162,7 @@ class _Looks:
         return bool(self.hits())
 
     def hits(self) -> list[_Hit]:
-        """Those that are met by now, in the outputs, at events or at this instant."""
+        """The bounds that are met by now, in the outputs, at events or at this instant."""
         found = (_found(self._run, one) or _found_now(self._run, one) for one in self._conditions)
         return [hit for hit in found if hit is not None]
 

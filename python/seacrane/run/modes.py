@@ -50,7 +50,7 @@ class Modes:
 
     @cached_property
     def fastest(self) -> Fastest:
-        """Of all states; zero where it is not finite."""
+        """The fastest of all states; zero where it is not finite."""
         found = [self._fastest(state) for state in self._states]
         return max(found, key=lambda one: (one.mode, one.body, one.time))
 

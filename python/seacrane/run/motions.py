@@ -30,7 +30,7 @@ def winch_lines(scene: Description) -> dict[str, _core.Line]:
 def motions(
     scene: Description, arrays: Mapping[str, Array], asked: Collection[str] | None
 ) -> dict[str, Array]:
-    """Those channels of this file that are asked for (None: all) and whose parts the core recorded."""
+    """The channels of this file that are asked for (None: all) and whose parts the core recorded."""
     made = {
         "relative_position": (bool(scene.relatives), _relative_positions),
         "relative_velocity": (bool(scene.relatives), _relative_velocities),

@@ -20,10 +20,8 @@ def output_times(t_start: float, t_end: float, dt_out: float, *, first: float, v
 
     Parameters
     ----------
-    t_start, t_end, dt_out, first : float
-        s; the core leaves out times before t_start.
-    values : int
-        Numbers kept in memory of each; 0 where outputs leave memory.
+    t_start, t_end, dt_out, first : s; the core leaves out times before t_start.
+    values : Numbers kept in memory of each; 0 where outputs leave memory.
 
     Raises
     ------

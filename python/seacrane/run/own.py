@@ -50,7 +50,7 @@ def _require_name(what: str, dim: str, name: str | None, known: Sequence[str]) -
 
 
 def own_values(scene: Description, arrays: Mapping[str, Array], names: Names, count: int) -> Array | None:
-    """Of every expression, shape (count, expression); None where there is none or a part was not recorded."""
+    """Values of expressions, (count, expression); None where there is none or a part was not recorded."""
     if not scene.channels or not all(name in arrays for name in with_sources(scene, [OWN])):
         return None
 

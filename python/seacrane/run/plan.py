@@ -25,11 +25,8 @@ LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
 def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
     """The stages, which fit the scene and each other.
 
-    Raises
-    ------
-    SceneError
-        For names given twice, connections of what is there and releases of what is not, commands and
-        conditions of what is not there in their stage.
+    Raises SceneError for names given twice, connections of what is there and releases of what is not,
+    commands and conditions of what is not there in their stage.
     """
     stages = tuple(given) if isinstance(given, Iterable) else (given,)
     for one in stages:

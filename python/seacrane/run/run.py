@@ -428,16 +428,11 @@ class _Lasting:
 
     Attributes
     ----------
-    options : RunOptions
-        Of the core.
-    coords : mapping
-        Names along the dimensions of channels.
-    steered : frozenset of str
-        Actuators whose inputs are not zero at the start.
-    stats : mapping
-        Of `lasting_stats`.
-    about : About
-        Of the scene; the settings differ by sea.
+    options : Of the core.
+    coords : Names along the dimensions of channels.
+    steered : Actuators whose inputs are not zero at the start.
+    stats : Of `lasting_stats`.
+    about : Of the scene; the settings differ by sea.
     """
 
     options: _core.RunOptions
@@ -476,7 +471,7 @@ def _options(run: Run) -> _core.RunOptions:
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:
-    """Those from a start (s) to before now: a run that goes on from there tells of what bursts then."""
+    """Ruptures from a start (s) to before now: a run that goes on from there tells of what bursts then."""
     return [
         Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
         for name, cylinder in hydraulic_cylinders(scene).items()

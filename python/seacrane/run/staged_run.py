@@ -53,9 +53,7 @@ class Begin:
 
     Attributes
     ----------
-    scene : Scene
-        With the commands of the stages before, and with what later stages connect.
-    state : State
+    scene : With the commands of the stages before, and with what later stages connect.
     """
 
     scene: Scene

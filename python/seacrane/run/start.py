@@ -17,10 +17,7 @@ Start: TypeAlias = _core.State | Literal["rest"] | None
 def start_state(scene: Scene, start: Any, *, time: float = 0.0) -> _core.State | None:
     """The state that is meant; None for the assembled start.
 
-    Raises
-    ------
-    SceneError
-        For something else, and where the scene has no state at rest.
+    Raises SceneError for something else, and where the scene has no state at rest.
     """
     if start is None or isinstance(start, _core.State):
         return start

@@ -95,12 +95,9 @@ def stats_of(
 
 
 def origin_settings(scene: Description) -> dict[str, Any]:
-    """Of vessels and sea, by the names of a result's settings; by body where several vessels differ.
+    """Settings of vessels and sea, by the names of a result's settings; by body where several vessels differ.
 
-    Raises
-    ------
-    SceneError
-        For a value that is not plain data.
+    Raises SceneError for a value that is not plain data.
     """
     found: dict[str, dict[str, Any]] = {}
     for vessel in scene.vessels.values():
@@ -122,7 +119,7 @@ def origin_settings(scene: Description) -> dict[str, Any]:
 
 
 def sea_settings(scene: Description) -> dict[str, Any]:
-    """Of its sea alone; raises as `origin_settings`."""
+    """The settings of its sea alone; raises as `origin_settings`."""
     if scene.waves is None:
         return {}
     told = {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}

@@ -20,7 +20,7 @@ UNSEEN = 20.0  # |eigenvalue| times output interval: three periods between two o
 
 
 def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
-    """Of a run that is worth the eigenvalues of so many states."""
+    """The steps of a run that is worth the eigenvalues of so many states."""
     return max(least, int(states**2 / STATES_SQUARED_PER_STEP))
 
 

@@ -88,8 +88,7 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
     ----------
     lengths : dict of str to float
         Unstretched, by line, m, as the stage begins.
-    begin : float
-        s.
+    begin : s.
     """
     lines = lines_of(scene.loads)
     for condition in stage.conditions:

@@ -75,7 +75,7 @@ def _unrest(scene: Description, model: _core.Model, state: _core.State) -> float
 def _mean_jacobian(
     model: _core.Model, start: _core.State, places: list[int], cylinders: dict[str, _core.HydraulicCylinder]
 ) -> Array:
-    """Of both sides of the valves' middle."""
+    """The mean Jacobian of both sides of the valves' middle."""
     found = []
     for side in (-1.0, 1.0):
         values = _stopped(model, start)
@@ -86,7 +86,7 @@ def _mean_jacobian(
 
 
 def _row(model: _core.Model, place: int) -> int:
-    """Of a state in the Jacobian."""
+    """The row of a state in the Jacobian."""
     return int(np.searchsorted(np.flatnonzero(np.isfinite(np.array(model.scale))), place))
 
 

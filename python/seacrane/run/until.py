@@ -28,13 +28,10 @@ class Level:
 
     Attributes
     ----------
-    channel : str
     names : tuple of (str, str)
         Dimension and name that pick one series of the channel.
-    value : float
-        In the channel's unit.
-    above : bool
-        Whether it is met at and above the value, else at and below it.
+    value : In the channel's unit.
+    above : Whether it is met at and above the value, else at and below it.
     """
 
     channel: str
@@ -56,10 +53,7 @@ class Level:
     def series(self, run: Run, arrays: Mapping[str, Array]) -> Array:
         """Its numbers in channels of a run, by the names of a result.
 
-        Raises
-        ------
-        SceneError
-            Where the scene has no such channel, or no such name along it.
+        Raises SceneError where the scene has no such channel, or no such name along it.
         """
         if self.channel not in arrays:
             raise SceneError(f"until {self.text}: this scene has no channel {self.channel!r}; it has "
@@ -82,9 +76,7 @@ class Contact:
 
     Attributes
     ----------
-    limit : str
-        Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
-    holds : bool
+    limit : Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
     """
 
     limit: str

@@ -20,14 +20,10 @@ class Chain:
 
     Attributes
     ----------
-    span : ndarray, shape (3,)
-        From the first end to the second, m.
-    segment : float
-        Unstretched length of each segment, m.
-    stiffness : float
-        EA, N.
-    weights : ndarray, shape (n - 1,)
-        Of the masses between the n segments, N, along -z.
+    span : (3,) From the first end to the second, m.
+    segment : Unstretched length of each segment, m.
+    stiffness : EA, N.
+    weights : (n - 1,) Of the masses between the n segments, N, along -z.
     """
 
     span: Array
@@ -37,7 +33,7 @@ class Chain:
 
     @property
     def count(self) -> int:
-        """Of the segments."""
+        """The number of the segments."""
         return int(self.weights.size) + 1
 
     def forces(self) -> Array | None:
@@ -60,7 +56,7 @@ class Chain:
         return None
 
     def points(self, forces: Array) -> Array:
-        """Of the masses, (n - 1, 3), m from the first end."""
+        """The places of the masses, (n - 1, 3), m from the first end."""
         return np.asarray(np.cumsum(self._spans(forces), axis=0)[:-1])
 
     def _start(self, weight: float) -> Array:
@@ -95,7 +91,7 @@ class Chain:
         return float(stored.sum() - force @ self.span)
 
     def _share(self, force: Array, hung: Array, step: Array, fall: float) -> float:
-        """Of a step, halved until the energy falls as it should; near the minimum rounding hides that."""
+        """Share of a step, halved until the energy falls as it should; near the minimum rounding hides it."""
         now, share = self._energy(force, hung), 1.0
         rounding = 1e-13 * abs(now)
         while self._energy(force + share * step, hung) > now + LEAST_GAIN * share * fall + rounding:

@@ -24,10 +24,7 @@ MOST_OUTSIDE = 0.02  # of the energy of the waves
 def raos_of(database: HydroDatabase) -> MotionRaos:
     """The displacement RAOs that a database's own file holds.
 
-    Raises
-    ------
-    SceneError
-        For a database of a ship under way.
+    Raises SceneError for a database of a ship under way.
     """
     if database.speed != 0.0:
         raise SceneError(
@@ -57,11 +54,9 @@ def motion_of_components(
     source : HydroDatabase or MotionRaos
         A database without motions of its own has those of the linear model of the ship alone, floating as
         `Scene.add_vessel` describes it.
-    waves : Waves
     place, heading
         Of the ship at rest: (x, y), m; rad.
-    gravity : float
-        m/s2.
+    gravity : m/s2.
 
     Warns
     -----

@@ -22,12 +22,9 @@ def npd_spectrum(frequency: ArrayLike, *, mean_speed: float, height: float = 10.
 
     Parameters
     ----------
-    frequency : array_like
-        Hz.
-    mean_speed : float
-        U, one-hour mean at 10 m, m/s.
-    height : float
-        z, m.
+    frequency : Hz.
+    mean_speed : U, one-hour mean at 10 m, m/s.
+    height : z, m.
 
     Returns
     -------

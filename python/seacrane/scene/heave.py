@@ -118,7 +118,7 @@ def add_heave_compensation(
 
 
 def _ratio(scene: Description, what: str, winch: str | None, actuator: str | None, direction: Any) -> float:
-    """Of what follows to the stroke, by the kinematics of the described pose."""
+    """The ratio of what follows to the stroke, by the kinematics of the described pose."""
     if winch is not None:
         line = lines_of(scene.loads).get(winch)
         if line is None or not line.winch:
@@ -266,10 +266,7 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
 
     Parameters
     ----------
-    scene : Scene
-    line : Line
-    direction : array_like, shape (3,)
-        Of that motion, inertial axes.
+    direction : (3,) Of that motion, inertial axes.
 
     Returns
     -------
@@ -293,12 +290,9 @@ def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction
 
     Parameters
     ----------
-    scene : Scene
-    actuator : str
     body, point : str, array_like
         The point, m, in coordinates of the body.
-    direction : array_like, shape (3,)
-        Along which its speed counts, inertial axes.
+    direction : (3,) Along which its speed counts, inertial axes.
 
     Returns
     -------

@@ -227,21 +227,16 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
 
     Parameters
     ----------
-    scene : Scene
-        Without the cylinder.
-    given : dict
-        Entries of the cylinder.
+    scene : Without the cylinder.
+    given : Entries of the cylinder.
 
-    Raises
-    ------
-    SceneError
-        If the scene is not at rest as described.
+    Raises SceneError if the scene is not at rest as described.
     """
     return _forces(scene, what_of(given), [given])[given["name"]]
 
 
 def holding_forces(scene: Description) -> dict[str, float]:
-    """Likewise of the hydraulic cylinders that a scene has, by name."""
+    """The forces of the hydraulic cylinders that a scene has, by name."""
     return _forces(scene, f"scene {scene.name!r}", [])
 
 

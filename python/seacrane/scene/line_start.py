@@ -47,11 +47,8 @@ def starting_length(scene: Description, line: _core.Line, tension: float | None)
 
     Parameters
     ----------
-    scene : Scene
-    line : Line
-        Its own length does not count.
-    tension : float, optional
-        0 or None: the length is that of the path.
+    line : Its own length does not count.
+    tension : 0 or None: the length is that of the path.
     """
     what = f"line {line.name!r}"
     pull = 0.0 if tension is None else number_of(f"{what}: tension_at_start", tension)

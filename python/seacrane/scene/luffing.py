@@ -84,7 +84,7 @@ def _which(scene: Description, luff: str | None) -> str:
 
 
 def _tension(scene: Description, what: str, joint: str, rope: LuffingRope) -> float:
-    """Of each fall, N, that carries what is beyond the hinge at the described pose: virtual work.
+    """The tension of each fall, N, that carries what is beyond the hinge at the described pose: virtual work.
 
     That is the weights of the bodies there, and the pull of the lines that run to others.
     """
@@ -134,7 +134,7 @@ def _moment_of_lines(scene: Description, beyond: set[str], hinge: Array, axis: A
 
 
 def _tensions(scene: Description) -> dict[str, float]:
-    """Of all lines as described, N."""
+    """The tensions of all lines as described, N."""
     model = compile_scene(scene)
     run = _core.Simulation(
         model=model,

@@ -120,13 +120,10 @@ def chosen_mooring(
 
     Parameters
     ----------
-    what : str
-        Names the vessel in messages.
-    database : HydroDatabase
-        Whose restoring may hold a mooring of its own.
+    what : Names the vessel in messages.
+    database : Whose restoring may hold a mooring of its own.
     mooring, period : as in `add_vessel`.
-    usual : bool
-        Whether the period is that of a user who gave none.
+    usual : Whether the period is that of a user who gave none.
 
     Raises
     ------

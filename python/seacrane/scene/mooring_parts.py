@@ -23,16 +23,12 @@ class Mooring:
 
     Attributes
     ----------
-    matrix : ndarray, shape (6, 6)
-        All of it about the reference point.
-    horizontal : ndarray, shape (3,)
-        Springs of surge, sway and yaw by themselves.
-    floating : ndarray, shape (3, 3)
-        What joins the restoring of heave, roll and pitch.
+    matrix : (6, 6) All of it about the reference point.
+    horizontal : (3,) Springs of surge, sway and yaw by themselves.
+    floating : (3, 3) What joins the restoring of heave, roll and pitch.
     springs : tuple of (point, direction, stiffness)
         The rest, each along its line.
-    left : ndarray, shape (3,)
-        Couplings of heave, roll and pitch with yaw that are in none of these.
+    left : (3,) Couplings of heave, roll and pitch with yaw that are in none of these.
     """
 
     matrix: Array
@@ -93,7 +89,7 @@ def _wrenches(matrix: Array) -> Array:
 
 
 def _without_twist(what: str, wrenches: Array) -> Array:
-    """The same squares, by wrenches whose force and moment are at right angles: springs along lines.
+    """The given squares, by wrenches whose force and moment are at right angles: springs along lines.
 
     Rotating two of them among each other leaves the sum of their twists f . m, which has to be zero.
     """

@@ -87,19 +87,14 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
 
     Parameters
     ----------
-    database : HydroDatabase
-    omega : ndarray, shape (n,)
-        rad/s; beyond the database's as `HydroDatabase.force_at` with ``outside="limits"``.
+    omega : (n,) rad/s; beyond the database's as `HydroDatabase.force_at` with ``outside="limits"``.
 
     Returns
     -------
     ByHeading
         N/m and N m/m.
 
-    Raises
-    ------
-    SceneError
-        If the headings do not cover the circle.
+    Raises SceneError if the headings do not cover the circle.
     """
     heading, table = database.full_circle()
     if np.diff(np.append(heading, heading[0] + 2.0 * np.pi)).max() > np.pi / 4.0 + 1e-9:

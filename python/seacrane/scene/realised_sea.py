@@ -37,10 +37,7 @@ def realised_sea(
 
     Looking for repeats takes longer than all the rest; without, its provenance does not tell them.
 
-    Raises
-    ------
-    SceneError
-        For arguments that make no sea.
+    Raises SceneError for arguments that make no sea.
     """
     if sea is None:
         chosen = DEFAULTS | given

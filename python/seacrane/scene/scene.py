@@ -240,6 +240,6 @@ def as_text(scene: Description) -> str:
 
 
 def as_html(scene: Description) -> str:
-    """The same as a table for notebooks."""
+    """The report as a table for notebooks."""
     held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
     return notebook_table(("", "number", "names"), held, caption=f"Scene {scene.name!r}")

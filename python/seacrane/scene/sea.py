@@ -292,13 +292,11 @@ class WithoutLoad:
 
     Attributes
     ----------
-    energy : float
-        Share of the energy of the waves.
+    energy : Share of the energy of the waves.
     variance : float
         Largest share of the variance of a load; what is left out is estimated from the slope of the forces
         at the end of the band.
-    load : str
-        Which load that is.
+    load : Which load that is.
     """
 
     energy: float

@@ -12,10 +12,12 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.renamed import refusing
 
 
+@refusing
 def add_slack_tank(
-    scene: Description, *, moment: float, trim_moment: float = 0.0, body: str | None = None
+    scene: Description, *, moment: float, trim_moment: float = 0.0, vessel: str | None = None
 ) -> VesselHydrodynamics:
     """Take the free surface of a slack tank from a vessel's stability, by its moment.
 
@@ -29,8 +31,8 @@ def add_slack_tank(
         surface about the longitudinal axis, l b^3 / 12 of a rectangle. 1 t m is 1000.
     trim_moment : float
         Likewise about the transverse axis, for C55.
-    body : str, optional
-        Of the vessel; default: the only one.
+    vessel : str, optional
+        Default: the only one.
 
     Returns
     -------
@@ -44,14 +46,14 @@ def add_slack_tank(
     """
     given = given_vessels(scene)
     floating = {name: one for name, one in scene.vessels.items() if one.body not in given}
-    chosen = {name: one for name, one in floating.items() if body in (None, one.body)}
+    chosen = {name: one for name, one in floating.items() if vessel in (None, one.body)}
     if len(chosen) != 1:
         known = ", ".join(repr(one.body) for one in floating.values()) or "none"
         raise SceneError(
-            f"slack tank: body is {body!r}, and the vessels afloat are {known}; name one of them"
+            f"slack tank: vessel is {vessel!r}, and the vessels afloat are {known}; name one of them"
         )
-    name, vessel = next(iter(chosen.items()))
-    restoring = np.array(vessel.restoring)
+    name, afloat = next(iter(chosen.items()))
+    restoring = np.array(afloat.restoring)
     taken = []
     for key, value, motion in (("moment", moment, 3), ("trim_moment", trim_moment, 4)):
         taken.append(scene.gravity * number_of(f"slack tank: {key}", value))
@@ -61,7 +63,7 @@ def add_slack_tank(
                 f"{restoring[motion, motion] / scene.gravity:.6g} kg m; give a moment from 0 to below that"
             )
     restoring[[3, 4], [3, 4]] -= taken
-    changed = VesselHydrodynamics(**{**vessel.__getstate__(), "restoring": restoring})
+    changed = VesselHydrodynamics(**{**afloat.__getstate__(), "restoring": restoring})
     scene.vessels[name] = changed
     source = scene.provenance.get(name, VesselProvenance())
     before = source.slack_tanks or (0.0, 0.0)

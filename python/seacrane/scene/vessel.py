@@ -177,7 +177,7 @@ def _from_database(
         name=name,
         mass=parameters.mass,
         inertia=parameters.inertia,
-        center_of_mass=parameters.centre_of_mass,
+        center_of_mass=parameters.center_of_mass,
         position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )
@@ -226,7 +226,7 @@ def _memory_error(parameters: VesselParameters, memory: str) -> float | None:
 def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
     """Mass in surge and sway (kg) and inertia in yaw (kg m2) about the reference point, with added mass."""
     heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
-    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
+    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.center_of_mass[:2] ** 2))
     return np.asarray(heavy)
 
 
@@ -237,13 +237,7 @@ def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, f
 
     Parameters
     ----------
-    database : HydroDatabase
-    used : ndarray, shape (6, 6)
-        `additional_stiffness` of the model that a vessel has.
-
-    Returns
-    -------
-    (float, float, float), or None without such causes, or where they take nothing.
+    used : (6, 6) `additional_stiffness` of the model that a vessel has.
     """
     if not database.additional:
         return None

@@ -19,8 +19,7 @@ def gumbel_fit(maxima: Array) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    maxima : ndarray, shape (..., k)
-        Rows whose values are not all equal.
+    maxima : (..., k) Rows whose values are not all equal.
 
     Returns
     -------

@@ -20,9 +20,8 @@ def start_differs(values: Array, cycles: float) -> bool | None:
 
     Parameters
     ----------
-    values : ndarray, shape (n,)
-    cycles : float
-        Of the record, in number.
+    values : (n,)
+    cycles : Of the record, in number.
 
     Returns
     -------

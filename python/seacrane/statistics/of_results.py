@@ -88,7 +88,7 @@ def extremes(
         (values, step), repeat = records[0], _repeat(result)
         return record_extremes(
             values,
-            dt=step,
+            interval=step,
             exposure=exposure,
             tail=tail,
             threshold=threshold,

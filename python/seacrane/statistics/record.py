@@ -30,8 +30,7 @@ def record_of(values: Any) -> Array:
 
     Parameters
     ----------
-    values : array_like, shape (n,)
-        At least 64, finite, any unit.
+    values : (n,) At least 64, finite, any unit.
     """
     record = numbers_of("values", values)
     if record.ndim != 1 or record.size < FEWEST_VALUES:

@@ -13,6 +13,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.renamed import refusing
 from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -131,10 +132,11 @@ class RecordExtremes:
         )
 
 
+@refusing
 def record_extremes(
     values: Any,
     *,
-    dt: float,
+    interval: float,
     exposure: float = THREE_HOURS,
     tail: str = "pareto",
     threshold: float | None = None,
@@ -149,7 +151,7 @@ def record_extremes(
     ----------
     values : array_like, shape (n,)
         At even times, any unit; for smallest values give them negative.
-    dt : float
+    interval : float
         Between two values, s; a tenth of the shortest period or less.
     exposure : float
         s; default 3 h.
@@ -178,7 +180,7 @@ def record_extremes(
     -----
     StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
     """
-    record, step, asked = record_of(values), positive("dt", dt), positive("exposure", exposure)
+    record, step, asked = record_of(values), positive("interval", interval), positive("exposure", exposure)
     duration, mean, std = record.size * step, float(record.mean()), float(record.std())
     crossings = up_crossings(record, mean).size
     heights = crests(record, mean)
@@ -186,7 +188,7 @@ def record_extremes(
         raise SceneError("values: the record crosses its mean fewer than three times; make it longer")
     warn_of_start(record, crossings)
     warn_of_repeat(repeat, duration)
-    spectrum, rate = spectrum_estimate(record, dt=step), crossings / duration
+    spectrum, rate = spectrum_estimate(record, interval=step), crossings / duration
     found = peaks_over_threshold(mean + heights, duration=duration, threshold=threshold, kind=tail)
     if found is not None and not found.accepted:
         warn_caller(

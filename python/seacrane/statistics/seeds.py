@@ -234,8 +234,7 @@ def gumbel_maximum_of(maxima: Array) -> Maximum:
 
     Parameters
     ----------
-    maxima : ndarray, shape (k,)
-        At least 3.
+    maxima : (k,) At least 3.
     """
     location, scale = (float(one) for one in gumbel_fit(np.sort(maxima)))
     return _gumbel_maximum(maxima.size, location, scale, 1.0, 1.0)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
+from seacrane.renamed import refusing
 from seacrane.statistics.estimate import CONFIDENCE
 from seacrane.statistics.record import FEWEST_VALUES, positive, record_of
 
@@ -77,14 +78,15 @@ class SpectrumEstimate:
         return self.density * low, self.density * high
 
 
-def spectrum_estimate(values: Any, *, dt: float, segments: int = SEGMENTS) -> SpectrumEstimate:
+@refusing
+def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS) -> SpectrumEstimate:
     """Estimate the spectrum of a record by Welch's method: half-overlapping Hann segments.
 
     Parameters
     ----------
     values : array_like, shape (n,)
         At even times, any unit.
-    dt : float
+    interval : float
         Between two values, s.
     segments : int
         How many, at least 1; fewer are taken where each would have fewer than 64 values.
@@ -100,7 +102,7 @@ def spectrum_estimate(values: Any, *, dt: float, segments: int = SEGMENTS) -> Sp
     """
     from scipy.signal import welch
 
-    record, step = record_of(values), positive("dt", dt)
+    record, step = record_of(values), positive("interval", interval)
     if not isinstance(segments, (int, np.integer)) or segments < 1:
         raise SceneError(f"segments={segments!r}: give a whole number of at least 1")
     length = min(record.size, max(FEWEST_VALUES, 2 * record.size // (int(segments) + 1)))

@@ -126,14 +126,11 @@ def peaks_over_threshold(
 
     Parameters
     ----------
-    crests : ndarray, shape (n,)
-        One for each cycle, in the order of time, any unit.
-    duration : float
-        Of the record, s.
+    crests : (n,) One for each cycle, in the order of time, any unit.
+    duration : Of the record, s.
     threshold : float, optional
         By default the lowest of the 85 % to 98 % quantiles of the crests at which the fit is acceptable.
-    kind : str
-        "pareto" (default) or "exponential".
+    kind : "pareto" (default) or "exponential".
 
     Returns
     -------

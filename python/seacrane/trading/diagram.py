@@ -32,10 +32,8 @@ class Measured:
 
     Attributes
     ----------
-    quantity, unit : str
-        Of the errors.
-    uncertainty : float
-        Of the reference.
+    quantity, unit : Of the errors.
+    uncertainty : Of the reference.
     """
 
     quantity: str
@@ -98,7 +96,7 @@ def _changed(row: Row, full: Label) -> str:
 
 
 def _own_front(rows: Sequence[Row], quantity: str, over: str) -> list[Row]:
-    """Those that none of them beats, the cheapest first."""
+    """The rows that none of them beats, the cheapest first."""
     on = front(rows, quantity, cost=over)
     return sorted((row for row, kept in zip(rows, on, strict=True) if kept), key=lambda row: _cost(row, over))
 

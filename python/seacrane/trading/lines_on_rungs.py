@@ -32,10 +32,7 @@ def line_variants(scene: Scene) -> Iterator[tuple[str, Callable[[], Scene]]]:
 def with_rigid_lines(scene: Scene) -> Scene:
     """Every line replaced by a link as long as its path is described, which also pushes.
 
-    Raises
-    ------
-    SceneError
-        For a line over more than two points, or whose length changes.
+    Raises SceneError for a line over more than two points, or whose length changes.
     """
     out = scene.copy()
     for name, line in lines_of(scene.loads).items():

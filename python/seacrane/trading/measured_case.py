@@ -58,16 +58,10 @@ def timed(
 
     Parameters
     ----------
-    case : Case
-    method : Method
-    channels : iterable of str or None
-        To record, where the scene has them; None: its default ones.
-    repeats : int
-        Equal runs; the quickest counts.
-    long_s : float
-        Wall time from which on one run tells the cost, s.
-    limit_s : float, optional
-        Processor time granted to each, s, so that what else the machine does decides nothing.
+    channels : To record, where the scene has them; None: its default ones.
+    repeats : Equal runs; the quickest counts.
+    long_s : Wall time from which on one run tells the cost, s.
+    limit_s : Processor time granted to each, s, so that what else the machine does decides nothing.
     """
     outputs = case.outputs(channels) if channels is not None else replace(case.outputs(()), channels=None)
     wall = cpu = np.inf

@@ -27,8 +27,7 @@ class Reference:
         Empty where there is no reference.
     uncertainty : mapping of str to float
         How far tight runs differ; empty where there is but one.
-    runs : tuple of str
-        The methods, the one that gave the values first.
+    runs : The methods, the one that gave the values first.
     refused : mapping of str to str
         Methods that did not work, and why.
     """

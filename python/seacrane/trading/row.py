@@ -31,26 +31,21 @@ class Row:
     ----------
     case : mapping of str to str or float
         What tells the case from the others of the experiment, by name.
-    method : Method
-        As asked for.
-    stepped : str
-        The formulation that was stepped; empty before.
+    method : As asked for.
+    stepped : The formulation that was stepped; empty before.
     verdict : str
         "completed", "refused", "stopped" or "slow"; "not finite", "unnamed", "hung" and "crashed" must not
         occur. Empty: not measured yet.
-    message : str
-        Why it did not complete, or what the row leaves out.
+    message : Why it did not complete, or what the row leaves out.
     errors : mapping of str to ErrorMeasures
         By quantity, against the reference; what the run does not give is left out.
     uncertainty : mapping of str to float
         How far tight runs differ, by quantity: no error below can be told.
     motion : mapping of str to float
         Largest distance of each quantity from its start, in the reference, else in the run.
-    drift, left : float
-        Largest constraint error before and after projection, m or rad.
+    drift, left : Largest constraint error before and after projection, m or rad.
     energy : float
         Largest energy balance over the absolute work or the kinetic energy, whichever is larger.
-    steps, rejected_steps, evaluations, dense_solves : int
     simulated_s, wall_s, cpu_s : float
         Simulated time; least wall time and processor time of the loop over the repeats, s.
     """
@@ -94,7 +89,7 @@ class Row:
         return self.errors[quantity].largest if quantity in self.errors else UNKNOWN
 
     def relative_error(self, quantity: str) -> float:
-        """The same over the motion; NaN where it rests."""
+        """The error over the motion; NaN where it rests."""
         return self._over_motion(quantity, self.error(quantity))
 
     def relative_uncertainty(self, quantity: str) -> float:

@@ -79,15 +79,11 @@ def completed(
 
     Parameters
     ----------
-    keys : iterable of str
-    file : RowFile
-        What it holds is not measured again; what is measured is kept there at once.
+    file : What it holds is not measured again; what is measured is kept there at once.
     measure : callable
         Measures the rows of the keys that are missing, in any order, and gives each with its key.
-    title : str
-        Of the progress bar.
-    progress : bool
-        Whether to show it.
+    title : Of the progress bar.
+    progress : Whether to show it.
     """
     if progress:
         from tqdm.auto import tqdm

@@ -119,7 +119,7 @@ def full_memory_name(scene: Scene, name: str) -> str:
 
 
 def _database(scene: Scene) -> HydroDatabase | None:
-    """Of the one vessel, where that is from one."""
+    """The database of the one vessel, where that is from one."""
     (vessel,) = scene.vessels.values()
     return vessel.database if isinstance(vessel.database, HydroDatabase) else None
 
@@ -199,10 +199,7 @@ def locked(scene: Scene) -> Scene:
 def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     """The vessel's six motions (n, 6) prescribed; nothing acts back on it.
 
-    Raises
-    ------
-    SceneError
-        For a scene of several vessels.
+    Raises SceneError for a scene of several vessels.
     """
     if len(scene.vessels) != 1:
         raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")

@@ -38,12 +38,9 @@ class Bench:
 
     Attributes
     ----------
-    case : Case
-        The full scene.
+    case : The full scene.
     quantities : mapping of str to Quantity
-    truth : Reference
-    repeats : int
-        Equal runs; the quickest counts.
+    repeats : Equal runs; the quickest counts.
     """
 
     case: Case
@@ -55,10 +52,7 @@ class Bench:
 def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference:
     """Tight runs in two formulations and with two methods; the first is the reference.
 
-    Raises
-    ------
-    SceneError
-        If fewer than two of them work: a reference without a second opinion is none.
+    Raises SceneError if fewer than two of them work: a reference without a second opinion is none.
     """
 
     def run(method: Method) -> Mapping[str, Array] | str:
@@ -141,11 +135,9 @@ def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str,
     turn = rotation_matrix(result.select("quaternion", body=link.first))
     lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)
     tip = result.select("position", body=link.first) + turn @ lever
-    spin = np.cross(result.select("angular_velocity", body=link.first), turn @ lever)
     below = link.length + float(link.second_frame.point[2] - payload.center_of_mass[2])
     return {
-        "hook_tension": np.full((len(tip), 1), payload.mass * scene.gravity),
-        "tip_velocity": np.asarray(result.select("velocity", body=link.first) + spin),
+        "hook_load": np.full((len(tip), 1), payload.mass * scene.gravity),
         "payload_position": tip - np.array([0.0, 0.0, below]),
     }
 
@@ -190,7 +182,7 @@ def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:
 
 
 def _roll(linear: LinearModel, body: str, times: Array) -> Array:
-    """Of a vessel about its own axis, rad."""
+    """The roll of a vessel about its own axis, rad."""
     heading = heading_of(linear.scene.bodies[body].quaternion)
     rotation = response_summed(linear, body=body).at(times)[:, 3:]
     return np.asarray(np.cos(heading) * rotation[:, 0] + np.sin(heading) * rotation[:, 1])

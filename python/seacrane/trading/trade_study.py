@@ -263,7 +263,7 @@ def trade(
     methods : iterable of Method, optional
         What to measure on the full scene; default: a grid of every integrator of the core.
     quantities : sequence of str, optional
-        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_tension", or any channel. Default:
+        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load", or any channel. Default:
         those of the named ones that the scene has, else position and velocity of all bodies.
     quick : bool
         A coarse grid of few integrators.

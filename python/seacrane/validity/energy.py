@@ -20,7 +20,7 @@ LEAST_RISE = 1e-3  # m times the length scale, by which all bodies are lifted: w
 
 
 def energy_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
-    """Of a run; channels left out are not judged."""
+    """The findings of a run; channels left out are not judged."""
     if not {"energy_balance", "absolute_work", "velocity"} <= channels.keys() or not time.size:
         return []
     mass = np.array([body.mass for body in scene.bodies.values()])

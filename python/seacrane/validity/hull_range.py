@@ -76,7 +76,7 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
 
 @dataclass(frozen=True, kw_only=True)
 class Peak:
-    """Of a sea: frequency (rad/s) and wavenumber (1/m) where its energy is densest, and the mean of e e^T
+    """Peak of a sea: frequency (rad/s) and wavenumber (1/m) of its densest energy, and the mean of e e^T
     over the directions of travel e."""
 
     omega: float
@@ -100,7 +100,7 @@ class Peak:
         return 2.0 * np.pi / self.omega
 
     def phase(self, place: Array) -> Array:
-        """Of waves at the peak, over displacements (n, 2), m: root mean square over the directions, rad."""
+        """Phase of waves at the peak, over displacements (n, 2), m: root mean square over directions, rad."""
         return np.asarray(self.wavenumber * np.sqrt(np.sum((place @ self.spread) * place, axis=1)))
 
 

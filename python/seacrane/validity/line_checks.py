@@ -142,7 +142,7 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
 
 
 def strains_at_rest(scene: Description) -> dict[str, float]:
-    """Of lines with a constant EA that alone carry what hangs on them, by that weight."""
+    """The strains of lines with a constant EA that alone carry what hangs on them, by that weight."""
     lines = lines_of(scene.loads)
     return {
         name: weight / falls / lines[name].EA

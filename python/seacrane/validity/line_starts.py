@@ -24,7 +24,7 @@ LARGEST_LIFT = 1.5  # of a body's weight, by its lines
 
 
 def warn_of_line_starts(scene: Description) -> None:
-    """Of a scene that starts as it is described."""
+    """Warn of the lines of a scene that starts as it is described."""
     lines = lines_of(scene.loads)
     if not lines:
         return

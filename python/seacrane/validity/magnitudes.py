@@ -77,7 +77,7 @@ def _unusual(element: Any, times: Array) -> Iterator[str]:
 
 
 def magnitudes(value: Any, times: Array) -> Array:
-    """Of a number, of those of an array, or the largest of a curve at some times."""
+    """The magnitude of a number, of those of an array, or the largest of a curve at some times."""
     if isinstance(value, _core.Curve):
         return np.asarray(np.abs(value.evaluate(times)[:, 0]).max(keepdims=True))
     return np.asarray(np.abs(np.asarray(value, dtype=float)).ravel())

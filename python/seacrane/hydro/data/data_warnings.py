@@ -61,7 +61,6 @@ def warn_of_water(
 
     Parameters
     ----------
-    database : HydroData
     gravity : m/s2 of ``what``.
     depth : m (inf: deep) of ``what``; None where it has no waves.
     omega : (n,) rad/s of its waves, whose lengths are compared.
@@ -91,7 +90,7 @@ def warn_of_water(
 
 
 def _smallest_eigenvalues(damping: FloatArray) -> FloatArray:
-    """Of the symmetric part (n,), by the largest diagonals over all frequencies."""
+    """The smallest eigenvalues of the symmetric part (n,), by the largest diagonals over all frequencies."""
     scale = np.sqrt(np.abs(np.diagonal(damping, axis1=1, axis2=2)).max(axis=0))
     active = scale > 0.0
     if not np.any(active):

@@ -45,9 +45,7 @@ def encounter_frequency_at(database: HydroData, omega: FloatArray, heading: Floa
 def require_zero_speed(database: HydroData) -> None:
     """Raise at forward speed, at which the memory and the equations of the time domain do not hold.
 
-    Raises
-    ------
-    ValueError : names the speed.
+    Raises ValueError: names the speed.
     """
     if database.speed != 0.0:
         raise ValueError(

@@ -120,10 +120,6 @@ def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> 
     ----------
     omega : (n,) rad/s.
     force : (..., n, 6) N/m and N m/m, beyond the band those of its nearest end.
-
-    Returns
-    -------
-    (..., n, 6), a new array.
     """
     out = np.array(force)
     lowest, highest = database.omega[0], database.omega[-1]

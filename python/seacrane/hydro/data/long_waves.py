@@ -71,7 +71,7 @@ def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, dept
 
 
 def warn_of_long_waves(database: HydroData) -> None:
-    """Of a database at zero speed, in its longest wave: motions as given, and as its wave loads make them."""
+    """Warn of a database at zero speed by its motions in the longest wave, as given and as its loads make."""
     if database not in _SLIPS:
         _SLIPS[database] = _slips(database)
     for said in _SLIPS[database]:

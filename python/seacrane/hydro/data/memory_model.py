@@ -133,7 +133,7 @@ class MotionError:
         return self.of(range(6))
 
     def of(self, motions: Iterable[int]) -> float:
-        """The same of some motions."""
+        """The memory model of some motions."""
         chosen = list(motions)
         return float(max(self.seas[chosen].max(), self.peaks[chosen].max() / PEAK_ALLOWANCE))
 

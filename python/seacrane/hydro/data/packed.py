@@ -72,10 +72,7 @@ def _told(value: Any, arrays: list[bytes]) -> Any:
 def unpacked(data: bytes, roots: tuple[type, ...]) -> Any:
     """What `packed` wrote, which is one of `roots`; runs no code but the constructors of these.
 
-    Raises
-    ------
-    One of NOT_PACKED
-        For anything else.
+    Raises One of NOT_PACKED for anything else.
     """
     told, _, rest = data.partition(b"\n")
     made = _made(json.loads(told), _Numbers(rest), {kind.__name__: kind for kind in (*roots, *PARTS)})

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 
-def rigid_mass_matrix(mass: float, centre: FloatArray, inertia: FloatArray) -> FloatArray:
+def rigid_mass_matrix(mass: float, center: FloatArray, inertia: FloatArray) -> FloatArray:
     """Mass matrix (6, 6) about the reference point, equation (12) of the paper for any centre of mass."""
-    cross = cross_matrix(centre)
+    cross = cross_matrix(center)
     matrix = np.zeros((6, 6))
     matrix[:3, :3] = mass * np.eye(3)
     matrix[:3, 3:] = -mass * cross

@@ -58,12 +58,9 @@ def matrix_sheet(
         Name, unit and values.
     curves : dict of ndarray, shape (n, 6, 6) or (6, 6)
         By label, SI. The first decides which entries are drawn; a constant becomes a dotted line.
-    symbol : str
-        A, B or K.
-    units : (str, str, str)
-        Of entries between two translations, one translation and one rotation, two rotations.
-    title, caption : str
-        Heading, and what follows the usual sentence below it.
+    symbol : A, B or K.
+    units : Of entries between two translations, one translation and one rotation, two rotations.
+    title, caption : Heading, and what follows the usual sentence below it.
     band : (float, float), optional
         Shaded range.
     """
@@ -280,8 +277,7 @@ def hydro_figures(
 
     Parameters
     ----------
-    database : HydroData
-        Any database.
+    database : Any database.
     what : str or sequence of str, optional
         Names; all if None.
     memory : MemoryModel, optional
@@ -309,16 +305,10 @@ def save_hydro_figures(
 
     Parameters
     ----------
-    database : HydroData
-        Any database.
-    folder : Path
-        Existing folder.
+    database : Any database.
+    folder : Existing folder.
     memory : MemoryModel, optional
         Whose curves are drawn over the data; the database's own if None, and none if it has none.
-
-    Returns
-    -------
-    list of Picture
     """
     sheets = {stem: make(database, memory or database.memory) for stem, make in SHEETS.items()}
     return [save_sheet(sheet, folder, stem) for stem, sheet in sheets.items() if sheet.panels]

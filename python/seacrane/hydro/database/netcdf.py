@@ -79,9 +79,7 @@ def save_database(database: HydroData, path: str | PathLike[str]) -> None:
 def load_database_file(kind: type[Data], path: str | PathLike[str]) -> Data:
     """Read a file written by `save_database`, as a ``kind`` of `HydroData`.
 
-    Raises
-    ------
-    FileFormatError : the file is missing, damaged, or not one of ours.
+    Raises FileFormatError: the file is missing, damaged, or not one of ours.
     """
     source = Path(path)
     if not source.is_file():

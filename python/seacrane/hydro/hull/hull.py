@@ -105,7 +105,7 @@ class Hull:
 
     def at_centre_of_buoyancy(self) -> Hull:
         """The same hull with the origin on the waterline over its centre of buoyancy."""
-        return self.moved(-float(self.hydrostatics.centre_of_buoyancy[0]))
+        return self.moved(-float(self.hydrostatics.center_of_buoyancy[0]))
 
     def sections(self, x: ArrayLike) -> list[Slice]:
         """Half sections at the stations ``x`` (s,) in m; see `seacrane.hydro.hull.sections.slices`."""
@@ -272,7 +272,7 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
         )
     breadth, length = float(np.ptp(panels[..., 1])), float(np.ptp(panels[..., 0]))
     off = max(
-        abs(float(statics.centre_of_buoyancy[1])),
+        abs(float(statics.center_of_buoyancy[1])),
         abs(statics.waterplane_moment_y) / statics.waterplane_area,
         abs(statics.waterplane_product) / (statics.waterplane_area * length),
     )

@@ -19,6 +19,7 @@ from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import MOTIONS
+from seacrane.renamed import refusing
 from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
 LARGEST_CHANGE = 0.05  # of the largest of an entry
@@ -33,10 +34,11 @@ DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
 TRIM_LIMIT = 0.001  # rad
 
 
+@refusing
 def hydro_from_hull(
     hull: Hull | ParametricHull,
     *,
-    centre_of_gravity: ArrayLike,
+    center_of_gravity: ArrayLike,
     mass: float | None = None,
     radii_of_gyration: ArrayLike | None = None,
     omega: ArrayLike | None = None,
@@ -56,7 +58,7 @@ def hydro_from_hull(
     Parameters
     ----------
     hull : `Hull`, or `ParametricHull` with the default panels of `Hull.from_parametric`.
-    centre_of_gravity : (3,) m from the hull's origin, on the centre plane.
+    center_of_gravity : (3,) m from the hull's origin, on the centre plane.
     mass : kg; None: the displaced mass.
     radii_of_gyration : (3,) m about the centre of gravity, roll, pitch, yaw; None: 0.36 breadth, 0.25 length,
         0.25 length.
@@ -95,7 +97,7 @@ def hydro_from_hull(
     _require_choice(shape.name, method, speed, roll_damping_fraction)
     for what, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
         positive_of(f"hull {shape.name!r}: {what}", value)
-    centre = _vector(shape.name, "centre_of_gravity", centre_of_gravity)
+    centre = _vector(shape.name, "center_of_gravity", center_of_gravity)
     if abs(centre[1]) > 1e-9 * shape.breadth:
         raise ValueError(
             f"hull {shape.name!r}: the centre of gravity is at y = {centre[1]:.4g} m; give it on the centre "
@@ -124,7 +126,7 @@ def hydro_from_hull(
         solution,
         omega=frequencies,
         heading=headings,
-        centre_of_gravity=centre,
+        center_of_gravity=centre,
         mass=weight,
         radii_of_gyration=radii,
         roll_damping_fraction=roll_damping_fraction,
@@ -141,7 +143,7 @@ def database_of_solution(
     *,
     omega: FloatArray,
     heading: FloatArray,
-    centre_of_gravity: FloatArray,
+    center_of_gravity: FloatArray,
     mass: float,
     radii_of_gyration: FloatArray,
     roll_damping_fraction: float,
@@ -160,8 +162,8 @@ def database_of_solution(
         damping=solution.damping,
         zero_frequency_added_mass=solution.added_mass_zero,
         infinite_frequency_added_mass=solution.added_mass_infinite,
-        restoring=_restoring(hull, mass, centre_of_gravity, rho, g),
-        mass_matrix=rigid_mass_matrix(mass, centre_of_gravity, inertia),
+        restoring=_restoring(hull, mass, center_of_gravity, rho, g),
+        mass_matrix=rigid_mass_matrix(mass, center_of_gravity, inertia),
         force=solution.force,
         length=hull.length,
         breadth=hull.breadth,
@@ -170,7 +172,7 @@ def database_of_solution(
         g=g,
         trusted_band=solution.trusted_band if trusted_band is None else trusted_band,
         origin=f"origin of the hull on the still waterline, {-hull.extent[0, 0]:.4f} m ahead of its aft end",
-        source=_source(hull, solution, mass, centre_of_gravity, roll_damping_fraction),
+        source=_source(hull, solution, mass, center_of_gravity, roll_damping_fraction),
     )
     if roll_damping_fraction == 0.0:
         return bare
@@ -212,7 +214,7 @@ def _source(
 
 def _restoring(hull: Hull, mass: float, centre: FloatArray, rho: float, g: float) -> FloatArray:
     x, _, z = centre
-    return hull.hydrostatics.restoring(rho=rho, g=g, centre_of_gravity_z=z, centre_of_gravity_x=x, mass=mass)
+    return hull.hydrostatics.restoring(rho=rho, g=g, center_of_gravity_z=z, center_of_gravity_x=x, mass=mass)
 
 
 def _require_afloat(
@@ -233,12 +235,12 @@ def _require_afloat(
             "added mass, damping and forces differ. Change the draught, or add what it carries as bodies",
             FloatingPositionWarning,
         )
-    lever = centre[0] - hull.hydrostatics.centre_of_buoyancy[0]
+    lever = centre[0] - hull.hydrostatics.center_of_buoyancy[0]
     trim = mass * g * lever / restoring[4, 4]
     if abs(trim) > TRIM_LIMIT:
         warn_caller(
             f"hull {hull.name!r}: the centre of gravity lies {lever:+.4g} m forward of the centre of "
-            f"buoyancy (x = {hull.hydrostatics.centre_of_buoyancy[0]:.4g} m); the hull would trim by "
+            f"buoyancy (x = {hull.hydrostatics.center_of_buoyancy[0]:.4g} m); the hull would trim by "
             f"{np.degrees(trim):+.3g} deg, which the database leaves out. Move one over the other",
             FloatingPositionWarning,
         )
@@ -309,9 +311,7 @@ def strip_solution(
     -----
     SubmergedPartWarning : a bulb ahead of the stem, or the like.
 
-    Raises
-    ------
-    ValueError : fewer than five stations, or a section that is not one outline from waterline to keel.
+    Raises ValueError: fewer than five stations, or a section that is not one outline from waterline to keel.
     """
     if stations < 5:
         raise ValueError(f"hull {hull.name!r}: {stations} stations; give 5 or more, 20 to 40 for a ship")

@@ -17,7 +17,7 @@ class Hydrostatics:
     Attributes
     ----------
     volume : m3.
-    centre_of_buoyancy : (3,) m.
+    center_of_buoyancy : (3,) m.
     waterplane_area : m2.
     waterplane_moment_x, waterplane_moment_y : integrals of x and of y over the waterplane, m3.
     waterplane_inertia_roll, waterplane_inertia_pitch, waterplane_product : of y^2, x^2 and x y, m4.
@@ -25,7 +25,7 @@ class Hydrostatics:
     """
 
     volume: float
-    centre_of_buoyancy: FloatArray
+    center_of_buoyancy: FloatArray
     waterplane_area: float
     waterplane_moment_x: float
     waterplane_inertia_roll: float
@@ -35,32 +35,32 @@ class Hydrostatics:
     wetted_surface: float = 0.0
 
     @property
-    def centre_of_flotation(self) -> float:
+    def center_of_flotation(self) -> float:
         """x (m) of the centroid of the waterplane."""
         return self.waterplane_moment_x / self.waterplane_area
 
     @property
     def metacentre_transverse(self) -> float:
         """Height (m) of the transverse metacentre above the waterline."""
-        return float(self.centre_of_buoyancy[2] + self.waterplane_inertia_roll / self.volume)
+        return float(self.center_of_buoyancy[2] + self.waterplane_inertia_roll / self.volume)
 
     @property
     def metacentre_longitudinal(self) -> float:
         """Height (m) of the longitudinal metacentre, for trim about the centre of flotation."""
-        about_flotation = self.waterplane_inertia_pitch - self.waterplane_moment_x * self.centre_of_flotation
-        return float(self.centre_of_buoyancy[2] + about_flotation / self.volume)
+        about_flotation = self.waterplane_inertia_pitch - self.waterplane_moment_x * self.center_of_flotation
+        return float(self.center_of_buoyancy[2] + about_flotation / self.volume)
 
-    def metacentric_height(self, centre_of_gravity_z: float) -> float:
+    def metacentric_height(self, center_of_gravity_z: float) -> float:
         """Transverse GM (m) for a centre of gravity at that height (m) above the waterline."""
-        return self.metacentre_transverse - centre_of_gravity_z
+        return self.metacentre_transverse - center_of_gravity_z
 
     def restoring(
         self,
         *,
         rho: float,
         g: float,
-        centre_of_gravity_z: float,
-        centre_of_gravity_x: float | None = None,
+        center_of_gravity_z: float,
+        center_of_gravity_x: float | None = None,
         mass: float | None = None,
     ) -> FloatArray:
         """Restoring matrix about the origin, equations (13)-(16) of the paper for the freely floating hull.
@@ -68,7 +68,7 @@ class Hydrostatics:
         Parameters
         ----------
         rho, g : kg/m3, m/s2.
-        centre_of_gravity_z, centre_of_gravity_x : m; x defaults to that of the centre of buoyancy.
+        center_of_gravity_z, center_of_gravity_x : m; x defaults to that of the centre of buoyancy.
         mass : kg; default: the displaced mass.
 
         Returns
@@ -76,11 +76,11 @@ class Hydrostatics:
         (6, 6) N/m, N, N m. A centre of gravity before or behind that of buoyancy leaves C46 (Newman 1977,
         Marine Hydrodynamics, section 6.16).
         """
-        x_b, _, z_b = self.centre_of_buoyancy
+        x_b, _, z_b = self.center_of_buoyancy
         buoyancy = rho * g * self.volume
         weight = buoyancy if mass is None else mass * g
-        x_g = x_b if centre_of_gravity_x is None else centre_of_gravity_x
-        lever = buoyancy * z_b - weight * centre_of_gravity_z
+        x_g = x_b if center_of_gravity_x is None else center_of_gravity_x
+        lever = buoyancy * z_b - weight * center_of_gravity_z
         c = np.zeros((6, 6))
         c[2, 2] = rho * g * self.waterplane_area
         c[2, 4] = c[4, 2] = -rho * g * self.waterplane_moment_x
@@ -118,7 +118,7 @@ def panel_hydrostatics(panels: FloatArray) -> Hydrostatics:
     centre = np.array([integral(x * z), integral(y * z), integral(0.5 * z * z)]) / volume
     return Hydrostatics(
         volume=volume,
-        centre_of_buoyancy=centre,
+        center_of_buoyancy=centre,
         waterplane_area=-integral(np.ones_like(z)),
         waterplane_moment_x=-integral(x),
         waterplane_moment_y=-integral(y),

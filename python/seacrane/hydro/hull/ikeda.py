@@ -42,7 +42,7 @@ class MainParticulars:
 
     @staticmethod
     def of(hull: Hull) -> MainParticulars:
-        """Of the wetted surface of a hull; the midship coefficient is that of its largest section."""
+        """Particulars of a hull's wetted surface; the midship coefficient is that of its largest section."""
         cut = hull.sections(np.linspace(hull.extent[0, 0], hull.extent[1, 0], STATIONS))
         areas = [2.0 * abs(float(np.trapezoid(one.section[:, 0], one.section[:, 1]))) for one in cut]
         box = hull.breadth * hull.draught

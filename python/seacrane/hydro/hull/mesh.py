@@ -25,9 +25,7 @@ def merged_points(points: FloatArray, tolerance: float) -> IntArray:
 def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArray:
     """Triangles (n, 3, 3) of a mesh of triangles or quadrilaterals.
 
-    Raises
-    ------
-    ValueError : wrong shapes, a vertex that is not finite, or a face with an index out of range.
+    Raises ValueError: wrong shapes, a vertex that is not finite, or a face with an index out of range.
     """
     points, corners = np.asarray(vertices, dtype=float), np.asarray(faces)
     if points.ndim != 2 or points.shape[1] != 3 or len(points) == 0:

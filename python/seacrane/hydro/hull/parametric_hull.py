@@ -111,7 +111,7 @@ class ParametricHull:
             )
         entrance = _bisect(excess, low, high)
         hull = replace(self, entrance_length=entrance, origin_from_transom=0.0)
-        lcb = panel_hydrostatics(hull.panels(stations=stations, girth=girth)).centre_of_buoyancy[0]
+        lcb = panel_hydrostatics(hull.panels(stations=stations, girth=girth)).center_of_buoyancy[0]
         return replace(hull, origin_from_transom=float(lcb))
 
 

@@ -124,7 +124,7 @@ class _Heeled:
             )
 
     def under(self, turn: FloatArray, sinkage: float) -> Hydrostatics:
-        """Of what is under water, in axes of the water."""
+        """The properties of what is under water, in axes of the water."""
         placed = self.triangles @ turn.T - np.array([0.0, 0.0, sinkage])
         wet = cut_panels(placed[:, [0, 1, 2, 2]], axis=2, side=-1, tolerance=1e-12 * self.length)
         if not len(wet):
@@ -135,7 +135,7 @@ class _Heeled:
         rows = [self.arm(float(heel)) for heel in heels]
         gz, sinkage, trim = np.array(rows).reshape(-1, 3).T
         up = self.upright
-        metacentre = up.centre_of_buoyancy[2] + up.waterplane_inertia_roll / up.volume
+        metacentre = up.center_of_buoyancy[2] + up.waterplane_inertia_roll / up.volume
         return RightingArms(
             heel=heels, GZ=gz, sinkage=sinkage, trim=trim, volume=up.volume,
             GM=float(metacentre - self.centre[2]),
@@ -147,7 +147,7 @@ class _Heeled:
         for _ in range(ROUNDS):
             turn = _turn(heel, trim)
             under, weight = self.under(turn, sinkage), turn @ self.centre
-            x, y, _ = under.centre_of_buoyancy - weight
+            x, y, _ = under.center_of_buoyancy - weight
             missing = self.upright.volume - under.volume
             needs_trim = self.free and abs(x) > EXACT * self.length
             if abs(missing) <= EXACT * self.upright.volume and not needs_trim:
@@ -172,7 +172,7 @@ class _Heeled:
         if not self.free:
             return float(np.clip(missing / area, -farthest, farthest)), 0.0
         first = under.waterplane_moment_x
-        lever = float(under.centre_of_buoyancy[2] - weight[2])
+        lever = float(under.center_of_buoyancy[2] - weight[2])
         second = under.waterplane_inertia_pitch - weight[0] * first + under.volume * lever
         matrix = np.array([[area, first], [first - weight[0] * area, second]])
         down, bow = np.linalg.lstsq(matrix, np.array([missing, -off * under.volume]), rcond=1e-12)[0]

@@ -52,10 +52,6 @@ def fit_by_motion(
     band : (low, high) in rad/s over which motions are judged.
     known : (6, 6) infinite-frequency added mass, or None to estimate it.
     limit : of `MotionError.worst`.
-
-    Returns
-    -------
-    MemoryModel : with `motion`; its ``r2`` is that of its worst pair.
     """
     judge = motion_judge(database, band)
     grid = _grid(database, judge, band)

@@ -105,7 +105,7 @@ def keep_fit(database: HydroData, settings: FitSettings, model: MemoryModel) -> 
 
 
 def digest(database: HydroData, settings: FitSettings) -> str:
-    """Of everything that a fit depends on, as hexadecimal text."""
+    """The digest of everything that a fit depends on, as hexadecimal text."""
     parts = hashlib.sha256(json.dumps([VERSION, asdict(settings)]).encode())
     for name in USED:
         _add(parts, name, getattr(database, name))

@@ -183,7 +183,7 @@ def enough_frequencies(database: HydroData) -> bool:
 
 
 def _entries(database: HydroData, added_mass: FloatArray, damping: FloatArray) -> list[tuple[int, int]]:
-    """Those of the radiation to fit."""
+    """The entries of the radiation to fit."""
     symmetric = database.port_starboard_symmetric
     return list(memory_entries(added_mass, damping, database.omega, symmetric=symmetric))
 
@@ -218,7 +218,7 @@ def _fit_radiation(
 def _fit_passive_radiation(
     database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
-    """The same of the passive kind."""
+    """Fit a memory of the passive kind."""
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
     blocks, rows, infinite = fit_passive(

@@ -52,7 +52,7 @@ class MotionJudge:
         self.variance = np.maximum(variance, 1e-300)
 
     def error(self, difference: ComplexArray) -> MotionError:
-        """Of a difference (n, 6, 6) of impedance, the model's less the data's."""
+        """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
         changed = np.linalg.solve(self.solved.impedance + difference, self.solved.force[..., None])[..., 0]
         apart = np.abs(changed - self.motion)
         variance = np.einsum("sn,mni->smi", self.weights, apart**2)
@@ -66,7 +66,7 @@ class MotionJudge:
         return MotionError(seas=seas, peaks=peaks)
 
     def error_of(self, model: MemoryModel | RetardationModel) -> MotionError:
-        """Of a memory model of all causes."""
+        """The error of a memory model of all causes."""
         w = self.omega[:, None, None]
         added_mass, damping = model.frequency_response(self.omega)
         more_mass, more_damping = model.additional_response(self.omega)

@@ -46,10 +46,6 @@ def fit_passive(
     r2 : that added mass and damping of every pair shall reach, weak pairs (peak of A's variation and B below
         1 % of the geometric mean of their diagonals' peaks) excepted: these shall not change any motion by
         more than 1 % of its largest.
-
-    Returns
-    -------
-    blocks, rows, and the infinite-frequency added mass (6, 6) of the groups' motions, zero elsewhere.
     """
     pairs = sorted((min(pair), max(pair)) for pair in entries)
     blocks: list[MemoryBlock] = []

@@ -74,7 +74,7 @@ class RetardationModel:
         return self.added_mass + transfer.imag / w[:, None, None], transfer.real
 
     def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """The same of all other causes, stiffness counted as added mass."""
+        """The response of all other causes, stiffness counted as added mass."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         transfer = transform(self.additional, self.step, w)
         by_frequency = w[:, None, None]

@@ -15,9 +15,7 @@ def equivalent_box(restoring: FloatArray, volume: float, weight_density: float) 
     waterplane ``C33 / (rho g) = L B`` and volume ``L B T``. ``weight_density`` is rho g in N/m3. A pointed
     ship comes out shorter than it is (246 m as 226 m): good enough for scales, not for geometry.
 
-    Raises
-    ------
-    ValueError : C33 or C55 is not positive: nothing floats on this waterplane.
+    Raises ValueError: C33 or C55 is not positive: nothing floats on this waterplane.
     """
     heave, pitch = float(restoring[2, 2]), float(restoring[4, 4])
     if heave <= 0.0 or pitch <= 0.0:

@@ -67,7 +67,7 @@ def load_database(
 
 
 def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> HydroDatabase:
-    """Of a speed and a depth, where they are asked for."""
+    """The database of a speed and a depth, where they are asked for."""
     if depth is None or found.at_depth is None:
         database = found.read(path, speed=speed)
     else:
@@ -115,7 +115,7 @@ def _format_of(path: Path) -> tuple[Format, Path]:
 
 
 def _format_of_folder(folder: Path) -> tuple[Format, Path]:
-    """Of a folder that is a set of files, or that holds one file of a known kind."""
+    """The format of a folder that is a set of files, or that holds one file of a known kind."""
     sets = [one for one in FORMATS if one.can_open(folder)]
     if len(sets) > 1:
         names = " and ".join(one.name for one in sets)

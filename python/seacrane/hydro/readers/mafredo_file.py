@@ -45,9 +45,7 @@ class MafredoData:
 def read_mafredo(path: Path) -> MafredoData:
     """Read a ``.dhyd`` file.
 
-    Raises
-    ------
-    FileFormatError : no such form, damaged, or of different grids in its parts.
+    Raises FileFormatError: no such form, damaged, or of different grids in its parts.
     """
     try:
         with open_netcdf(path) as file:

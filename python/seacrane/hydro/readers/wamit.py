@@ -176,8 +176,8 @@ class _Given:
             depth=self.depth,
             rho=None,
             volume=float(self.volume),
-            centre_of_buoyancy=np.zeros(3),
-            centre_of_gravity=None,
+            center_of_buoyancy=np.zeros(3),
+            center_of_gravity=None,
             body_height=0.0,
             symmetric=None,
             panels=None,
@@ -359,17 +359,17 @@ def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
     if control is not None and control.mass is not None:
         return control.mass
     mass = body.rho * listing.volume
-    centre = listing.centre_of_buoyancy.copy()
-    if listing.centre_of_gravity is not None:
-        centre = listing.centre_of_gravity.copy()
+    centre = listing.center_of_buoyancy.copy()
+    if listing.center_of_gravity is not None:
+        centre = listing.center_of_gravity.copy()
     if control is not None and control.radii is not None and control.height_of_gravity is not None:
         centre[2] = control.height_of_gravity
         about_origin = mass * control.radii * np.abs(control.radii)
         matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
         matrix[3:, 3:] = about_origin
         return matrix
-    if control is not None and control.centre_of_gravity is not None:
-        centre = control.centre_of_gravity
+    if control is not None and control.center_of_gravity is not None:
+        centre = control.center_of_gravity
     return usual_mass_matrix(
         stem, "no mass matrix in .frc", mass=mass, centre=centre, length=body.box[0], breadth=body.box[1]
     )

@@ -36,8 +36,8 @@ class Listing:
     depth: float
     rho: float | None
     volume: float
-    centre_of_buoyancy: FloatArray
-    centre_of_gravity: FloatArray | None
+    center_of_buoyancy: FloatArray
+    center_of_gravity: FloatArray | None
     body_height: float
     symmetric: bool | None
     panels: int | None
@@ -50,7 +50,7 @@ class ForceControl:
     """A ``.frc`` file of either form; what its form does not hold is None.
 
     Form 1 (IALTFRC=1): ``height_of_gravity`` and ``radii`` (3, 3) of gyration, m. Form 2 (IALTFRC=2):
-    ``rho``, ``centre_of_gravity`` (3,), ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
+    ``rho``, ``center_of_gravity`` (3,), ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
     ``motions_option`` is 1 for motions from Haskind forces, 2 from diffraction forces, 0 for none.
     """
 
@@ -59,7 +59,7 @@ class ForceControl:
     height_of_gravity: float | None = None
     radii: FloatArray | None = None
     rho: float | None = None
-    centre_of_gravity: FloatArray | None = None
+    center_of_gravity: FloatArray | None = None
     mass: FloatArray | None = None
     damping: FloatArray | None = None
     stiffness: FloatArray | None = None
@@ -68,9 +68,7 @@ class ForceControl:
 def read_listing(path: Path) -> Listing:
     """Read the head of the listing and the periods it goes through.
 
-    Raises
-    ------
-    FileFormatError : something needed is missing, or the body is placed away from the origin.
+    Raises FileFormatError: something needed is missing, or the body is placed away from the origin.
     """
     lines = _lines(path)
     text = "\n".join(lines)
@@ -110,8 +108,8 @@ def read_listing(path: Path) -> Listing:
         depth=_depth(path, text, len(lines)),
         rho=density[0] if density and density[0] > 1.0 else None,
         volume=float(np.mean(volumes)),
-        centre_of_buoyancy=np.array(buoyancy),
-        centre_of_gravity=None if gravity is None else np.array(gravity),
+        center_of_buoyancy=np.array(buoyancy),
+        center_of_gravity=None if gravity is None else np.array(gravity),
         body_height=_body_height(path, maybe),
         symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
         panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
@@ -143,7 +141,7 @@ def read_force_control(path: Path) -> ForceControl:
         path,
         motions,
         rho=first,
-        centre_of_gravity=np.array(row),
+        center_of_gravity=np.array(row),
         mass=mass,
         damping=damping,
         stiffness=stiffness,

@@ -36,9 +36,7 @@ class MeanDrift:
 def read_mean_drift(path: Path) -> MeanDrift:
     """The mean loads of single waves in one of these files.
 
-    Raises
-    ------
-    FileFormatError : truncated or damaged, with the line; or no row of one wave alone.
+    Raises FileFormatError: truncated or damaged, with the line; or no row of one wave alone.
     """
     first = 2 if path.suffix.lower() == SECOND_ORDER else 1  # columns of periods
     table = read_table(path, (first + 7,))

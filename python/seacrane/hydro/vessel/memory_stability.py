@@ -25,21 +25,19 @@ def largest_growth_rate(database: HydroData, model: MemoryModel) -> float:
 
 @one_thread
 def growth_rate(vessel: VesselParameters) -> float:
-    """The same of a vessel of the time domain, whose memory it holds."""
+    """The growth rate of a vessel of the time domain, whose memory it holds."""
     return float(np.linalg.eigvals(free_vessel_system(vessel)).real.max())
 
 
 def free_vessel_system(vessel: VesselParameters) -> FloatArray:
     """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states.
 
-    Raises
-    ------
-    TypeError : the memory is a convolution, which has no states.
+    Raises TypeError: the memory is a convolution, which has no states.
     """
     model = vessel.memory
     if not isinstance(model, MemoryModel):
         raise TypeError("the vessel's memory is a convolution; give one of states, from fit_memory")
-    rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+    rigid = rigid_mass_matrix(vessel.mass, vessel.center_of_mass, vessel.inertia)
     inverse = np.linalg.inv(rigid + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
     p, total = len(held), len(held) + 6 + model.states

@@ -37,7 +37,7 @@ class VesselParameters:
 
     Attributes
     ----------
-    mass : kg. centre_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of
+    mass : kg. center_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of
         mass.
     added_mass : (6, 6) at infinite frequency, with additional causes and with what the source's mass matrix
         holds beyond a rigid body.
@@ -47,7 +47,7 @@ class VesselParameters:
     """
 
     mass: float
-    centre_of_mass: FloatArray
+    center_of_mass: FloatArray
     inertia: FloatArray
     added_mass: FloatArray
     linear_damping: FloatArray
@@ -78,7 +78,7 @@ def time_domain_vessel(
     rest = _not_of_a_rigid_body(mass_matrix, rigid_mass_matrix(mass, centre, inertia))
     return VesselParameters(
         mass=mass,
-        centre_of_mass=centre,
+        center_of_mass=centre,
         inertia=inertia,
         added_mass=model.added_mass + model.additional_added_mass + rest,
         linear_damping=linear,
