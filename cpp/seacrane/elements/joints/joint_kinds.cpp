@@ -18,7 +18,10 @@ JointKind kind_of(std::size_t index) {
   using Parameters = typename Type::Parameters;
   static_assert(std::tuple_size_v<decltype(Parameters::fields())> <= kMostParameters);
   constexpr bool has_branch = requires { typename Type::Branch; };
-  JointKind out{.name = Type::kind, .index = index, .rows = Type::rows, .parameters = {}};
+  JointKind out;
+  out.name = Type::kind;
+  out.index = index;
+  out.rows = Type::rows;
   out.coordinates = Type::coordinates;
   out.usual = Type::usual;
   out.slides = Type::slides;
