@@ -106,7 +106,8 @@ void bind_loads(py::module_& m) {
   const std::vector<const LoadBinding*> bindings = load_bindings();
   for (std::size_t i = 0; i < bindings.size(); ++i) kinds[load_kinds()[i]->name] = bindings[i]->bind(m);
   auto limit = description::bind<LimitDescription>(m, "limit");
-  limit.attr("STIFF") = limit.attr("OWN_PACE") = false;
+  limit.attr("STIFF") = false;
+  limit.attr("OWN_PACE") = false;
   limit.attr("PASSIVE") = true;
   kinds["limit"] = limit;
   m.attr("LOAD_KINDS") = kinds;

@@ -18,24 +18,28 @@ JointKind kind_of(std::size_t index) {
   using Parameters = typename Type::Parameters;
   static_assert(std::tuple_size_v<decltype(Parameters::fields())> <= kMostParameters);
   constexpr bool has_branch = requires { typename Type::Branch; };
-  JointKind out;
-  out.name = Type::kind;
-  out.index = index;
-  out.rows = Type::rows;
-  out.coordinates = Type::coordinates;
-  out.usual = Type::usual;
-  out.slides = Type::slides;
-  out.own_axis = Type::own_axis;
-  out.own_point = Type::own_point;
-  out.branch = has_branch;
-  out.parallel_axes = Type::parallel_axes;
-  out.aligned_axes = Type::aligned_axes;
-  out.example = &Type::example;
-  out.evaluate = [](const std::vector<JointData>& joints, const BodyKinematics<double>* bodies,
-                    RowBlock<double>* blocks) {
-    for (const JointData& joint : joints) evaluate<double, Type>(joint, bodies, blocks[joint.element]);
+  JointKind out{
+      .name = Type::kind,
+      .index = index,
+      .rows = Type::rows,
+      .coordinates = Type::coordinates,
+      .usual = Type::usual,
+      .slides = Type::slides,
+      .own_axis = Type::own_axis,
+      .own_point = Type::own_point,
+      .branch = has_branch,
+      .parallel_axes = Type::parallel_axes,
+      .aligned_axes = Type::aligned_axes,
+      .parameters = {},
+      .example = &Type::example,
+      .evaluate =
+          [](const std::vector<JointData>& joints, const BodyKinematics<double>* bodies,
+             RowBlock<double>* blocks) {
+            for (const JointData& joint : joints)
+              evaluate<double, Type>(joint, bodies, blocks[joint.element]);
+          },
+      .evaluate_slopes = &evaluate<Dual<12>, Type>,
   };
-  out.evaluate_slopes = &evaluate<Dual<12>, Type>;
   const Parameters usual;
   for_each_field<Parameters>([&](const auto& f) {
     out.parameters.push_back({f.name, f.unit, f.text, f.role, f.bound, f.required, f.of(usual)});
