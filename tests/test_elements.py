@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import re
 from pathlib import Path
 from typing import Any
 
@@ -140,6 +141,35 @@ def test_every_entry_of_a_load_is_checked_and_named(kind: str) -> None:
         type_(**given, colour="red")
     with pytest.raises(SceneError, match=r"load: kind 'string' is unknown; choose one of .*actuator, "):
         Scene().add_load(kind="string", **given)
+
+
+def beyond(bounds: dict[str, float]) -> list[float]:
+    """Numbers just outside of bounds, and two that are none."""
+    below = {"minimum": -1e-9, "exclusiveMinimum": 0.0, "maximum": 1e-9, "exclusiveMaximum": 0.0}
+    return [bound + below[word] for word, bound in bounds.items()] + [np.nan, np.inf]
+
+
+@pytest.mark.parametrize("kind", SAVED)
+def test_every_number_of_a_load_is_held_to_its_bound(kind: str) -> None:
+    for field in LOADS[kind].FIELDS:
+        given = getattr(LOADS[kind].example(), field.name)
+        single = field.type == "number" or field.type == "curve"
+        if not single and not (field.type == "array" and np.ndim(given) == 1 and np.size(given)):
+            continue
+        place = "" if single else r"(\[1\]| holds)?"
+        for wrong in beyond(field.bounds):
+            if field.type == "curve" and not np.isfinite(wrong):
+                continue
+            scene = loaded_scene(kind)
+            value = wrong if single else np.where(np.arange(np.size(given)) == 1, wrong, given)
+            scene.replace("load", **{field.name: value})
+            with pytest.raises(SceneError, match=f"{kind} 'load': {field.name}{place}.* {to_six(wrong)}"):
+                scene.compile()
+
+
+def to_six(number: float) -> str:
+    """As the engine writes it in messages."""
+    return re.escape(f"{number:.6g}")
 
 
 def every_load() -> Scene:

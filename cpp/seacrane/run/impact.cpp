@@ -26,6 +26,82 @@ double acceleration_of(const CoordinateRow<double>& row, const Vec6d& first, con
   return row.da.dot(first) + row.db.dot(second) - row.gamma;
 }
 
+/// Limits that are touched at once, and what forces along them do to the motion along each.
+class Touched {
+ public:
+  Touched(Stepper& at, const std::vector<int>& limits)
+      : at_(at),
+        limits_(limits),
+        load_(idx(at.model->body_count()) + 1, Vec6d::Zero()),
+        change_(load_),
+        right_(idx(at.model->rows()), 0.0),
+        impulse_(right_) {}
+
+  const Limit& limit(Eigen::Index i) const { return at_.model->limits[idx(limits_[idx(i)])]; }
+
+  /// Row i, column j: along i for 1 N, or 1 N m, along j.
+  MatXd responses() {
+    const auto n = static_cast<Eigen::Index>(limits_.size());
+    MatXd out(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      push(limit(j), 1.0);
+      respond();
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const CoordinateRow<double> row = row_of(limit(i));
+        const JointData& joint = limit(i).coordinate.joint;
+        out(i, j) =
+            limit(i).side * (row.da.dot(change_[idx(joint.first)]) + row.db.dot(change_[idx(joint.second)]));
+      }
+    }
+    return out;
+  }
+  /// The bodies' change for an impulse along each.
+  const std::vector<Vec6d>& hit(const VecXd& impulses) {
+    for (Eigen::Index j = 0; j < impulses.size(); ++j) push(limit(j), impulses[j]);
+    respond();
+    return change_;
+  }
+  /// Of the last change, J.
+  double driver_work() const {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < at_.model->elements.size(); ++e) {
+      const ElementModel& element = at_.model->elements[e];
+      if (element.driver) sum += impulse_[idx(element.row)] * at_.system.terms().blocks()[e].nu[0];
+    }
+    return sum;
+  }
+  /// Accelerations along each, at the last derivative.
+  VecXd falls() const {
+    VecXd out(static_cast<Eigen::Index>(limits_.size()));
+    const auto& a = at_.system.accelerations();
+    for (Eigen::Index j = 0; j < out.size(); ++j) {
+      const JointData& joint = limit(j).coordinate.joint;
+      out[j] = limit(j).side * acceleration_of(row_of(limit(j)), a[idx(joint.first)], a[idx(joint.second)]);
+    }
+    return out;
+  }
+
+ private:
+  CoordinateRow<double> row_of(const Limit& limit) const {
+    return evaluate_limit(limit, at_.system.terms().bodies().data());
+  }
+  void push(const Limit& limit, double force) {
+    const CoordinateRow<double> row = row_of(limit);
+    load_[idx(limit.coordinate.joint.first)] += force * limit.side * row.da;
+    load_[idx(limit.coordinate.joint.second)] += force * limit.side * row.db;
+  }
+  void respond() {
+    load_.back().setZero();
+    at_.system.solver().solve(load_, right_, change_, impulse_);
+    for (Vec6d& one : load_) one.setZero();
+  }
+
+  Stepper& at_;
+  const std::vector<int>& limits_;
+  std::vector<Vec6d> load_, change_;
+  std::vector<double> right_, impulse_;
+};
+
 }  // namespace
 
 /// Rebounds between several limits at one time are one impact, which ends by itself: times count.
@@ -168,83 +244,41 @@ ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed)
 /// any of them is approached.
 ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats) {
   Stepper& at = stepper_(seats);
-  MaximalSystem& system = at.system;
-  system.derivative(t, bodies, rate_.data());
+  at.system.derivative(t, bodies, rate_.data());
   std::vector<int> near;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
     if (!limit.kind->closes_again) continue;
-    const Watched g = gap(limit, system.terms());
+    const Watched g = gap(limit, at.system.terms());
     if (holds(closed, i) || (g.value <= kTouch && g.rate <= kStill)) near.push_back(i);
   }
-  const auto n = static_cast<Eigen::Index>(near.size());
-  std::vector<Vec6d> load(idx(model_.body_count()) + 1, Vec6d::Zero()), change(load);
-  std::vector<double> right(idx(at.model->rows()), 0.0), impulse(right);
-  const auto limit_of = [&](Eigen::Index i) -> const Limit& {
-    return at.model->limits[idx(near[static_cast<std::size_t>(i)])];
-  };
-  const auto push = [&](const Limit& limit, double force) {
-    const CoordinateRow<double> row = evaluate_limit(limit, system.terms().bodies().data());
-    load[idx(limit.coordinate.joint.first)] += force * limit.side * row.da;
-    load[idx(limit.coordinate.joint.second)] += force * limit.side * row.db;
-  };
-  const auto along = [&](const Limit& limit, const std::vector<Vec6d>& motion) {
-    const CoordinateRow<double> row = evaluate_limit(limit, system.terms().bodies().data());
-    return limit.side * (row.da.dot(motion[idx(limit.coordinate.joint.first)]) +
-                         row.db.dot(motion[idx(limit.coordinate.joint.second)]));
-  };
-  const auto respond = [&] {
-    load.back().setZero();
-    system.solver().solve(load, right, change, impulse);
-    for (Vec6d& one : load) one.setZero();
-  };
-  MatXd g(n, n);
-  VecXd rate(n), fall(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    push(limit_of(j), 1.0);
-    respond();
-    for (Eigen::Index i = 0; i < n; ++i) g(i, j) = along(limit_of(i), change);
-    rate[j] = gap(limit_of(j), system.terms()).rate;
-  }
-  if (n > 0 && rate.minCoeff() < -kStill) {
+  Touched touched(at, near);
+  const MatXd g = touched.responses();
+  VecXd rate(g.rows());
+  for (Eigen::Index j = 0; j < rate.size(); ++j) rate[j] = gap(touched.limit(j), at.system.terms()).rate;
+  if (rate.size() > 0 && rate.minCoeff() < -kStill) {
     const VecXd hit = complementary_forces(g, rate), after = rate + g * hit;
-    double lost = 0.0, driver_work = 0.0;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      push(limit_of(j), hit[j]);
-      lost -= 0.5 * hit[j] * (rate[j] + after[j]);
-    }
-    respond();
-    for (const ElementModel& element : at.model->elements) {
-      const auto e = static_cast<std::size_t>(&element - at.model->elements.data());
-      if (element.driver) driver_work += impulse[idx(element.row)] * system.terms().blocks()[e].nu[0];
-    }
-    book(bodies, change, driver_work, lost);
+    double lost = 0.0;
+    for (Eigen::Index j = 0; j < rate.size(); ++j) lost -= 0.5 * hit[j] * (rate[j] + after[j]);
+    const std::vector<Vec6d>& change = touched.hit(hit);
+    book(bodies, change, touched.driver_work(), lost);
     rate = after;
-    system.derivative(t, bodies, rate_.data());
+    at.system.derivative(t, bodies, rate_.data());
   }
   std::vector<Eigen::Index> stay;
-  for (Eigen::Index j = 0; j < n; ++j) {
+  for (Eigen::Index j = 0; j < rate.size(); ++j) {
     if (rate[j] <= kStill) stay.push_back(j);
   }
-  const auto& a = system.accelerations();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const JointData& joint = limit_of(j).coordinate.joint;
-    const CoordinateRow<double> row = evaluate_limit(limit_of(j), system.terms().bodies().data());
-    fall[j] = limit_of(j).side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
-  }
   const MatXd g_stay = g(stay, stay);
-  const VecXd fall_stay = fall(stay), force = complementary_forces(g_stay, fall_stay),
-              left = g_stay * force + fall_stay;
+  const VecXd fall = touched.falls()(stay), force = complementary_forces(g_stay, fall),
+              left = g_stay * force + fall;
   ClosedSet carry = 0, idle = 0;
-  const double none = kFall + kNoShare * (stay.empty() ? 0.0 : fall_stay.cwiseAbs().maxCoeff());
+  const double none = kFall + kNoShare * (stay.empty() ? 0.0 : fall.cwiseAbs().maxCoeff());
   for (std::size_t k = 0; k < stay.size(); ++k) {
     const auto at_k = static_cast<Eigen::Index>(k);
-    const ClosedSet bit = bit_of(near[static_cast<std::size_t>(stay[k])]);
-    if (force[at_k] > 0.0) {
-      carry |= bit;
-    } else if (left[at_k] <= none) {
-      idle |= bit;
-    }
+    const ClosedSet bit = bit_of(near[idx(stay[k])]);
+    if (force[at_k] > 0.0) carry |= bit;
+    if (!(force[at_k] > 0.0) && left[at_k] <= none) idle |= bit;
   }
   return seats | carry | sharing(t, bodies, seats | carry, idle);
 }
