@@ -77,10 +77,6 @@ def add_roles(
         Whether a slew drive, luff or cylinder on which nothing acts when the scene is compiled is held where
         it is described, as those of `add_crane` are.
 
-    Returns
-    -------
-    CraneRoles
-
     Raises
     ------
     SceneError

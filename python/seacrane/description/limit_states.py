@@ -45,10 +45,6 @@ def add_limit_state(
     name : str, optional
         Default: the channel and the names.
 
-    Returns
-    -------
-    LimitState
-
     Raises
     ------
     SceneError

@@ -59,7 +59,6 @@ def add_end_stop(
 
     Parameters
     ----------
-    joint : str
     coordinate : str, optional
         Of the joint; default "angle" of a revolute, else "displacement". "z" of a free joint is a deck that
         its second body stands on, without friction, at the joint's point.
@@ -71,10 +70,6 @@ def add_end_stop(
         m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end.
     name : str, optional
         Default: the joint's.
-
-    Returns
-    -------
-    Limit
 
     Raises
     ------
@@ -103,10 +98,6 @@ def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _cor
         A weld from the support to what stands on it, its axis z pointing away from the support.
     name : str, optional
         Default: the joint's.
-
-    Returns
-    -------
-    Limit
 
     Raises
     ------
@@ -143,10 +134,6 @@ def add_soft_stop(
         s/m or s/rad.
     name : str, optional
         Default: the joint's, and "soft stop".
-
-    Returns
-    -------
-    SoftStop
 
     Raises
     ------
@@ -195,10 +182,6 @@ def add_friction(
         m/s or rad/s.
     name : str, optional
         Default: the joint's, and "friction".
-
-    Returns
-    -------
-    Friction
 
     Raises
     ------
