@@ -328,7 +328,7 @@ BUILT = {
         HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
         "payload: mass is 0.0",
     ),
-    "ballast of nothing": (HEAD + VESSEL + '[balance]\nbody = "ship"\n', "body", "the vessels are 'vessel'"),
+    "ballast of nothing": (HEAD + VESSEL + '[balance]\nvessel = "ship"\n', "vessel", "vessels are 'vessel'"),
     "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "give a number above zero"),
 }  # fmt: skip
 

@@ -232,4 +232,4 @@ def test_ballast_that_cannot_be_is_told_by_its_line(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=r"\[ballast\].*capacity is -1.0 kg"):
         lift_of(BALLAST.replace("capacity_kg = 400e3", "capacity_kg = -1"), tmp_path).scene()
     with pytest.raises(FileFormatError, match=r"\[balance\] stands beside \[ballast\]"):
-        lift_of(BALLAST + '\n[balance]\nbody = "vessel"\n', tmp_path).scene()
+        lift_of(BALLAST + '\n[balance]\nvessel = "vessel"\n', tmp_path).scene()

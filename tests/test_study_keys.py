@@ -15,6 +15,7 @@ from seacrane.lift.lift import LIFTS
 from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
+from seacrane.warnings import RenamedKeysWarning
 
 BALANCED = """format = "seacrane lift"
 version = 2
@@ -35,7 +36,7 @@ payload = { mass_kg = 20e3, size_m = [4, 4, 3], link_length_m = 8 }
 held = true
 
 [balance]
-body = "vessel"
+vessel = "vessel"
 
 [method]
 integrator = "dopri5"
@@ -165,7 +166,7 @@ def test_paths_go_by_names_numbers_and_units() -> None:
         ("payload.mass_kg", "payload.mass_t", "line 6: .*nearest: 'crane.payload.mass_kg'"),
         ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
         ("crane.payload.mass_kg = [20e3, 100e3]", "method.dt_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
-        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: quantity 'heve' is unknown"),
+        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: .* 'heve' does not exist; did you mean 'heave'"),
         ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
         ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
         ("[run]", "[method]\nrtol = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
@@ -176,6 +177,22 @@ def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, stud
     with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
         run_study(study, study.parent / "out")
     assert not (study.parent / "out").exists()
+
+
+def test_a_quantity_of_0_2_is_read_by_its_new_name(tmp_path: Path) -> None:
+    (tmp_path / "held.toml").write_text(BALANCED)
+    text = STUDY.replace("version = 2", "version = 1").replace(
+        "[run]", "[accuracy]\nhook_tension = 10.0\n[run]"
+    )
+    (tmp_path / "older.toml").write_text(text)
+    with pytest.warns(RenamedKeysWarning, match=r"hook_tension of \[accuracy\] is hook_load"):
+        study = StudyFile.load(tmp_path / "older.toml")
+    assert study.accuracy == {"hook_load": 10.0}
+    (tmp_path / "older.toml").write_text(text.replace("version = 1", "version = 2"))
+    with pytest.raises(
+        FileFormatError, match=r"line 16: hook_tension of \[accuracy\] is hook_load since 0\.3"
+    ):
+        StudyFile.load(tmp_path / "older.toml")
 
 
 def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

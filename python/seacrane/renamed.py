@@ -89,9 +89,10 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
     "sea.systems": BAND,
     "crane": {"theta": "slew"},
     "control.tuned_at": {"theta": "slew"},
-    "ballast": {"body": "vessel"},
-    "slack_tank": {"body": "vessel"},
+    **{table: {"body": "vessel"} for table in ("balance", "ballast", "slack_tank")},
 }
+# Quantities of `accuracy` and `trade`, in scripts and in [accuracy] of a study.
+QUANTITIES = {"hook_tension": "hook_load"}
 STUDY_KEYS: dict[str, dict[str, str]] = {"keep": {"at": "names", "step": "interval"}}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {"crane": {"held": False}}

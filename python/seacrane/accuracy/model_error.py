@@ -80,7 +80,6 @@ def model_error(
     ----------
     scene : Scene
         With waves on one vessel, whose memory has states. Its motion starts at rest at the first time.
-    body : str
     point : array_like, shape (3,)
         Body coordinates, from the body origin, m.
     times : array_like, shape (n,)

@@ -79,7 +79,6 @@ def step_error(
 
     Parameters
     ----------
-    scene : Scene
     t_end : float
         End time, s.
     method : Method

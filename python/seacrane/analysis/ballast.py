@@ -43,7 +43,6 @@ class Ballast:
 
     Attributes
     ----------
-    vessel : str
     heel, trim : float
         At which it rests, rad; positive lifts port, and lowers the bow.
     weight : float
@@ -108,10 +107,6 @@ def add_ballast(
     tanks : mapping of str to Tank, optional
     name : str
         Of the point force; with tanks, of one for each as "<name> <tank>".
-
-    Returns
-    -------
-    Ballast
 
     Raises
     ------

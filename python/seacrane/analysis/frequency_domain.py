@@ -47,7 +47,6 @@ def motion_rao(
     scene : Scene or LinearModel
     omega, direction : array_like, broadcast against each other
         rad/s, of the waves; rad, direction of travel from the vessel's x (following) towards its y (port).
-    body : str
     point : array_like, shape (3,)
         Body coordinates, from the body origin, m.
     state : State, optional

@@ -210,7 +210,6 @@ def driven(scene: Some, *, references: Mapping[str, _core.Curve] | None = None) 
 
     Parameters
     ----------
-    scene : Scene
     references : mapping of str to Curve, optional
         By actuator name, instead of the actuators' own references.
     """

@@ -50,7 +50,6 @@ class LinearModel:
         As described (its waves and references included).
     state : State
         At rest; the time is that of the held references.
-    bodies : tuple of str
     vessel : str or None
         Body on which the waves act.
     a : ndarray, shape (n, n)
@@ -102,7 +101,6 @@ class LinearModel:
 
         Parameters
         ----------
-        body : str
         point : array_like, shape (3,)
             Body coordinates, from the body origin, m.
 
@@ -329,7 +327,6 @@ def linear_model(
 
     Parameters
     ----------
-    scene : Scene
     state : State, optional
         At rest, its time that of the references. Default: ``equilibrium(scene)``.
     vessel : str, optional

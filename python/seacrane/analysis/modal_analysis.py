@@ -57,7 +57,6 @@ class NaturalModes:
         Bodies that float.
     state_vectors : ndarray of complex, shape (k, n)
         Eigenvectors in x of the `LinearModel`, scaled as the shapes.
-    bodies : tuple of str
     """
 
     eigenvalues: Complex

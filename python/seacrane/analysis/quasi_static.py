@@ -89,7 +89,6 @@ def feed_forward(
 
     Parameters
     ----------
-    scene : Scene
     times : array_like, shape (n,)
         s, from the start of the first motion to the end of the last one; a dozen for one smooth move.
     references : mapping of str to Curve, optional

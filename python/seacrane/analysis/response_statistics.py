@@ -148,7 +148,6 @@ def response_statistics(
     ----------
     scene, body, point, state, memory, database
         As `motion_rao`.
-    spectrum : Spectrum
     direction : float
         rad, main direction of travel from the vessel's x towards its y.
     duration : float

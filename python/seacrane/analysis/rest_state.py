@@ -88,7 +88,6 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
 
     Parameters
     ----------
-    scene : Scene
     state : State, optional
         Where the search starts, for example the last state of a run; the held time is its time. Default:
         the described pose, led along the references from 0 to `time`.

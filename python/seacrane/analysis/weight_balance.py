@@ -31,7 +31,7 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
     floating = sorted(floating_bodies(scene))
     if floating != [body]:
         raise SceneError(
-            f"balance: body is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "
+            f"balance: vessel is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "
             "only the one vessel of a scene is balanced so, give several a point_force each"
         )
     found, vessel = balance(scene), scene.bodies[body]

@@ -17,10 +17,6 @@ if TYPE_CHECKING:
 def plot_load_chart(chart: LoadChart) -> Figure:
     """Draw the allowable load over the radius, a curve for each slew angle, and the crane's own table.
 
-    Parameters
-    ----------
-    chart : LoadChart
-
     Returns
     -------
     matplotlib.figure.Figure

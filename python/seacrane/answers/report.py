@@ -24,7 +24,6 @@ class Report:
 
     Attributes
     ----------
-    title : str
     html : str
         The whole page; nothing outside it is needed.
     """

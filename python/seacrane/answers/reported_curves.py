@@ -44,7 +44,6 @@ class Curve:
         What it is one of, such as "cylinder force".
     label : str
         Which one; empty where there is one only.
-    unit : str
     values : ndarray, shape (n,)
         In the unit.
     load : bool

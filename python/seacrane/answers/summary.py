@@ -215,10 +215,6 @@ def summary(
         In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
         heel and trim.
 
-    Returns
-    -------
-    Summary
-
     Raises
     ------
     SceneError

@@ -18,14 +18,6 @@ if TYPE_CHECKING:
 def plot_summary(result: Result) -> Figure:
     """Draw what `summary` tells in numbers, a panel for each kind and unit, with events and extremes marked.
 
-    Parameters
-    ----------
-    result : Result
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-
     Raises
     ------
     SceneError

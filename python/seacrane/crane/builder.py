@@ -52,8 +52,6 @@ class KnuckleBoomCrane:
 
     Attributes
     ----------
-    data : CraneData
-    geometry : CraneGeometry
     mass_properties : mapping of body name to MassProperties
         Body axes; computed from the members' shapes.
     """
@@ -200,7 +198,6 @@ class KnuckleBoomCrane:
             As `bodies`.
         base : str
             Body the tower is welded to.
-        payload : Payload or None
         """
         origin = _vector("foot", foot)
         points = self.geometry.points(slew=slew, s1=s1, s2=s2)

@@ -88,7 +88,6 @@ def static_cylinder_forces(
 
     Parameters
     ----------
-    geometry : CraneGeometry
     properties : mapping of body name to MassProperties
     s1, s2 : float
         Strokes, m.

@@ -34,7 +34,6 @@ class JointedCrane:
 
     Attributes
     ----------
-    data : JointedData
     mass_properties : mapping of str to MassProperties
         Of every body, in its own frame.
     """

@@ -21,7 +21,6 @@ class Tube:
 
     Attributes
     ----------
-    name : str
     mass : float
         kg.
     start, end : (float, float) or (float, float, float)
@@ -51,7 +50,6 @@ class Box:
 
     Attributes
     ----------
-    name : str
     mass : float
         kg.
     start, end : (float, float) or (float, float, float)

@@ -16,7 +16,6 @@ class BodyRecord:
 
     Attributes
     ----------
-    name : str
     mass : float
         kg.
     inertia : ndarray, shape (3, 3)
@@ -43,7 +42,6 @@ class JointRecord:
 
     Attributes
     ----------
-    name, kind, first, second : str
     point : ndarray, shape (3,)
         Joint point, m; for "distance" the point on the first body.
     second_point : ndarray, shape (3,), or None

@@ -34,7 +34,6 @@ def add_body(
 
     Parameters
     ----------
-    name : str
     mass : float
         kg.
     inertia : array_like, shape (3,) or (3, 3), optional

@@ -23,7 +23,6 @@ class Channel:
         Of its arrays, "time" first.
     dims_of_several : tuple of str
         The same in a scene with several vessels, slew drives or hooks: theirs comes after time there.
-    unit, long_name : str
     by_default : bool
         Whether a run records it unasked.
     made_of : tuple of str

@@ -62,10 +62,6 @@ def add_clearance(
     size : array_like, shape (3,)
         Of the box, along the axes of the body, m; default: none, the distance from a point.
 
-    Returns
-    -------
-    Clearance
-
     Raises
     ------
     SceneError

@@ -81,10 +81,6 @@ def add_roles(
         Hinge and spring, of one name, that stand for what the crane's structure gives: N/m at the tip. What
         `add_hoist` hangs there preloads the spring.
 
-    Returns
-    -------
-    CraneRoles
-
     Raises
     ------
     SceneError

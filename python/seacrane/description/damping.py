@@ -38,7 +38,6 @@ def add_pendulum_damping(
 
     Parameters
     ----------
-    name : str
     first : str
         Body that the load hangs from; "ground" is one too.
     second : str
@@ -49,10 +48,6 @@ def add_pendulum_damping(
         Of critical damping; 0 is none. Default 0.005: an estimate.
     mass : float
         kg, that swings; default (0): that of the load.
-
-    Returns
-    -------
-    PendulumDamping
 
     Raises
     ------
@@ -94,7 +89,6 @@ def add_air_drag(
 
     Parameters
     ----------
-    body : str
     frontal_area, lateral_area : float
         Seen along the body's x axis and along its y axis, m2.
     drag_coefficient : float
@@ -107,10 +101,6 @@ def add_air_drag(
         kg/m3.
     name : str
         Default: the body's and " drag".
-
-    Returns
-    -------
-    FlowForce
 
     Raises
     ------

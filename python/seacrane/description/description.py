@@ -56,27 +56,10 @@ Element = TypeVar("Element")
 class Description:
     """What a scene holds. `seacrane.Scene` is this with a method for everything that may be added.
 
-    Parameters
-    ----------
-    name : str
-        Names files and reports.
-    gravity : float
-        m/s2, along -z.
-    orientation : str
-        State of orientation: "quaternion" (default), or "euler_xyz", the paper's angles, singular at
-        phi_y = +-90 deg.
-    baumgarte : float
-        Frequency (1/s) of critically damped Baumgarte stabilisation; 0 (default) leaves it to projection.
-    length_scale : float
-        Multiplies the lengths (0.1 m, 0.1 m/s) that tolerances refer to; see `simulate`.
+    Parameters, elements and waves are as of `Scene`.
 
     Attributes
     ----------
-    bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
-    points
-        Elements by name, immutable; `loads` are those of `add_load`: wind, current, limits, friction.
-        `vessels[name].database` is what that vessel was added from.
-    waves : Waves or None
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.
     ranges : dict of str to Range

@@ -12,8 +12,6 @@ class LimitState:
 
     Attributes
     ----------
-    name : str
-    channel : str
     maximum, minimum : float or None
         In the unit of the channel; None where there is no such bound.
     names : mapping of str to str

@@ -48,10 +48,6 @@ def add_limit_state(
     name : str, optional
         Default: the channel and the names.
 
-    Returns
-    -------
-    LimitState
-
     Raises
     ------
     SceneError

@@ -47,10 +47,6 @@ def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel
     expression : str
         Such as "tip.z - load.z".
 
-    Returns
-    -------
-    OwnChannel
-
     Raises
     ------
     SceneError

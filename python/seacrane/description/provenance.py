@@ -72,11 +72,8 @@ class SeaProvenance:
         A `SeaState` in plain data, in place of all of these.
     realised_hs_of_systems : mapping of str to float, or None
         m, where there are several wave systems.
-    seed : int or None
     realised_hs : float or None
         4 sqrt(sum a^2 / 2), m.
-    wave_components, repeat_found : int or None
-    repeat_period_s : float or None
     wave_energy_without_load, load_variance_without_load : float or None
         Shares of the waves beyond the database's frequencies.
     """

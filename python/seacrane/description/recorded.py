@@ -37,10 +37,6 @@ def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.
     point : array_like, shape (3,)
         In the coordinates of the body, m; default: the origin of the body.
 
-    Returns
-    -------
-    Point
-
     Raises
     ------
     SceneError

@@ -46,10 +46,6 @@ def add_relative(scene: Description, name: str, *, point: str, to: str, axes: st
     axes : str
         A body along whose axes it is told; default: the inertial frame.
 
-    Returns
-    -------
-    Relative
-
     Raises
     ------
     SceneError

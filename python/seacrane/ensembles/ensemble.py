@@ -233,10 +233,6 @@ def ensemble(
     **shorthand
         Parts of `method` and `outputs` by name, as of `simulate`.
 
-    Returns
-    -------
-    Ensemble
-
     Raises
     ------
     SceneError

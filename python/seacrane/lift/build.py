@@ -109,7 +109,7 @@ class _Build:
         if balanced is None:
             return None
         with refused_at(self.document, balanced):
-            return balance_by_force(scene, body=balanced.values["body"])
+            return balance_by_force(scene, body=balanced.values["vessel"])
 
     def _control(
         self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None

@@ -109,7 +109,7 @@ class Checker:
             self.document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, tuple(TABLES))}")
         table, more = LIFT_TABLES[name]
         new = f"[{table}]" + "".join(f" with {key} = {toml_value(value)}" for key, value in more.items())
-        self._renamed((name,), f"[{name}]", new)
+        self.renamed_key((name,), f"[{name}]", new)
 
     def tell(self) -> None:
         """Warn once of all that was called otherwise."""
@@ -121,7 +121,8 @@ class Checker:
                 RenamedKeysWarning,
             )
 
-    def _renamed(self, path: Place, old: str, new: str) -> None:
+    def renamed_key(self, path: Place, old: str, new: str) -> None:
+        """Note a key of 0.2 with what it is now; a FileFormatError in a file of this version."""
         if not self.document.older:
             self.document.fail(path, f"{old} is {new} since 0.3")
         self.older[old] = new
@@ -155,7 +156,7 @@ class Checker:
         if new is None:
             near = nearest(spelling, tuple(known))
             self.document.fail((*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}")
-        self._renamed((*path, spelling), f"{spelling} of [{table}]", new)
+        self.renamed_key((*path, spelling), f"{spelling} of [{table}]", new)
         return new
 
     def _once(self, path: Place, key: Key, found: Mapping[str, Any]) -> None:

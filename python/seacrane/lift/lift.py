@@ -45,8 +45,6 @@ class Lift:
 
     Attributes
     ----------
-    method : Method
-    outputs : Outputs
     t_end : float
         End time, s; without stages.
     start : "rest" or None

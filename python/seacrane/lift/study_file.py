@@ -28,7 +28,7 @@ from seacrane.lift.lift import LIFTS, Lift, lift_of
 from seacrane.lift.study_keys import DESIGN, FROM_LIFTS, KEEP, RANGE, STATISTICS, STUDY, TEXTS
 from seacrane.lift.tables import TABLES
 from seacrane.lift.text_lines import Place
-from seacrane.renamed import LIFT_KEYS, STUDY_KEYS
+from seacrane.renamed import LIFT_KEYS, QUANTITIES, STUDY_KEYS
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -262,7 +262,9 @@ class _Reader:
         given = self._table("accuracy")
         if not given:
             self.document.fail(("accuracy",), "[accuracy] is empty; name a quantity, or leave it out")
-        return dict(given)
+        for name in given.keys() & QUANTITIES.keys():
+            self.checker.renamed_key(("accuracy", name), f"{name} of [accuracy]", QUANTITIES[name])
+        return {QUANTITIES.get(name, name): limit for name, limit in given.items()}
 
     def exposure(self) -> float | None:
         """s."""

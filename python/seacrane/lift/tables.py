@@ -483,7 +483,7 @@ _ALL = (
     Table(
         name="balance", several=False,
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
-        keys=(Key(name="body", type="text", required=True, text="The vessel."),),
+        keys=(Key(name="vessel", type="text", required=True, text="Its body."),),
     ),
     Table(
         name="ballast", text=_summary(add_ballast), add=add_ballast,

@@ -86,7 +86,6 @@ def allowable_hs(
     ----------
     scene : Scene
         With a sea of one wave system, whose height, period and direction are replaced.
-    criteria : sequence of Criterion
     tp : array_like
         Peak periods, s, ascending.
     direction_deg : array_like
@@ -125,10 +124,6 @@ def allowable_hs(
         Show progress of what takes more than two seconds.
     **shorthand
         Parts of the method, and `dt_out` (s, default 0.5), as of `simulate`.
-
-    Returns
-    -------
-    AllowableHs
 
     Raises
     ------

@@ -28,17 +28,12 @@ def plot_allowable_hs(table: AllowableHs, *, kind: str = "map", forecast: bool =
 
     Parameters
     ----------
-    table : AllowableHs
     kind : str
         "map" (default): colours and numbers, with the letter of what governs; in a frame where runs told it.
         "rosette": Hs over the direction, a curve for each period, drawn where the waves come from with the
         bow upwards.
     forecast : bool
         With the alpha factor; default without.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Raises
     ------
@@ -123,14 +118,6 @@ def _rosette(figure: Figure, table: AllowableHs, values: Any) -> None:
 
 def plot_weather_windows(windows: WeatherWindows) -> Figure:
     """Draw shares of the time and waiting times by month.
-
-    Parameters
-    ----------
-    windows : WeatherWindows
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Raises
     ------

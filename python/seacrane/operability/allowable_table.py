@@ -34,8 +34,6 @@ class AllowableHs:
     ----------
     scene : str
         Its name.
-    criteria : tuple of Criterion
-    alpha : AlphaFactor
     hours : float
         Planned period of the operation, h.
     dataset : xarray.Dataset

@@ -80,16 +80,11 @@ def availability(allowable: AllowableHs, scatter: ScatterDiagram, *, forecast: b
 
     Parameters
     ----------
-    allowable : AllowableHs
     scatter : ScatterDiagram
         Within a range sea states are spread evenly over Hs, and have its middle period and direction. Without
         directions the worst of the table counts.
     forecast : bool
         Default: the limit is `forecast_hs`, alpha included. False: `allowable_hs`.
-
-    Returns
-    -------
-    Availability
 
     Raises
     ------

@@ -85,7 +85,6 @@ class ScatterDiagram:
 
         Parameters
         ----------
-        hindcast : WaveHindcast
         hs, tp : array_like
             Bounds of the ranges; a value at a bound belongs to the upper range, at the last one to the last.
         direction_deg : array_like, optional

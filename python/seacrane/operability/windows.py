@@ -48,7 +48,6 @@ class WeatherWindows:
     unknown_percent, outside_percent, censored_percent : float
         Of all the time: sea states that are not known, or beyond the table of allowable Hs, both counted as
         not workable; and times from which no window comes before the series ends, left out of waiting times.
-    alpha_factor, source : str
     """
 
     hours: float
@@ -108,7 +107,6 @@ def weather_windows(
 
     Parameters
     ----------
-    hindcast : WaveHindcast
     allowable : AllowableHs or float
         A table, or one Hs (m) for all seas.
     hours : float, optional
@@ -118,10 +116,6 @@ def weather_windows(
         table counts.
     alpha : AlphaFactor, optional
         Default: that of the table, or 1.
-
-    Returns
-    -------
-    WeatherWindows
 
     Raises
     ------

@@ -190,10 +190,6 @@ def plot_reactions(result: Result, *joints: str) -> Figure:
     *joints : str
         Default: all.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-
     Raises
     ------
     SceneError
@@ -247,10 +243,6 @@ def plot_rao(
         Directions that the waves travel to, deg; 0 following.
     omega : array_like, shape (n,), optional
         rad/s; default: the database's.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
 
     Raises
     ------

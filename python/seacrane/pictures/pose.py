@@ -267,10 +267,6 @@ def plot_scene(result: Result) -> Figure:
     result : Result
         A run with `position` and `quaternion`.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-
     Raises
     ------
     ValueError

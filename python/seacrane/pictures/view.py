@@ -63,7 +63,6 @@ class View:
 
     Attributes
     ----------
-    title : str
     html : str
         The whole page.
     motion : Motion
@@ -91,28 +90,7 @@ class View:
         )
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
-        """Write the page: complete under its name, or not at all.
-
-        Parameters
-        ----------
-        path : path
-            Target, such as "lift.html"; its folder must exist.
-        overwrite : bool, optional
-            By default an earlier page of seacrane is replaced, and no other file. True: any file of that
-            name. False: none.
-
-        Returns
-        -------
-        Path
-            The file written.
-
-        Raises
-        ------
-        FileExistsError
-            If there is a file of that name that is to stay.
-        OSError
-            If it cannot be written.
-        """
+        """Write the page, as `Report.save` does."""
         return _written(path, self.html.encode("utf-8"), overwrite, mark=GENERATOR)
 
     def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
@@ -126,8 +104,7 @@ class View:
         path : path
             Target, such as "lift.glb"; its folder must exist.
         overwrite : bool, optional
-            By default an earlier model of seacrane is replaced, and no other file. True: any file of that
-            name. False: none.
+            As of `Report.save`, of a model instead of a page.
 
         Returns
         -------
@@ -138,10 +115,8 @@ class View:
         ------
         SceneError
             For another ending than .glb, and for a run too long for one file.
-        FileExistsError
-            If there is a file of that name that is to stay.
-        OSError
-            If it cannot be written.
+        FileExistsError, OSError
+            As of `Report.save`.
         """
         if Path(path).suffix.lower() != ".glb":
             raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
@@ -260,7 +235,6 @@ def page(*, title: str, caption: Sequence[tuple[str, str]], data: Mapping[str, A
 
     Parameters
     ----------
-    title : str
     caption : sequence of (str, str)
         Rows of what and its words.
     data : mapping

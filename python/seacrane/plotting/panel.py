@@ -141,7 +141,6 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
 
     Parameters
     ----------
-    sheet : Sheet
     note : str
         Words below the panels, for a figure that stands alone.
 

@@ -39,7 +39,6 @@ class About:
         By the words of `simulate`, with what is known of vessels and sea.
     stages : tuple of StageSpan
         Empty: it was one run.
-    limit_states : tuple of LimitState
     cranes : sequence of mapping
         Roles of each crane, as a scene file holds them.
     outline, bounds

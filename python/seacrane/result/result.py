@@ -334,7 +334,6 @@ class Result(Mapping[str, Array]):
 
         Parameters
         ----------
-        body : str
         point : array_like, shape (3,)
             Coordinates of the body, m; default: its origin.
 

@@ -49,10 +49,6 @@ def simulate_stages_to_file(
     overwrite : bool
         Replace a file of that name, as soon as the first stage is over.
 
-    Returns
-    -------
-    Result
-
     Raises
     ------
     FileExistsError

@@ -97,7 +97,6 @@ def simulate_to_file(
 
     Parameters
     ----------
-    scene : Scene
     path : path
         NetCDF file. An older one is replaced when the run has reached its end, if it is of the same scene,
         method and outputs and does not end later.
@@ -120,10 +119,6 @@ def simulate_to_file(
         Show a progress bar.
     **shorthand
         As `simulate`.
-
-    Returns
-    -------
-    StreamedResult
 
     Raises
     ------

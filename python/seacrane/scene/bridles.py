@@ -41,7 +41,6 @@ def add_bridle(
 
     Parameters
     ----------
-    name : str
     hook, load : str
         Bodies that are there; the hook may be "ground".
     points : array_like, shape (n, 3)

@@ -59,7 +59,6 @@ def add_heave_compensation(
 
     Parameters
     ----------
-    name : str
     body, point : str, array_like
         The point whose motion is measured, m, in coordinates of the body. For an actuator, a point that the
         actuator does not move itself: the tip as a point of the vessel.
@@ -89,10 +88,6 @@ def add_heave_compensation(
         m/s and m, bounds on the stroke in both directions; 1e7 (default): none.
     settling : float
         s, in which the stroke returns to the motion after a bound, and in which it brakes before its own.
-
-    Returns
-    -------
-    HeaveCompensator
 
     Raises
     ------
@@ -174,7 +169,6 @@ def add_gas_spring(
 
     Parameters
     ----------
-    name : str
     first, second : str
         Bodies; "ground" is one too.
     area : float
@@ -199,10 +193,6 @@ def add_gas_spring(
         m, lengths of the end stops; 0 and 1e7 (default): none.
     stop_stiffness : float, optional
         N/m; default: 1e8 where there is a stop.
-
-    Returns
-    -------
-    GasSpring
 
     Raises
     ------

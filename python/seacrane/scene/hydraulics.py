@@ -96,7 +96,6 @@ def add_hydraulic_cylinder(
 
     Parameters
     ----------
-    name : str
     first, second : str
         Bodies; "ground" is one too.
     full_area, rod_side_area : float
@@ -165,10 +164,6 @@ def add_hydraulic_cylinder(
         Of the hole, and of the oil that leaves through it, kg/m3.
     refuse_void : bool
         Whether a run ends with an error where oil boils.
-
-    Returns
-    -------
-    HydraulicCylinder
 
     Raises
     ------

@@ -64,7 +64,6 @@ def add_end_stop(
 
     Parameters
     ----------
-    joint : str
     coordinate : str, optional
         Of the joint; default "angle" of a revolute, else "displacement". "z" of a free joint is a deck that
         its second body stands on, without friction, at the joint's point.
@@ -76,10 +75,6 @@ def add_end_stop(
         m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end.
     name : str, optional
         Default: the joint's.
-
-    Returns
-    -------
-    Limit
 
     Raises
     ------
@@ -108,10 +103,6 @@ def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _cor
         A weld from the support to what stands on it, its axis z pointing away from the support.
     name : str, optional
         Default: the joint's.
-
-    Returns
-    -------
-    Limit
 
     Raises
     ------
@@ -172,10 +163,6 @@ def add_soft_stop(
     name : str, optional
         Default: the joint's, and "soft stop".
 
-    Returns
-    -------
-    SoftStop
-
     Raises
     ------
     SceneError
@@ -215,10 +202,6 @@ def add_friction(
         m/s or rad/s.
     name : str, optional
         Default: the joint's, and "friction".
-
-    Returns
-    -------
-    Friction
 
     Raises
     ------

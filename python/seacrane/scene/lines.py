@@ -98,7 +98,6 @@ def add_line(
 
     Parameters
     ----------
-    name : str
     first, second : str
         Bodies at its two ends; "ground" is one too.
     first_point, second_point : array_like, shape (3,), optional

@@ -39,10 +39,6 @@ def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: An
     **winch
         As of `add_winch`, such as ``rate`` in m/s of rope: a luffing hook moves by the rate over the falls.
 
-    Returns
-    -------
-    Line
-
     Raises
     ------
     SceneError

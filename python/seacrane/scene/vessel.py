@@ -112,10 +112,6 @@ def add_vessel(
         Without a database: whether the restoring carries the body's weight, as that of a ship does; else it
         weighs as any body, and its buoyancy is a point force of yours. Default: whether heave is restored.
 
-    Returns
-    -------
-    VesselHydrodynamics
-
     Raises
     ------
     SceneError

@@ -99,7 +99,6 @@ def add_wind(
 
     Parameters
     ----------
-    coefficients : FlowCoefficients
     speed : float or Curve
         m/s at the height that the coefficients refer to; a curve for gusts, see `gust_curve`.
     direction_deg : float
@@ -112,10 +111,6 @@ def add_wind(
         Where the load acts, m, body coordinates; N is about it.
     density : float
         kg/m3.
-
-    Returns
-    -------
-    FlowForce
 
     Raises
     ------

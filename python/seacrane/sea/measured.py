@@ -48,7 +48,6 @@ class MeasuredWaves:
     taper : float
         Share of the record, 0 to 1, over which a cosine window takes both ends to zero together (Tukey);
         0, the default, leaves the record as it is.
-    name : str
 
     Raises
     ------

@@ -33,7 +33,6 @@ class WaveSystem:
 
     Attributes
     ----------
-    spectrum : Spectrum
     direction_deg : float
         Mean direction of travel, deg from +x (following sea) towards +y (port).
     spreading : Spreading, optional
@@ -42,7 +41,6 @@ class WaveSystem:
         Number of components, 1 to 1,000,000.
     minimum_omega, maximum_omega : float, optional
         Range of frequencies, rad/s; default: `Spectrum.default_range`.
-    name : str
 
     Raises
     ------
@@ -123,7 +121,6 @@ class RealisedSea:
     ----------
     waves : WaveComponents
         All systems, one after another.
-    systems : tuple of RealisedSystem
     """
 
     waves: _core.WaveComponents

@@ -75,10 +75,6 @@ def controlled_mean(values: Any, *, controls: Any, many_controls: Any) -> Contro
     many_controls : array_like, shape (n,)
         The same of other seeds, 10,000 as a rule and more than k: their scatter is part of the interval.
 
-    Returns
-    -------
-    ControlledMean
-
     Raises
     ------
     SceneError

@@ -39,7 +39,6 @@ class Distribution:
 
     Attributes
     ----------
-    name, unit : str
     values : ndarray, shape (k, n)
         Of k seeds; NaN where one failed, which is left out.
     """
@@ -182,10 +181,6 @@ def distribution(values: Any, *, name: str = "values", unit: str = "") -> Distri
         n values, such as of start times in one sea, of each of k seeds; NaN where one failed.
     name, unit : str
         What the table calls it.
-
-    Returns
-    -------
-    Distribution
 
     Raises
     ------

@@ -45,7 +45,6 @@ class Maximum:
     ----------
     mpm : Estimate
         Most probable maximum.
-    mean : Estimate
     p90 : Estimate
         Exceeded in one exposure of ten.
     exposure : float

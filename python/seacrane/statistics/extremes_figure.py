@@ -32,10 +32,6 @@ def plot_extremes(found: RecordExtremes | SeedExtremes) -> Figure:
         maximum is where one crossing is left. Of several seeds: their maxima on Gumbel paper, where Gumbel's
         distribution is a straight line.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-
     Raises
     ------
     SceneError

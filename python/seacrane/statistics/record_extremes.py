@@ -35,7 +35,6 @@ class RecordExtremes:
         What was recorded.
     duration, exposure : float
         Of the record, and of what is asked, s.
-    mean, std, largest : float
     skewness, kurtosis : float
         Both 0 for a Gaussian process: the latter is the excess over 3.
     static : float
@@ -46,7 +45,6 @@ class RecordExtremes:
         Up-crossings of the mean, 1/s, and the time between two, s.
     crests : ndarray, shape (n,)
         The largest value between each two up-crossings, ascending.
-    spectrum : SpectrumEstimate
     gaussian : Maximum
         Rayleigh's: as if the process were Gaussian, every crossing independent, sqrt(2 ln N). The intervals
         hold the scatter of the standard deviation.
@@ -166,10 +164,6 @@ def record_extremes(
         After which the sea repeats, s.
     name, unit : str
         What the table calls it.
-
-    Returns
-    -------
-    RecordExtremes
 
     Raises
     ------

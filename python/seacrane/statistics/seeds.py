@@ -157,10 +157,6 @@ def seed_extremes(
     name, unit : str
         What the table calls it.
 
-    Returns
-    -------
-    SeedExtremes
-
     Raises
     ------
     SceneError

@@ -91,10 +91,6 @@ def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS)
     segments : int
         How many, at least 1; fewer are taken where each would have fewer than 64 values.
 
-    Returns
-    -------
-    SpectrumEstimate
-
     Raises
     ------
     SceneError

@@ -24,7 +24,6 @@ class Case:
 
     Attributes
     ----------
-    scene : Scene
     t_end, dt_out : float
         s.
     start : State, optional

@@ -112,7 +112,6 @@ def measured(
         As `timed`.
     quantities : mapping of str to Quantity
         What errors are measured in.
-    truth : Reference
     row : Row
         What is known before.
     values : callable, optional

@@ -64,7 +64,6 @@ def methods(
         Tolerances or steps (s) of an integrator.
     tried : iterable of Integrator, optional
         Default: all of the core.
-    formulations : sequence of str
     only_possible : bool
         Leave out what a formulation does not have at all: methods of the residual form solve the redundant
         equations only.

@@ -198,10 +198,6 @@ class Trade:
             "wall_s": wall time per simulated second. "cpu_s": CPU time, which depends less on what else the
             machine does; rows that took none that was measured, as the frequency domain, are left out.
 
-        Returns
-        -------
-        matplotlib.figure.Figure
-
         Raises
         ------
         SceneError
@@ -254,7 +250,6 @@ def trade(
 
     Parameters
     ----------
-    scene : Scene
     t_end : float
         End time, s.
     outputs : Outputs, optional
@@ -272,10 +267,6 @@ def trade(
     out : path, optional
         Existing folder: rows are kept in its trade_rows.jsonl as they are measured, and a later call for the
         same scene continues from there; trade.csv and trade.png are written at the end.
-
-    Returns
-    -------
-    Trade
 
     Raises
     ------

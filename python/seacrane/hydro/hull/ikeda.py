@@ -124,10 +124,6 @@ def ikeda_roll_damping(
     rho, g, viscosity : float
         kg/m3, m/s2, m2/s.
 
-    Returns
-    -------
-    IkedaDamping
-
     Warns
     -----
     AngleUnitWarning

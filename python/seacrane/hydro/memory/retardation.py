@@ -95,10 +95,6 @@ def retardation_functions(
     duration : s kept of K, its last fifth tapered to zero by half a cosine; default: the shortest of 30, 45,
         60, 90 and 120 s that returns the damping of every pair to 0.2 % of its largest value, or the best.
 
-    Returns
-    -------
-    RetardationModel
-
     Raises
     ------
     ValueError : a step or duration that is not positive, or that leaves fewer than 8 or more than 20 000
