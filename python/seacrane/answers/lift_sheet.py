@@ -326,7 +326,7 @@ class _Sheet:
         found = [corner[name][1] for corner in self._at_rest for name in names if name in corner]
         if not found:
             raise SceneError(
-                f"lift sheet: {names[-1]} has no static force: rigid lines share a load as statics do not tell; "
+                f"lift sheet: {names[-1]} has no static force: rigid lines share it as statics do not tell; "
                 "let it hang on lines of rung 'elastic'"
             )
         return max(found)
