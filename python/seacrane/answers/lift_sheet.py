@@ -201,6 +201,7 @@ class _Sheet:
         self, scene: Description, factors: LiftFactors, hung: list[Hung], run: Result | None
     ) -> None:
         self._scene, self._factors, self._hung, self._run = scene, factors, hung, run
+        self._told = summary(run) if run is not None and factors.dynamic_factor is None else None
         self._at_rest = [pulls_of(one) for one in _corners(scene, factors)]
         several = sum(one.crane is not None for one in hung_loads(scene)) > 1
         self._labels = [f" {one.label}" if several or one.crane is None else "" for one in hung]
@@ -302,12 +303,12 @@ class _Sheet:
         given = self._factors.dynamic_factor
         if given is not None:
             return given, self._source("dynamic_factor")
-        if self._run is None:
+        if self._told is None:
             return 1.0, "none: statics alone"
-        row = summary(self._run)[f"hook load{label}"]
-        if row.factor is None:
+        factor = next((row.factor for row in self._told if row.name == f"hook load{label}"), None)
+        if factor is None:
             return 1.0, "none: the run knows no factor"
-        return row.factor, f"{RUN}: largest over static hook load"
+        return factor, f"{RUN}: largest over static hook load"
 
     def _slings(self) -> list[Suspension]:
         """What holds the load itself, below a block."""
@@ -322,7 +323,13 @@ class _Sheet:
         return one.upper[0] in {hook.suspension.lower[0] for hook in self._hung}
 
     def _worst(self, *names: str) -> float:
-        return max(corner[name][1] for corner in self._at_rest for name in names if name in corner)
+        found = [corner[name][1] for corner in self._at_rest for name in names if name in corner]
+        if not found:
+            raise SceneError(
+                f"lift sheet: {names[-1]} has no static force: rigid lines share it as statics do not tell; "
+                "let it hang on lines of rung 'elastic'"
+            )
+        return max(found)
 
 
 def _corners(scene: Description, factors: LiftFactors) -> Iterator[AtRest]:
