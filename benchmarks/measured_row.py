@@ -61,6 +61,10 @@ class MeasuredRow:
         Largest difference that the theory should have; None: shown, not judged.
     joined : bool
         Whether the points of `line` are joined.
+    logarithmic : bool
+        Whether y is.
+    told : str
+        What `points` are, for the picture.
     """
 
     picture: str
@@ -80,6 +84,8 @@ class MeasuredRow:
     repeats: float | None = None
     expected: float | None = None
     joined: bool = True
+    logarithmic: bool = False
+    told: str = "measured"
 
     @property
     def differences(self) -> Array:
@@ -101,13 +107,13 @@ class MeasuredRow:
 
     def cells(self, name: str) -> tuple[str, ...]:
         """In the order of HEAD."""
-        unit = self.x.rpartition(", ")[2]
+        unit = self.x.partition(", ")[2]
         return (
             name,
             self.compared,
             self.by,
             f"{100.0 * self.largest:+.1f}",
-            f"{self.where:.4g} {unit}",
+            f"{self.where:.4g} {unit}".strip(),
             f"{100.0 * float(self.differences.mean()):+.1f}",
             self.of,
             "" if self.repeats is None else f"{100.0 * self.repeats:.1f}",

@@ -88,14 +88,15 @@ def _panel(axes: Any, title: str, rows: list[MeasuredRow]) -> None:
         axes.plot(*curve, linewidth=0.9, alpha=0.8, label=name)
     x, y = first.points
     if first.spread is None:
-        axes.plot(x, y, "k.", markersize=5, label="measured")
+        axes.plot(x, y, "k.", markersize=5, label=first.told)
     else:
         low, high = first.spread
         axes.vlines(x, low, high, color="black", linewidth=1.5)
-        axes.plot(x, y, "k.", markersize=5, label="measured, and its spread")
+        axes.plot(x, y, "k.", markersize=5, label=f"{first.told}, and its spread")
     for row, colour in zip({row.by: row for row in rows}.values(), COLOURS, strict=False):
         way = "-" if row.joined else "x"
         axes.plot(*row.line, way, color=colour, linewidth=1.6, label=row.by)
+    axes.set_yscale("log" if first.logarithmic else "linear")
     axes.set_title(title, fontsize=10)
     axes.set_xlabel(first.x)
     axes.set_ylabel(first.y)
@@ -145,7 +146,7 @@ def main() -> None:
 
 def _told(name: str) -> tuple[str, ...]:
     source = module_of(name).SOURCE
-    return (name, source.about, source.repository, f"`{source.commit[:7]}`", source.licence)
+    return (name, source.about, source.repository, f"`{source.commit}`", source.licence)
 
 
 if __name__ == "__main__":

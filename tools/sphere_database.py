@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from seacrane.hydro import Hull, hydro_from_hull
 
 RADIUS, MASS, RHO, G = 5.0, 261.8e3, 1000.0, 9.81
-ROUND, DOWN = 40, 14  # panels
-OMEGA = np.round(np.concatenate([np.arange(0.1, 3.0, 0.1), np.arange(3.0, 6.01, 0.25)]), 10)
+ROUND, DOWN = 36, 12  # panels
+OMEGA = np.round([*np.arange(0.2, 3.01, 0.2), *np.arange(3.5, 6.01, 0.5)], 10)
 PLACE = Path(__file__).resolve().parents[1] / "benchmarks" / "measured" / "oes_sphere_decay.nc"
 
 

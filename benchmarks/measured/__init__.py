@@ -1,1 +1,1 @@
-"""Sets of measured series, a file each, with `SOURCE` and `rows`; `benchmarks/measurements.py` finds them here."""
+"""Measured sets, a file each with `SOURCE` and `rows`; `benchmarks/measurements.py` finds them here."""

@@ -32,9 +32,9 @@ def rows(folder: Path) -> Iterator[MeasuredRow]:
     for kept, words, expected in ((~round_one, "nine models", 0.4), (round_one, "model H", None)):
         yield MeasuredRow(
             picture="measured_ikeda", panel="eddy damping of sections", compared=f"eddies, {words}",
-            by="section_eddy_damping", x="row of the set, 1", y="B$_E$ / (rho V B$^2$) sqrt(B / 2 g)",
+            by="section_eddy_damping", x="row of the set", y="B$_E$ / (rho V B$^2$) sqrt(B / 2 g)",
             at=row[kept], measured=measured[kept], ours=ours[kept], of="value", points=(row, measured),
-            line=(row, ours), repeats=scatter(tank), expected=expected, joined=False,
+            line=(row, ours), repeats=scatter(tank), expected=expected, joined=False, logarithmic=True,
         )  # fmt: skip
 
 

@@ -15,7 +15,14 @@ from numpy.typing import NDArray
 from test_vessel import complex_amplitude, regular_wave
 
 from seacrane import Scene, _core, simulate
-from seacrane.hydro import Hull, HydroDatabase, OffsetTable, hydro_from_hull, motion_response, section_eddy_damping
+from seacrane.hydro import (
+    Hull,
+    HydroDatabase,
+    OffsetTable,
+    hydro_from_hull,
+    motion_response,
+    section_eddy_damping,
+)
 
 ComplexArray = NDArray[np.complex128]
 SOURCE = Source(
@@ -130,9 +137,9 @@ def _phases(held: dict[str, Array], by: str, database: HydroDatabase) -> Measure
     found = _grouped(held["omega_rad_s"], ahead)
     force = database.force[0]
     line = np.degrees(np.angle(force[:, SWAY] / force[:, HEAVE]))
-    common = _common("held", "sway force ahead of heave force", "deg", by, found, database.omega, line) | {
-        "of": "range"
-    }
+    common = _common(
+        "held", "sway force ahead of heave force", "deg", by, found, database.omega, line, of="range"
+    )
     kept = found["omega"] < 9.0
     return _row(common, found, found["mean"], kept, "held, to 9 rad/s: sway force ahead of heave force", None)
 
@@ -143,7 +150,10 @@ def _motions(free: dict[str, Array], by: str, omega: Array, motion: Array) -> It
         camera = free[f"{name}_{unit}_per_m"]
         other = free.get(f"{name}_by_accelerometers_{unit}_per_m", camera)
         found = _grouped(np.tile(free["omega_rad_s"], 2), np.concatenate([camera, other]))
-        common = _common("free", name, f"motion over amplitude, {unit}/m", by, found, omega, motion[:, index])
+        common = _common(
+            "free", name, f"motion over amplitude, {unit}/m", by, found, omega, motion[:, index],
+            joined=omega.size > camera.size,
+        )  # fmt: skip
         between = np.clip(np.interp(found["omega"], omega, motion[:, index]), found["low"], found["high"])
         resonant = np.abs(found["omega"] / ROLL_RESONANCE - 1.0) < 0.1
         told, expected = "between camera and accelerometers", 0.05
@@ -212,16 +222,17 @@ def _grouped(omega: Array, values: Array) -> dict[str, Array]:
 
 def _common(
     picture: str, panel: str, y: str, by: str, found: dict[str, Array], omega: Array, line: Array,
-    *, single: float | None = None,
+    *, of: str = "value", joined: bool = True,
 ) -> dict[str, Any]:  # fmt: skip
     shown = (omega > 3.9) & (omega < 10.5)
     several = found["count"] > 1
-    half = 0.5 * (found["high"] - found["low"]) / np.abs(found["mean"])
-    repeats = max(float(half[several].max()), single or 0.0) if several.any() else single
+    scale = np.abs(found["mean"]) if of == "value" else np.ptp(found["mean"])
+    half = (0.5 * (found["high"] - found["low"]) / scale)[several]
     return {
-        "picture": f"measured_ntnu_{picture}", "panel": panel, "x": RAD, "y": y, "by": by, "of": "value",
+        "picture": f"measured_ntnu_{picture}", "panel": panel, "x": RAD, "y": y, "by": by, "of": of,
         "points": (found["omega"], found["mean"]), "spread": (found["low"], found["high"]),
-        "line": (omega[shown], line[shown]), "repeats": repeats,
+        "line": (omega[shown], line[shown]), "repeats": float(half.max()) if half.size else None,
+        "joined": joined,
     }  # fmt: skip
 
 

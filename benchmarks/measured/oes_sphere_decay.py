@@ -23,7 +23,7 @@ SOURCE = Source(
 RADIUS, HEIGHT, RHO, G = 5.0, 1.0, 1000.0, 9.81
 ABOVE = 50.0  # m: of the spring's upper end
 LINEAR = ("ProteusDS_linear", "InWave_linear", "WavEC_linear", "InWaveH_linear")
-BY_SURFACE = "MARIN_nonlinear"
+BY_SURFACE, OVER_HEAVE = "MARIN_nonlinear", "buoyancy over heave"
 
 
 def rows(folder: Path) -> Iterator[MeasuredRow]:
@@ -31,20 +31,22 @@ def rows(folder: Path) -> Iterator[MeasuredRow]:
     time = told.pop("time_s")
     linear = np.array([told[name] for name in LINEAR])
     every = np.array(list(told.values()))
-    for by, reference, words, nonlinear in (
-        ("linear", linear.mean(axis=0), "mean of four linear programs", False),
-        ("buoyancy over heave", told[BY_SURFACE], f"{BY_SURFACE.partition('_')[0]}, wetted surface of the moment", True),
+    for by, reference, words in (
+        ("linear", linear.mean(axis=0), "mean of four linear programs"),
+        (OVER_HEAVE, told[BY_SURFACE], f"{BY_SURFACE.partition('_')[0]}, wetted surface of the moment"),
     ):
-        ours = decay(time, nonlinear=nonlinear)
+        ours = decay(time, nonlinear=by == OVER_HEAVE)
         common: dict[str, Any] = {
-            "picture": "measured_oes_sphere", "panel": "heave after a release at 1 m", "by": by, "x": "time, s",
-            "y": "heave, m", "points": (time[::10], every.mean(axis=0)[::10]), "line": (time, ours),
-            "spread": (every.min(axis=0)[::10], every.max(axis=0)[::10]), "others": {k: (time, v) for k, v in told.items()},
+            "picture": "measured_oes_sphere", "panel": "heave after a release at 1 m", "by": by,
+            "x": "time, s", "y": "heave, m", "points": (time[::10], every.mean(axis=0)[::10]),
+            "line": (time, ours), "told": "mean of all six",
+            "spread": (every.min(axis=0)[::10], every.max(axis=0)[::10]),
+            "others": {name.replace("_", ", "): (time, one) for name, one in told.items()},
         }  # fmt: skip
         spread = float((every.max(axis=0) - every.min(axis=0)).max() / np.ptp(every) / 2.0)
         yield MeasuredRow(
-            **common, compared=f"heave over 40 s, {words}", at=time, measured=reference, ours=ours, of="range",
-            repeats=spread, expected=None,
+            **common, compared=f"heave over 40 s, {words}", at=time, measured=reference, ours=ours,
+            of="range", repeats=spread, expected=None,
         )  # fmt: skip
         peaks = every_peak(time, reference)
         tops = np.array([every_peak(time, one)[1][:4] for one in every])
@@ -56,8 +58,7 @@ def rows(folder: Path) -> Iterator[MeasuredRow]:
 
 
 def decay(time: Array, *, nonlinear: bool) -> Array:
-    """Heave at these times. What the buoyancy differs from its tangent is a spring with a table: a force over a
-    coordinate."""
+    """Heave at these times; what buoyancy is beside its tangent, a spring with a table gives over heave."""
     scene = Scene(name="sphere", gravity=G)
     database = HydroDatabase.load(Path(__file__).with_suffix(".nc"))
     scene.add_vessel(database, name="sphere", position=(0.0, 0.0, HEIGHT))

@@ -1,8 +1,8 @@
 """Compute the section of the flume in its depth: ``python tools/flume_section/flume_database.py``.
 
-Writes `benchmarks/measured/ntnu_lewis_section.nc`, the database that the comparison with the flume takes, with
-the mean drift of the section held still. Its sizes are those of the paper (Sundsdal, Greco, Hanssen, Lugni
-2025). Needs nothing but the package.
+Writes `benchmarks/measured/ntnu_lewis_section.nc`, which the comparison with the flume takes, with the mean
+drift of the section held still. Sizes are those of the paper (Sundsdal, Greco, Hanssen, Lugni 2025). Needs
+nothing but the package.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def flume_hull() -> Hull:
 
 
 def along(per_metre: FloatArray) -> FloatArray:
-    """(..., 3, 3) of sway, heave, roll as (..., 6, 6) of the uniform length: pitch and yaw by their levers."""
+    """(..., 3, 3) of sway, heave, roll as (..., 6, 6) of the length, pitch and yaw by their levers."""
     out = np.zeros((*per_metre.shape[:-2], 6, 6))
     for i, a in enumerate((1, 2, 3)):
         for j, b in enumerate((1, 2, 3)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, positive_of
+from seacrane.inputs.checked import not_negative_of, number_of, positive_of
 
 FULLEST, DEEPEST = 1.0, 1.0  # area coefficient; depth of the roll axis over the draught, which it stays below
 
@@ -64,6 +64,8 @@ def section_eddy_damping(
     sizes |= {"amplitude_deg": amplitude_deg, "omega": omega, "rho": rho}
     for name, value in sizes.items():
         positive_of(f"section eddies: {name}", value)
+    if bilge_radius is not None:
+        not_negative_of("section eddies: bilge_radius", bilge_radius)
     depth = -number_of("section eddies: axis_height", axis_height) / draught
     if area_coefficient > FULLEST or not depth < DEEPEST:
         raise SceneError(
@@ -83,8 +85,8 @@ def _bilge_radius(half: float, area: float) -> float:
 
 
 def eddy_coefficient(*, half: float, area: float, depth: float, radius: float) -> float:
-    """C_r of a section with ``half`` its half breadth, ``depth`` of its roll axis and its bilge ``radius``, all
-    over the draught, and its ``area`` coefficient."""
+    """C_r of a section with its ``area`` coefficient; over the draught: ``half`` of its breadth, ``depth`` of
+    the roll axis, bilge ``radius``."""
     reach, speed = _fastest(half, area)
     fullness = 1.0 + 4.0 * np.exp(-1.65e5 * (1.0 - area) ** 2)
     below = (half / (1.0 - depth)) * (area - depth) / (1.0 - depth)
