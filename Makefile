@@ -149,6 +149,7 @@ extremes: build .venv/.installed-dev
 
 validation: build .venv/.installed-dev
 	$(BIN)/python -W ignore benchmarks/validation.py
+	$(BIN)/python -W ignore benchmarks/measurements.py
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)

@@ -1,0 +1,153 @@
+"""What tanks and other programs say of us: ``benchmarks/measurements.py [--publish] [set ...]``.
+
+A set is a module of `benchmarks/measured` with its `SOURCE` and `rows(folder)`; its data lie in the folder of
+its name in ``measured`` of the folder that SEACRANE_SHARED names, or of ``../shared``. Writes
+``measurements.csv`` and the pictures to ``out/bench``; with ``--publish`` to ``benchmarks/results`` and
+``docs/figures``, and fills the documents. A difference a fifth beyond the published one ends the call.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import documents
+import matplotlib
+
+matplotlib.use("Agg")
+
+from matplotlib.figure import Figure
+from measure.table import read, write
+from measured_row import HEAD, MeasuredRow
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+SETS = tuple(sorted(path.stem for path in (ROOT / "benchmarks" / "measured").glob("[a-z]*.py")))
+RESULTS = ROOT / "benchmarks" / "results"
+TABLE = "measurements.csv"
+SOURCES = "measured-sets.csv"
+SOURCE_HEAD = ("set", "what", "repository", "commit", "licence")
+SLACK = 1.2  # of the published difference
+LEAST = 0.005  # a difference below it counts as this one
+COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:red")
+
+
+def data_of(name: str) -> Path | None:
+    """Folder of a set's data; None where it is absent."""
+    named = os.environ.get("SEACRANE_SHARED")
+    folder = (Path(named) if named else ROOT.parent / "shared") / "measured" / name
+    return folder if folder.is_dir() else None
+
+
+def module_of(name: str) -> Any:
+    return importlib.import_module(f"measured.{name}")
+
+
+def published() -> dict[tuple[str, ...], float]:
+    """Largest differences by set, what was compared, and by what."""
+    if not (RESULTS / TABLE).is_file():
+        return {}
+    head, rows = read(RESULTS / TABLE)
+    return {tuple(row[:3]): float(row[head.index("largest, %")]) / 100.0 for row in rows}
+
+
+def bound_of(name: str, row: MeasuredRow) -> float | None:
+    """Largest size that its difference may have; None for a row that was not published yet."""
+    told = published().get((name, row.compared, row.by))
+    return None if told is None else SLACK * max(abs(told), LEAST)
+
+
+def pictures(rows: Iterable[MeasuredRow]) -> dict[str, Figure]:
+    """Figures by name: a panel for each quantity, measured points with their spread, what was computed."""
+    found: dict[str, dict[str, list[MeasuredRow]]] = {}
+    for row in rows:
+        found.setdefault(row.picture, {}).setdefault(row.panel, []).append(row)
+    return {name: _figure(panels) for name, panels in found.items()}
+
+
+def _figure(panels: dict[str, list[MeasuredRow]]) -> Figure:
+    across = min(2, len(panels))
+    down = -(-len(panels) // across)
+    figure = Figure(figsize=(5.2 * across if across > 1 else 9.0, 3.4 * down), layout="constrained")
+    every = figure.subplots(down, across, squeeze=False).ravel()
+    for axes in every[len(panels) :]:
+        axes.set_visible(False)
+    for axes, (title, rows) in zip(every, panels.items(), strict=False):
+        _panel(axes, title, rows)
+    return figure
+
+
+def _panel(axes: Any, title: str, rows: list[MeasuredRow]) -> None:
+    first = rows[0]
+    for name, curve in first.others.items():
+        axes.plot(*curve, linewidth=0.9, alpha=0.8, label=name)
+    x, y = first.points
+    if first.spread is None:
+        axes.plot(x, y, "k.", markersize=5, label=first.told)
+    else:
+        low, high = first.spread
+        axes.vlines(x, low, high, color="black", linewidth=1.5)
+        axes.plot(x, y, "k.", markersize=5, label=f"{first.told}, and its spread")
+    for row, colour in zip({row.by: row for row in rows}.values(), COLOURS, strict=False):
+        way = "-" if row.joined else "x"
+        axes.plot(*row.line, way, color=colour, linewidth=1.6, label=row.by)
+    axes.set_yscale("log" if first.logarithmic else "linear")
+    axes.set_title(title, fontsize=10)
+    axes.set_xlabel(first.x)
+    axes.set_ylabel(first.y)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7)
+
+
+def checked(name: str, row: MeasuredRow) -> MeasuredRow:
+    """The row, unless it is further away than what is published allows."""
+    print("; ".join(row.cells(name)), flush=True)
+    bound = bound_of(name, row)
+    if bound is not None and not abs(row.largest) <= bound:
+        raise SystemExit(f"{name}: {row.compared} by {row.by}: {row.largest:+.2%} exceeds {bound:.2%}")
+    return row
+
+
+def main() -> None:
+    """Compare, check, write; fill the documents where asked to."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--publish", action="store_true", help="write into the project instead of out/bench")
+    parser.add_argument("sets", nargs="*", metavar="set", help=f"default: {' '.join(SETS)}")
+    options = parser.parse_args()
+    results = RESULTS if options.publish else ROOT / "out" / "bench" / "results"
+    figures = ROOT / "docs" / "figures" if options.publish else ROOT / "out" / "bench" / "figures"
+    figures.mkdir(parents=True, exist_ok=True)
+    kept = [] if not (RESULTS / TABLE).is_file() else read(RESULTS / TABLE)[1]
+    cells: list[tuple[str, ...]] = []
+    for name in SETS:
+        folder = data_of(name)
+        if folder is None or (options.sets and name not in options.sets):
+            why = "not asked for" if folder else "its data are absent, set SEACRANE_SHARED"
+            print(f"{name}: {why}; its rows stay as they were", flush=True)
+            cells += [tuple(row) for row in kept if row[0] == name]
+            continue
+        check = (lambda _, row: row) if options.publish else checked
+        rows = [check(name, row) for row in module_of(name).rows(folder)]
+        cells += [row.cells(name) for row in rows]
+        for picture, figure in pictures(rows).items():
+            figure.savefig(figures / f"{picture}.png", dpi=110)
+    write(results / TABLE, HEAD, cells)
+    write(results / SOURCES, SOURCE_HEAD, [_told(name) for name in SETS])
+    if options.publish:
+        documents.fill()
+
+
+def _told(name: str) -> tuple[str, ...]:
+    source = module_of(name).SOURCE
+    return (name, source.about, source.repository, f"`{source.commit}`", source.licence)
+
+
+if __name__ == "__main__":
+    main()
