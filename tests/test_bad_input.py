@@ -461,7 +461,7 @@ def memory_block(**changes: Any) -> StateSpaceBlock:
         ),
         case("damping nan", {"linear_damping": HEAVE * NAN}, "vessel 'a'", "linear_damping holds nan"),
         case("quadratic damping < 0", {"quadratic_damping": [0, 0, 0, -1, 0, 0]}, "vessel 'a'", "is -1"),
-        case("mooring negative", {"mooring_stiffness": [0, -5, 0]}, "vessel 'a'", "mooring_stiffness[1] is -5"),
+        case("mooring < 0", {"mooring_stiffness": [0, -5, 0]}, "vessel 'a'", "mooring_stiffness[1] is -5"),
         case("kinematics", {"kinematics": "fast"}, "vessel 'a'", "'fast' is unknown", "yaw_following"),
         case("memory a number", {"memory": 3}, "vessel 'a'", "memory is 3", "StateSpaceBlock"),
         case("memory motion", {"memory": [memory_block(inputs=[6])]}, "vessel 'a'", "block 0", "input 6"),

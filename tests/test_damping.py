@@ -239,7 +239,11 @@ def test_a_damped_scene_comes_back_from_its_file_and_goes_on_to_the_bit(tmp_path
     ("call", "given", "message"),
     [
         ("add_pendulum_damping", {"ratio": -0.1}, "pendulum damping 'swing': ratio is -0.1"),
-        ("add_pendulum_damping", {"ratio": 20.0}, "ratio is 20; give 0 to 10 .of critical damping of the swing"),
+        (
+            "add_pendulum_damping",
+            {"ratio": 20.0},
+            "ratio is 20; give 0 to 10 .of critical damping of the swing",
+        ),
         ("add_pendulum_damping", {"second": "hook"}, "pendulum damping 'swing': there is no body 'hook'"),
         ("add_pendulum_damping", {"first": "load"}, "joins 'load' to itself"),
         ("add_pendulum_damping", {"mass": "1e3"}, "mass is '1e3'; give a number"),

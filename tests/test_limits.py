@@ -43,7 +43,10 @@ from seacrane.cli.run_command import costs
             lambda s: s.add_friction(joint="air", coordinate="x", load=-1.0, speed=1.0),
             "load is -1 N or N m; it must not be negative",
         ),
-        (lambda s: s.add_friction(joint="air", coordinate="x", load=1.0, speed=0.0), "speed is 0 m/s or rad/s; it must be positive"),
+        (
+            lambda s: s.add_friction(joint="air", coordinate="x", load=1.0, speed=0.0),
+            "speed is 0 m/s or rad/s; it must be positive",
+        ),
         (
             lambda s: s.add_soft_stop(joint="air", coordinate="x", maximum=1.0, stiffness=0.0),
             "stiffness is 0 N/m or N m/rad; it must be positive",

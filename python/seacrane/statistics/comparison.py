@@ -99,7 +99,7 @@ class Comparison:
         step = step_of(self.time)
         grid = np.arange(self.time[0], self.time[-1] + 0.5 * step, step)
         even = [np.interp(grid, self.time, values) for values in (self.run, self.record)]
-        first, second = (spectrum_estimate(values, dt=step, segments=SEGMENTS) for values in even)
+        first, second = (spectrum_estimate(values, interval=step, segments=SEGMENTS) for values in even)
         return first, second
 
     def plot(self) -> Figure:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from seacrane.errors import SceneError
@@ -81,7 +83,7 @@ def section_eddy_damping(
 
 def _bilge_radius(half: float, area: float) -> float:
     """Over the draught: of two quarter circles that give the area."""
-    return min(2.0 * np.sqrt(half * (1.0 - area) / (4.0 - np.pi)), 1.0, half)
+    return min(2.0 * math.sqrt(half * (1.0 - area) / (4.0 - math.pi)), 1.0, half)
 
 
 def eddy_coefficient(*, half: float, area: float, depth: float, radius: float) -> float:
