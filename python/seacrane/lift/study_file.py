@@ -76,10 +76,11 @@ class StudyFile:
         beside = Checker(document, folder, LIFT_KEYS, older=reader.checker.older)
         for name in (name for name in FROM_LIFTS if name in document.data):
             beside.table((name,), TABLES[name].keys, document.data[name])
+        accuracy = reader.accuracy()
         reader.checker.tell()
         return cls(
             members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
-            accuracy=reader.accuracy(), _over=over, _document=document, _folder=folder,
+            accuracy=accuracy, _over=over, _document=document, _folder=folder,
         )  # fmt: skip
 
     @property

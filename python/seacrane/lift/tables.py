@@ -29,7 +29,6 @@ from seacrane.description import (
     relatives,
 )
 from seacrane.description.curves import spline_curve
-from seacrane.description.description import Description
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
@@ -55,6 +54,7 @@ from seacrane.scene.gusts import gust_curve
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import SPECTRA
+from seacrane.scene.scene import Scene
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
 
@@ -358,7 +358,7 @@ _ALL = (
     Table(
         name="scene", several=False, text="Name and settings of the scene.",
         keys=keys_of(
-            Description,
+            Scene,
             more=CHOSEN | {"gravity": {"unit": "m/s2"}, "baumgarte": {"unit": "1/s"}},
             only=("name", "gravity", "orientation", "baumgarte", "length_scale"),
         ),
