@@ -1671,7 +1671,7 @@ class GasSpring:
     @property
     def exponent(self) -> float:
         """
-        of the gas: p V^exponent stays
+        of the gas, p V^exponent stays: 1 slow, 1.4 nitrogen
         """
     @property
     def first(self) -> str:
@@ -1773,7 +1773,7 @@ class PendulumDamping:
     @property
     def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m, on the first body: where the wire hangs
+        m, coordinates of the first body
         """
     @property
     def mass(self) -> float:
@@ -1796,7 +1796,7 @@ class PendulumDamping:
     @property
     def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m, on the second body: what swings
+        m, coordinates of the second body
         """
 class SpanDrag:
     """
