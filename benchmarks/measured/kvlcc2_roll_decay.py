@@ -177,13 +177,16 @@ def _compared(
         "spread": (mean - measured["spread"], mean + measured["spread"]), "line": (ours["at"], ours["ratio"]),
     }  # fmt: skip
     judged = (measured["at"] >= JUDGED[0]) & (measured["at"] <= JUDGED[1])
-    for kept, words, bound in ((judged, "5 to 9 deg", expected), (measured["at"] < 4.0, "below 4 deg", None)):
+    known = measured["at"] >= ours["at"].min()
+    low = known & (measured["at"] < 4.0)
+    for kept, words, bound in ((judged & known, "5 to 9 deg", expected), (low, "below 4 deg", None)):
+        if not kept.any():
+            continue  # it decays so little that it has not come there
         yield MeasuredRow(
             **ratios, compared=f"damping over critical, {words}", at=measured["at"][kept],
             measured=mean[kept], ours=np.interp(measured["at"][kept], ours["at"], ours["ratio"]),
             expected=bound,
         )  # fmt: skip
-    known = measured["at"] >= ours["at"].min()
     yield MeasuredRow(
         **common, panel="period", y="s", points=(measured["at"], measured["period"]),
         line=(ours["at"], ours["period"]), compared="period", at=measured["at"][known],

@@ -114,7 +114,7 @@ def _drifts(held: dict[str, Array], by: str, database: HydroDatabase, words: str
     found = _grouped(held["omega_rad_s"][kept], held["mean_sway_force_over_half_rho_g_a2_L"][kept])
     line = _drift_over_wall(by, database)
     common = _common(
-        "held", f"mean drift, {words}", "over rho g a$^2$ L / 2", by, found, database.omega, line, single=0.1
+        "held", f"mean drift, {words}", "over rho g a$^2$ L / 2", by, found, database.omega, line
     )
     for at, told, judged in _parts(found["omega"], words):
         yield _row(common, found, found["mean"], at, f"held, {told}: mean drift", 0.2 if judged else None)
