@@ -86,7 +86,7 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
     std::vector<double> rate(y.size());
     const StateLayout& s = system.model().layout;
     for (const Line& one : system.model().loads.of<Line>()) {
-      CAPTURE(one.name);
+      CAPTURE(one.d.name);
       // l0 and its rates by differences along the motion, and the strain's likewise.
       const auto motion_at = [&](double t) {
         std::vector<double> there = y;
@@ -96,7 +96,7 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
         return one.motion(system.terms().load_input(0.7 + t, there.data() + s.memory));
       };
       const auto now = motion_at(0.0);
-      const double s1 = one.settling, w = y[idx(s.loads + one.settled)];
+      const double s1 = one.d.settling, w = y[idx(s.loads + one.settled)];
       const double viscous = one.viscous * std::sqrt(now.unstretched);
       const double strain = now.stretch() / now.unstretched, strain_rate = now.straining() / now.unstretched;
       const double bend = slope(
@@ -106,7 +106,7 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
           },
           1e-4);
       const double expected =
-          one.EA * (strain + s1 * (strain_rate - w) + s1 * s1 * bend) + viscous * strain_rate;
+          one.d.EA * (strain + s1 * (strain_rate - w) + s1 * s1 * bend) + viscous * strain_rate;
       CHECK(now.tension == doctest::Approx(expected).epsilon(1e-8));
     }
   }
