@@ -73,16 +73,16 @@ def pictures(rows: Iterable[MeasuredRow]) -> dict[str, Figure]:
 def _figure(panels: dict[str, list[MeasuredRow]]) -> Figure:
     across = min(2, len(panels))
     down = -(-len(panels) // across)
-    figure = Figure(figsize=(5.2 * across if across > 1 else 9.0, 3.4 * down), layout="constrained")
+    figure = Figure(figsize=(5.2 * across if across > 1 else 9.0, 3.9 * down), layout="constrained")
     every = figure.subplots(down, across, squeeze=False).ravel()
     for axes in every[len(panels) :]:
         axes.set_visible(False)
     for axes, (title, rows) in zip(every, panels.items(), strict=False):
-        _panel(axes, title, rows)
+        _panel(axes, title, rows, columns=3 if across == 1 else 1)
     return figure
 
 
-def _panel(axes: Any, title: str, rows: list[MeasuredRow]) -> None:
+def _panel(axes: Any, title: str, rows: list[MeasuredRow], *, columns: int) -> None:
     first = rows[0]
     for name, curve in first.others.items():
         axes.plot(*curve, linewidth=0.9, alpha=0.8, label=name)
@@ -101,7 +101,7 @@ def _panel(axes: Any, title: str, rows: list[MeasuredRow]) -> None:
     axes.set_xlabel(first.x)
     axes.set_ylabel(first.y)
     axes.grid(alpha=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, ncols=columns, loc="upper center", bbox_to_anchor=(0.5, -0.18), frameon=False)
 
 
 def checked(name: str, row: MeasuredRow) -> MeasuredRow:
