@@ -22,7 +22,7 @@ void with_joint_type(std::size_t kind, F&& f) {
 
 template <class T>
 inline void TreeKinematics<T>::position_rates(const T* q, const T* u, const BodyKinematics<T>* bodies,
-                                       T* q_rate) const {
+                                              T* q_rate) const {
   for (const Cluster& c : tree_.clusters) {
     if (c.kind == Cluster::floating) {
       std::copy_n(u + c.u, 3, q_rate + c.q);
@@ -36,7 +36,8 @@ inline void TreeKinematics<T>::position_rates(const T* q, const T* u, const Body
 }
 
 template <class T>
-inline void TreeKinematics<T>::place_joint(const Cluster& c, const T* q, const T* u, BodyKinematics<T>* bodies) {
+inline void TreeKinematics<T>::place_joint(const Cluster& c, const T* q, const T* u,
+                                           BodyKinematics<T>* bodies) {
   const BodyKinematics<T>& parent = bodies[c.parent];
   BranchMotionOf<T> motion;
   with_joint_type(c.kind, [&]<class Type>() {
