@@ -161,7 +161,9 @@ template <class D, class F>
 using ValueOf = std::remove_cvref_t<decltype(std::declval<F>().of(std::declval<D&>()))>;
 
 template <class D>
-inline constexpr bool has_name = requires(D d) { d.name; };
+inline constexpr bool has_name = requires(D d) {
+  d.name;
+};
 
 inline const char* text_of(Role role) {
   switch (role) {

@@ -52,9 +52,7 @@ struct PathSection {
     wrench[first].moment -= turning_first * tension;
     wrench[second].moment -= turning_second * tension;
   }
-  void add_to(Vec6d* wrench, double tension) const
-    requires std::is_same_v<T, double>
-  {
+  void add_to(Vec6d* wrench, double tension) const requires std::is_same_v<T, double> {
     if (!moves) return;
     const Vec3d force = tension * pull;
     wrench[first] += (Vec6d() << force, lever_first.cross(force)).finished();

@@ -37,7 +37,9 @@ struct StateRange {
 
 /// Whether apply() takes packs: it compares values by select() alone, and says so by `packs`.
 template <class Load>
-concept TakesPacks = requires { requires Load::packs; };
+concept TakesPacks = requires {
+  requires Load::packs;
+};
 
 template <class Load>
 concept HasStates = requires(const Load& load) {
