@@ -50,7 +50,9 @@ def with_what_hangs(scene: Description, model: _core.Model, before: Array, after
         if line.name in scene.joints or moved & set(bodies):
             continue
         body, point = line.held_at
-        ends = [place + turn @ point for place, turn in (pose_of(scene, model, body, y) for y in (before, after))]
+        ends = [
+            place + turn @ point for place, turn in (pose_of(scene, model, body, y) for y in (before, after))
+        ]
         for name in bodies:
             at = model.pose_index(list(model.bodies).index(name))
             out[at : at + 3] = before[at : at + 3] + ends[1] - ends[0]
