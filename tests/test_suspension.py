@@ -138,6 +138,22 @@ def test_a_line_with_mass_has_the_columns_of_the_others() -> None:
     assert told["hook load"] == pytest.approx(MASS * G + 0.5 * wire / 20.0, rel=1e-6)
 
 
+def test_a_chart_of_a_line_with_mass_is_the_rod_s_but_for_the_wire() -> None:
+    """In poses metres away: what hangs is led along with the tip."""
+    rod, told = (load_chart(lift(one), radii=[14.0], limits={"cylinder force main": 9e6})
+                 for one in ("rod", "with mass"))  # fmt: skip
+    assert told.allowable + 20.0 * LENGTH == pytest.approx(rod.allowable, rel=2e-5)
+
+
+def test_auto_is_elastic_where_a_load_stands_on_a_deck() -> None:
+    """A lift-off has a peak that a quasi-static stretch does not know."""
+    scene = Scene(name="on deck")
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    scene.add_hoist(mass=MASS, size=SIZE, EA=1e9, rung="auto", on="ground", winch={"lag": 0.2})
+    told = simulate(scene, 0.2).stats["line_rungs"]
+    assert told.startswith("hoist: elastic")
+
+
 def thrown(rung: str) -> Scene:
     """So fast from below its line of 5 m that it goes slack on its way round."""
     scene = Scene(name=rung)

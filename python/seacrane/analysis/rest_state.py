@@ -16,7 +16,7 @@ from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, T
 from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import tips_over, warn_of_rest
-from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded
+from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded, with_what_hangs
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -28,7 +28,7 @@ from seacrane.one_thread import one_thread
 Array = NDArray[np.float64]
 Rest = tuple[_core.Model, _core.State]
 CONVERGED = 1e-9  # m/s2 and rad/s2
-ROUNDED = 1e-6  # likewise, where no step is left that the digits of positions can hold
+ROUNDED = 1e-4  # likewise, 1e-5 of gravity, where no step is left that the digits of positions can hold
 CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states of loads
 DIGITS = 1e-15  # of the largest position
 ROUGHEST = 1e3  # times that, where a step has not brought the scene nearer to rest
@@ -153,7 +153,7 @@ def _followed(scene: Description, state: _core.State, time: float) -> Array:
     evaluator = _core.Evaluator(model)
     for instant in np.linspace(state.time, time, int(np.ceil((time - state.time) / FOLLOW)) + 1)[1:]:
         values = evaluator.project(float(instant), values)
-    return values
+    return with_what_hangs(scene, model, np.array(state.values), values)
 
 
 def state_values(scene: Description, state: Any) -> Array:

@@ -10,6 +10,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
 from seacrane.description.loads import lines_of
+from seacrane.description.suspension import bodies_below
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -37,6 +38,26 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
         else:
             out.loads[name] = _core.Line(**line.__getstate__() | {"length": path / (1.0 + STRAIN)})
     return (out, state) if found else None
+
+
+def with_what_hangs(scene: Description, model: _core.Model, before: Array, after: Array) -> Array:
+    """The later of two states, with what hangs on lines moved as far as what holds them.
+
+    A line that is stretched by metres on the way to a pose would throw what it is made of about.
+    """
+    out, moved = np.array(after), set[str]()
+    for line, bodies in bodies_below(scene):
+        if line.name in scene.joints or moved & set(bodies):
+            continue
+        body, point = line.held_at
+        ends = [
+            place + turn @ point for place, turn in (pose_of(scene, model, body, y) for y in (before, after))
+        ]
+        for name in bodies:
+            at = model.pose_index(list(model.bodies).index(name))
+            out[at : at + 3] = before[at : at + 3] + ends[1] - ends[0]
+        moved |= set(bodies)
+    return out
 
 
 def unbounded(scene: Some) -> Some:
