@@ -161,7 +161,7 @@ def moored() -> Scene:
 
 @pytest.mark.parametrize("start", [None, "rest"])
 def test_a_line_that_is_stretched_at_rest_contradicts_nothing(start: Any) -> None:
-    """Its described pose does; runs, lifts in stages and ensembles alike."""
+    """Its described pose does; runs and lifts in stages alike."""
     runs = (
         simulate(moored(), 0.2, start=start),
         simulate_stages(moored(), [Stage(name="wait", duration=0.2)], start=start),
