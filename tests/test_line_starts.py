@@ -147,3 +147,26 @@ def test_a_winch_on_a_line_with_mass_is_refused() -> None:
     scene.replace("wire.1", kind="load", winch=True)
     with pytest.raises(SceneError, match=words):
         scene.compile()
+
+
+def moored() -> Scene:
+    """A barge of 100 t that hangs between two lines: at rest these are stretched by a fifth."""
+    scene = Scene(name="moored")
+    scene.add_body(name="barge", mass=1e5, size=(20, 8, 4))
+    for name, x in (("fore", 1.0), ("aft", -1.0)):
+        points = [(30.0 * x, 0, 5), (10.0 * x, 0, 0)]
+        scene.add_line(name=name, bodies=["ground", "barge"], points=points, EA=4e6, length=19.0)
+    return scene
+
+
+@pytest.mark.parametrize("start", [None, "rest"])
+def test_a_line_that_is_stretched_at_rest_contradicts_nothing(start: Any) -> None:
+    """Its described pose does; runs and lifts in stages alike."""
+    runs = (
+        simulate(moored(), 0.2, start=start),
+        simulate_stages(moored(), [Stage(name="wait", duration=0.2)], start=start),
+    )
+    for run in runs:
+        said = str(run.stats.get("validity", ""))
+        assert ("line 'fore': starts stretched" in said) == (start is None)
+        assert (run["line_stretch"][0] > 0.05 * 19.0).all()

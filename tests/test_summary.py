@@ -107,6 +107,8 @@ def test_block_slings_and_taglines_have_their_factors_by_themselves() -> None:
     assert load.factor == pytest.approx(1.0, rel=1e-3)
     for name in ("line tension hoist sling 1", "line tension port"):
         assert told[name].static_known and told[name].factor == pytest.approx(1.0, rel=1e-2), name
+    rows = [row.name for row in told]
+    assert not [name for name in rows if name.startswith("hook load ")], "a sling's load is its tension"
     assert told["hook load"].static == pytest.approx(
         summary(rested, static=statics(scene))["hook load"].static
     )

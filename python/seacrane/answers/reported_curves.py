@@ -102,6 +102,7 @@ def _curves(result: Result) -> list[Curve]:
         if not (name in TENSIONS and shown & {*one.names, *(f"{part} line" for part in one.names)})
         and not (name == "hook_load" and one.names[0] in links)  # a link's is its tension
         and not (name == "link_tension" and shown)
+        and not (name == "hook_load" and hung and _same(result, one))
     ]
     leads = [
         Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
@@ -150,6 +151,16 @@ def _first_of(result: Result, *wanted: tuple[str, str]) -> Trace | None:
                 if one.names == (name,) or (not one.names and channel == "link_tension"):
                     return one
     return None
+
+
+def _same(result: Result, hook: Trace) -> bool:
+    """Whether this load of a sling or tagline is its tension, which has a row of its own."""
+    tensions = traces(result, "line_tension") if "line_tension" in result.channels else []
+    found = next((one for one in tensions if one.names == hook.names), None)
+    if found is None:
+        return False
+    load, pull = TONNES[hook.unit] * hook.values, TONNES[found.unit] * found.values
+    return bool(np.allclose(load, pull, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(pull)), equal_nan=True))
 
 
 SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad"}

@@ -335,7 +335,7 @@ def _transient(time: Array, curves: Sequence[Curve]) -> list[str]:
         return []
     return [
         f"A starting transient or a move is inside: {curves[worst].name} does not behave in the first fifth "
-        f"of {time[0]:g} to {time[-1]:g} s as in the second half. Pass start= to leave the beginning out."
+        f"of {time[0]:g} to {time[-1]:g} s as in the second half. Pass after= to leave the beginning out."
     ]
 
 

@@ -113,6 +113,8 @@ class Run:
         The run in the core: time, counters, recorded channels by the core's names.
     interrupted : bool
         Whether something stopped it before its end.
+    described : bool
+        Whether it begins in the pose that the scene describes, and not in a state.
     """
 
     def __init__(
@@ -134,10 +136,11 @@ class Run:
         scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled
+        self.described = start is None
         self.rungs = self._chosen_rungs(model)
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
-        begin, end, described = self.start.time, self.t_end, start is None
+        begin, end, described = self.start.time, self.t_end, self.described
         self._warned = dict(self.scene.warned)
         with keeping(self._warned):
             check_references(self.scene, self.model, start=begin, end=end, described=described)
@@ -382,7 +385,7 @@ class Run:
             channels = tried(
                 "making derived channels", lambda: self.wanted(arrays), self._recorded(arrays), found
             )
-            found += findings(scene, arrays["time"], channels, stats, self.steered)
+            found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
             reached = [(time, name) for time, name, *_ in self.core.events()]
             for what, look in (
                 ("looking at oil", lambda: list(boiled(scene, met, channels))),

@@ -108,6 +108,7 @@ class StagedRun:
         from_rest = start is None and first is not None
         begin = start_state(self._scene, REST if from_rest else start, time=time)
         self._state = _core.initial_state(self._model) if begin is None else begin
+        self._described = begin is None
         self._reached = self._counted()
         self._first = self._state.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self._calls = Calls(
@@ -301,6 +302,7 @@ class StagedRun:
         return [name for name in self.outputs.channels if name in there]
 
     def _began(self, run: Run) -> None:
+        run.described = self._described and not self._pieces
         self._open = (run, counters(run))
 
     def _done(self, run: Run) -> None:

@@ -45,19 +45,23 @@ def findings(
     channels: Channels,
     stats: Mapping[str, Any],
     steered: Collection[str] = (),
+    *,
+    described: bool = True,
 ) -> list[Finding]:
     """All that is out of range in a run: warning classes and messages. Channels left out are not judged.
 
     `steered` names actuators that a controller has moved: they do not follow their references alone.
+    `described` says whether the run began in the pose that the scene describes.
     """
     found: list[Finding] = []
     looks = (
-        _heel, hull_findings, current_findings, _frequencies, _links, line_findings, lifting, _turns,
-        energy_findings,
+        _heel, hull_findings, current_findings, _frequencies, _links, lifting, _turns, energy_findings,
     )  # fmt: skip
     for look in looks:
         what = f"looking at {look.__name__.strip('_')}"
         found += tried(what, partial(look, scene, time, channels), [], found)
+    lines = partial(line_findings, scene, time, channels, described=described)
+    found += tried("looking at lines", lines, [], found)
     found += tried("following", partial(following, scene, time, channels, steered), [], found)
     return found + _singular(scene, stats)
 

@@ -82,8 +82,10 @@ def warn_of_connected(
         )
 
 
-def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
-    """All of these in a run; channels left out are not judged."""
+def line_findings(
+    scene: Description, time: Array, channels: Mapping[str, Array], *, described: bool = True
+) -> list[Finding]:
+    """All of these in a run; channels left out are not judged, nor lengths where it is not `described`."""
     lines = lines_of(scene.loads)
     found: list[Finding] = []
     if "sheave_fleet_angle" in channels:
@@ -102,7 +104,7 @@ def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     if "line_stretch" not in channels:
         return found
     stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
-    if time[0] == 0.0:
+    if described and time[0] == 0.0:
         found += _contradicted(lines, strains_at_rest(scene), lengths[0], stretches[0])
     for (name, line), strain in zip(lines.items(), (stretches / lengths).T, strict=True):
         if len(line.strains):
