@@ -134,7 +134,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             by_default=False,
         ),
         "slack_margin": _derived(
-            "suspension",
+            "weighed",
             "1",
             "load on the lower end over the weight that hangs on it alone; slack at zero",
             f"tension line_tension {_POSE}",

@@ -25,7 +25,7 @@ from seacrane.run.hanging import (
     tip_velocities,
     utilisations,
 )
-from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins
+from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins, weighed_suspensions
 from seacrane.run.motions import motions, winch_lines
 from seacrane.run.own import require_own, with_sources
 
@@ -58,6 +58,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
         "suspension": names_of_suspensions(scene),
+        "weighed": weighed_suspensions(scene),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
         "expression": list(scene.channels),
@@ -71,6 +72,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
+    "weighed": "a link, a wire or a line that alone carries a load: add one",
     "gap": "a clearance: add_clearance one",
     "pair": "two points: add_relative them",
     "expression": "an expression: add_channel one",

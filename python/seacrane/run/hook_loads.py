@@ -53,11 +53,19 @@ def link_tensions(scene: Description, arrays: Mapping[str, Array], loads: Array 
     return np.stack([known[:, i] if i < known.shape[1] else unknown for i in columns], axis=1)
 
 
-def slack_margins(scene: Description, loads: Array) -> Array:
-    """Hook loads (time, suspension) over the weights that hang there; NaN where that is not known."""
+def weighed_suspensions(scene: Description) -> list[str]:
+    """Names of the suspensions that alone carry what hangs on them."""
     weights = weights_on(scene)
-    known = [weights.get(name, (np.nan, 1))[0] for name in names_of_suspensions(scene)]
-    return np.asarray(loads / known)
+    return [name for name in names_of_suspensions(scene) if weights.get(name, (0.0, 1))[0] > 0.0]
+
+
+def slack_margins(scene: Description, loads: Array) -> Array | None:
+    """Hook loads (time, suspension) over the weights that hang there, (time, weighed); None without any."""
+    names, weights = names_of_suspensions(scene), weights_on(scene)
+    known = weighed_suspensions(scene)
+    if not known:
+        return None
+    return np.asarray(loads[:, [names.index(name) for name in known]] / [weights[name][0] for name in known])
 
 
 def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:
