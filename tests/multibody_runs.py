@@ -124,7 +124,6 @@ def add_crane(
             damping=damping,
             reference=(references or {}).get(name, 0.0),
         )
-        scene.record_coordinate(joint=joint, name=name)
 
 
 def swing_out(duration: float = 10.0) -> dict[str, Curve]:

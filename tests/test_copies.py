@@ -42,6 +42,8 @@ def all_kinds() -> Scene:
     scene.add_relative(name="itself", point="corner", to="corner", axes="hull")
     scene.add_channel(name="drop", expression="corner.z - hull.z")
     scene.add_limit_state(channel="constraint_error", maximum=1e-6)
+    scene.add_line("rated", "hull", "arm", EA=1e6, length=1.0, breaking_load=1e5, safety_factor=5.0)
+    scene.add_lift_factors("arm", weight_contingency=1.0 + 1.0 / 3.0)
     scene.add_mesh(body="hull", vertices=np.eye(3), faces=[[0, 1, 2]])
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
     scene.add_load(

@@ -93,7 +93,7 @@ def test_members_wilder_than_their_probes_are_found() -> None:
     [
         ({"rtol": 1e-3}, "accuracy chooses integrator, rtol and dt itself"),
         ({"accuracy": {}}, "accuracy is empty"),
-        ({"accuracy": {"posture": 1.0}}, "quantity 'posture' is unknown"),
+        ({"accuracy": {"posture": 1.0}}, "channel 'posture' does not exist"),
         ({"accuracy": {"position": 0.0}}, "position is 0.0; give a finite number above zero"),
         ({"accuracy": 0.1}, "accuracy is 0.1; give a mapping"),
     ],

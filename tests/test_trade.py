@@ -290,7 +290,7 @@ def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> N
     assert list(found.quantities) == ["position", "velocity"] and {r.case["rung"] for r in found.rows} == {
         "full"
     }
-    with pytest.raises(SceneError, match="'depth' is unknown to this scene"):
+    with pytest.raises(SceneError, match="channel 'depth' does not exist"):
         trade(scene, quantities=["depth"], t_end=2.0, progress=False)
     with pytest.raises(SceneError, match="is no folder"):
         trade(scene, t_end=2.0, quick=True, progress=False, out=tmp_path / "absent")

@@ -44,4 +44,4 @@ def test_tensions_of_lines_are_shown() -> None:
     result = simulate(lifted(1), t_end=0.5, dt_out=0.1)
     assert "line tension" in [panel.quantity for panel in overview_sheet(result).panels]
     data = json.loads(view(result).html.split('id="data">')[1].split("</script>")[0])
-    assert data["strip"][0]["title"] == "line tension" and data["strip"][0]["labels"] == ["hoist"]
+    assert data["strip"][0]["title"] == "line tension hoist" and data["strip"][0]["labels"] == [""]

@@ -44,7 +44,7 @@ def main() -> None:
     """Solve, save, and print heave over Hulme's (1982) units."""
     database = hydro_from_hull(
         half_sphere(), method="capytaine", omega=OMEGA, heading=[0.0], rho=RHO, g=G, mass=MASS,
-        centre_of_gravity=[0.0, 0.0, -2.0], radii_of_gyration=gyration(),
+        center_of_gravity=[0.0, 0.0, -2.0], radii_of_gyration=gyration(),
     )  # fmt: skip
     database.save(PLACE)
     unit = RHO * 2.0 / 3.0 * np.pi * RADIUS**3

@@ -90,7 +90,7 @@ def tanker_database(folder: Path, method: Any) -> HydroDatabase:
         hull, omega = hull.remeshed(stations=36, girth=11), OMEGA
     return hydro_from_hull(
         hull, method=method, omega=omega, heading=[0.5 * np.pi], rho=RHO, g=G, mass=VOLUME * RHO,
-        centre_of_gravity=[0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT],
+        center_of_gravity=[0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT],
         radii_of_gyration=[GYRATION, 0.25 * LENGTH, 0.25 * LENGTH],
         trusted_band=(float(omega[0]), float(omega[-1])),  # also where strips do not vouch
     )  # fmt: skip

@@ -49,7 +49,7 @@ def databases() -> dict[str, HydroDatabase]:
     in_depth = HydroDatabase.load(Path(__file__).with_suffix(".nc"))
     strip = hydro_from_hull(
         _hull(), method="strip", omega=in_depth.omega, heading=in_depth.heading, rho=RHO, g=G,
-        mass=float(in_depth.mass_matrix[0, 0]), centre_of_gravity=[0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT],
+        mass=float(in_depth.mass_matrix[0, 0]), center_of_gravity=[0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT],
     )  # fmt: skip
     return {DEPTH: in_depth, STRIP: replace(strip, mass_matrix=in_depth.mass_matrix)}
 

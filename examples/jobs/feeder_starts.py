@@ -36,4 +36,6 @@ lifts = ensemble(
 )  # fmt: skip
 print(lifts.distribution("peak"))
 off = abs(lifts.dataset.peak / lifts.dataset.by_hand - 1.0)
-print(f"each peak is within {float(off.max()):.1%} of its own by hand, half within {float(off.median()):.1%}")
+print(
+    f"each peak is within {float(off.max()):.1%} of its own by hand and half within {float(off.median()):.1%}"
+)

@@ -46,7 +46,5 @@ lifts = ensemble(scene, stages=[Stage(name="wait", duration=60.0), lift, Stage(n
                  keep={"peak": "hook_load[hoist].max", "by_hand": by_hand, "gap": gap})  # fmt: skip
 data, words = lifts.dataset, {"static": MASS * G / 1e3, "name": "hook load", "unit": "kN"}
 print(seed_extremes(data.peak.to_numpy() / 1e3, duration=25.0, **words))
-print(
-    f"peaks are {float((data.by_hand / data.peak - 1).mean()):.1%} below those by hand, which have no damping"
-)
+print(f"peaks are {float((data.by_hand / data.peak - 1).mean()):.1%} below those by hand without damping")
 print(f"the load comes back to the deck in {int((data.gap < 0).sum())} of 20 seas")

@@ -29,7 +29,7 @@ x, y, _ = scene.place_of(body=tip[0], point=tip[1])
 rate = np.abs(omega * (motion[:, 2] + y * motion[:, 3] - x * motion[:, 4]))  # m/s per m of wave
 for hs, tp in SEAS:
     spectrum = jonswap(hs=hs, tp=tp)
-    linear = response_statistics(scene, spectrum=spectrum, heading=HEADING, body=tip[0], point=tip[1])
+    linear = response_statistics(scene, spectrum=spectrum, direction=HEADING, body=tip[0], point=tip[1])
     scene.waves = None
     scene.add_sea(hs=hs, tp=tp, direction_deg=180.0, count=300)
     run = simulate(scene, t_end=END, dt_out=0.5, channels=["tip_velocity"])

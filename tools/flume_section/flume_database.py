@@ -99,7 +99,7 @@ def database_of(solved: list[SectionInFlume]) -> HydroDatabase:
     )
     plain = database_of_solution(
         flume_hull(), solution, omega=OMEGA, heading=ACROSS,
-        centre_of_gravity=np.array([0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT]), mass=MASS,
+        center_of_gravity=np.array([0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT]), mass=MASS,
         radii_of_gyration=np.array([GYRATION, 0.25 * LENGTH, 0.25 * LENGTH]), roll_damping_fraction=0.0,
         trusted_band=None, rho=RHO, g=G, name="flume section",
     )  # fmt: skip
