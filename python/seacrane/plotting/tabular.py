@@ -14,6 +14,18 @@ if TYPE_CHECKING:
     import xarray
 
 
+def write_csv(path: str | os.PathLike[str], table: pandas.DataFrame, *, index: str | None = None) -> Path:
+    """Write a table with the unit of each column in its name, and its index unless it is a mere count.
+
+    `index`: what the index is called. An older file of that name is replaced, complete or not at all.
+    """
+    units = table.attrs["units"]
+    named = table.rename(columns={name: f"{name} [{units[name]}]" for name in units})
+    with atomic_write(Path(path)) as draft:
+        named.to_csv(draft, index=index is not None or any(table.index.names), index_label=index)
+    return Path(path)
+
+
 class Tabular(ABC):
     """What becomes an xarray Dataset, and so a table of plain columns: SI units, radians."""
 
@@ -40,9 +52,4 @@ class Tabular(ABC):
 
         An older file of that name is replaced, complete or not at all. Raises OSError.
         """
-        table = self.to_dataframe()
-        units = table.attrs["units"]
-        named = table.rename(columns={name: f"{name} [{units[name]}]" for name in units})
-        with atomic_write(Path(path)) as draft:
-            named.to_csv(draft, index=bool(self.to_xarray().sizes))
-        return Path(path)
+        return write_csv(path, self.to_dataframe())

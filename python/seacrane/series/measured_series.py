@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
+from seacrane.plotting.tabular import write_csv
 from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
 from seacrane.series.reading import Columns, read_series
@@ -219,10 +219,7 @@ class MeasuredSeries:
 
     def to_csv(self, path: str | os.PathLike[str]) -> Path:
         """Write comma-separated values that `load` reads: the unit of each column is in its name."""
-        table = self.to_dataframe().rename(columns={n: f"{n} [{u}]" for n, u in self.units.items()})
-        with atomic_write(Path(path)) as draft:
-            table.to_csv(draft, index_label="time [s]")
-        return Path(path)
+        return write_csv(path, self.to_dataframe(), index="time [s]")
 
     @property
     def told(self) -> str:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.inputs.atomic import atomic_write
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
+from seacrane.plotting.tabular import write_csv
 from seacrane.plotting.text import text_table
 from seacrane.result.units import read_as
 from seacrane.series.clock import step_of
@@ -151,11 +151,7 @@ class Comparison:
 
     def to_csv(self, path: str | os.PathLike[str]) -> Path:
         """Write the table as comma-separated values, the unit in the name of each column."""
-        table = self.to_dataframe()
-        named = table.rename(columns={name: f"{name} [{self.unit}]" for name in table.columns})
-        with atomic_write(Path(path)) as draft:
-            named.to_csv(draft, index_label="time [s]")
-        return Path(path)
+        return write_csv(path, self.to_dataframe(), index="time [s]")
 
     def __str__(self) -> str:
         return "\n".join(
