@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, get_overloads
+from typing import Any
 
 from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
@@ -29,11 +29,11 @@ from seacrane.description import (
     relatives,
 )
 from seacrane.description.curves import spline_curve
-from seacrane.hydro import load_database
-from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.run.method import FORMULATIONS, Method
+from seacrane.lift.vessel_keys import given_vessel_keys, sea_keys, vessel_keys
+from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene import (
@@ -51,36 +51,15 @@ from seacrane.scene import (
     wind_current,
 )
 from seacrane.scene.gusts import gust_curve
-from seacrane.scene.mooring import MooringSpring
-from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.realised_sea import SPECTRA
 from seacrane.scene.scene import Scene
-from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
 
-CHOSEN: dict[str, dict[str, Any]] = {
-    "spectrum": {"type": "text", "choices": SPECTRA},
-    "evaluation": {"choices": ("table", "fft", "exact")},
-    "placement": {"choices": ("jittered", "uniform")},
-    "memory": {"choices": vessel.MEMORY},
-    "kinematics": {"choices": ("yaw_following", "paper")},
-    "orientation": {"choices": ("quaternion", "euler_xyz")},
-    "formulation": {"choices": FORMULATIONS},
-    "integrator": {"choices": tuple(_core.integrator_names())},
-    "kind": {"choices": tuple(_core.joint_kinds())},
-}
-POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
-DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
-LENGTH: dict[str, Any] = {"unit": "m"}
-ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
-TIME: dict[str, Any] = {"unit": "s"}
 LEFT = ("left",)  # of a heel or trim: as it comes
 START: dict[str, Any] = {
     "type": "text",
     "choices": ("rest",),
     "text": '"rest" finds the state at rest; default: as described.',
 }
-NUMBER = {"type": "number"}
 LIMITED = {"unit": CHANNEL_UNITS}
 
 
@@ -113,83 +92,6 @@ def _summary(call: Any) -> str:
     return " ".join((call.__doc__ or "").split("\n\n")[0].split())
 
 
-READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
-
-
-def _vessel_keys() -> tuple[Key, ...]:
-    """The keys of `add_vessel` with a database, and of reading that."""
-    mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
-    matrix = "Stiffness of the mooring about the reference point, vessel's axes."
-    keys = keys_of(
-        get_overloads(vessel.add_vessel)[0],
-        described=vessel.add_vessel,
-        more=CHOSEN
-        | {
-            "database": {
-                "type": "file",
-                "text": "Path of a database, or hull_115, which comes with seacrane.",
-            },
-            "position": POINT,
-            "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
-            "mooring_period": {"unit": "s", "text": mooring},
-        },
-    )
-    spring = keys_of(
-        MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
-    )
-    springs = Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs.")
-    return (*keys, springs, *keys_of(load_database, more=READING, only=tuple(READING)))
-
-
-def _given_vessel_keys() -> tuple[Key, ...]:
-    """The keys of `add_given_vessel`, whose motion is one of four keys."""
-    motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
-    history = keys_of(
-        MotionHistory,
-        more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions},
-        without=("record",),
-    )
-    keys = keys_of(
-        given_vessel.add_given_vessel,
-        more={
-            "motion": {"type": "text", "choices": ("rest",), "text": "Where it never moves."},
-            "position": POINT,
-            "ramp": TIME,
-            "duration": TIME,
-            "size": POINT,
-        },
-    )
-    database = Key(
-        name="database", type="file",
-        text="In place of motion: by the displacement RAOs of a database, or of hull_115.",
-    )  # fmt: skip
-    return (
-        database,
-        Key(name="raos", type="table", keys=_rao_keys(), text="In place of motion: by a table of RAOs."),
-        Key(name="history", type="table", keys=history, text="In place of motion: by a history."),
-        *(replace(key, required=False) for key in keys),
-    )
-
-
-def _rao_keys() -> tuple[Key, ...]:
-    """The keys of `MotionRaos`, whose values are written heading by heading."""
-    columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
-    at_heading = (
-        Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
-        Key(
-            name="amplitude", unit="m/m, rad/m", text="Six motions at each frequency, zero or more.",
-            **columns,
-        ),
-        Key(
-            name="phase", unit="rad", text="By which each leads the crest at the reference point.", **columns
-        ),
-    )  # fmt: skip
-    omega = {"type": "array", "unit": "rad/s", "shapes": ((-1,),)}
-    table = keys_of(MotionRaos, more={"omega": omega, "depth": LENGTH}, without=("heading", "values", "g"))
-    headings = Key(name="headings", type="tables", keys=at_heading, required=True, text="Of the table.")
-    return (*table, headings)
-
-
 def _joint_keys() -> tuple[Key, ...]:
     """The keys of `add_joint`, and the parameters of all kinds of joints."""
     frame = {"type": "table", "keys": fields_of(_core.Frame)}
@@ -199,35 +101,6 @@ def _joint_keys() -> tuple[Key, ...]:
     keys = keys_of(joints.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
     parameters = [field for kind in _core.joint_kinds().values() for field in kind.parameters]
     return (*keys, *(replace(key, required=False) for key in field_keys(parameters)))
-
-
-def _sea_keys() -> tuple[Key, ...]:
-    several: dict[str, Any] = {
-        "type": "tables",
-        "keys": _system_keys(),
-        "text": "Wave systems, in place of hs to count.",
-    }
-    of_state = keys_of(SeaState, more=CHOSEN | {"depth": LENGTH}, without=("systems", "seed"))
-    plain = keys_of(
-        sea.add_sea,
-        more=CHOSEN | {
-            "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
-            "position": POINT | {"shapes": ((2,),)},
-        },
-        without=("sea",),
-    )  # fmt: skip
-    beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
-    return (*plain, *beside, Key(name="systems", **several))
-
-
-def _system_keys() -> tuple[Key, ...]:
-    frequency = {"unit": "rad/s"}
-    own = keys_of(
-        WaveSystem,
-        more=CHOSEN | {"spreading": NUMBER, "minimum_omega": frequency, "maximum_omega": frequency},
-    )
-    shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
-    return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
 
 
 def _flow(name: str, add: Callable[..., Any]) -> Table:
@@ -365,10 +238,10 @@ _ALL = (
     ),
     Table(
         name="vessel", text="A vessel from a hydrodynamic database.",
-        keys=_vessel_keys(),
+        keys=vessel_keys(),
     ),
     Table(
-        name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=_given_vessel_keys(),
+        name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=given_vessel_keys(),
     ),
     _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}),
     Table(
@@ -383,7 +256,7 @@ _ALL = (
         "slack_tank", slack_tank.add_slack_tank,
         moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, vessel={"type": "text"},
     ),
-    Table(name="sea", text=_summary(sea.add_sea), keys=_sea_keys()),
+    Table(name="sea", text=_summary(sea.add_sea), keys=sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
     Table(name="joint", text=_summary(joints.add_joint), keys=_joint_keys()),
     _call("driver", drives.add_driver, _core.Driver),

@@ -1,0 +1,120 @@
+"""The keys of vessels, of ships whose motion is given, and of seas."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, get_overloads
+
+from seacrane.hydro import load_database
+from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.lift.key_shapes import CHOSEN, LENGTH, NUMBER, POINT, TIME
+from seacrane.lift.keys import Key, keys_of
+from seacrane.scene import given_vessel, sea, vessel
+from seacrane.scene.mooring import MooringSpring
+from seacrane.scene.motion_history import MotionHistory
+from seacrane.sea import SeaState, WaveSystem
+
+READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
+
+
+def vessel_keys() -> tuple[Key, ...]:
+    """The keys of `add_vessel` with a database, and of reading that."""
+    mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
+    matrix = "Stiffness of the mooring about the reference point, vessel's axes."
+    keys = keys_of(
+        get_overloads(vessel.add_vessel)[0],
+        described=vessel.add_vessel,
+        more=CHOSEN
+        | {
+            "database": {
+                "type": "file",
+                "text": "Path of a database, or hull_115, which comes with seacrane.",
+            },
+            "position": POINT,
+            "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
+            "mooring_period": {"unit": "s", "text": mooring},
+        },
+    )
+    spring = keys_of(
+        MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
+    )
+    springs = Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs.")
+    return (*keys, springs, *keys_of(load_database, more=READING, only=tuple(READING)))
+
+
+def given_vessel_keys() -> tuple[Key, ...]:
+    """The keys of `add_given_vessel`, whose motion is one of four keys."""
+    motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
+    history = keys_of(
+        MotionHistory,
+        more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions},
+        without=("record",),
+    )
+    keys = keys_of(
+        given_vessel.add_given_vessel,
+        more={
+            "motion": {"type": "text", "choices": ("rest",), "text": "Where it never moves."},
+            "position": POINT,
+            "ramp": TIME,
+            "duration": TIME,
+            "size": POINT,
+        },
+    )
+    database = Key(
+        name="database", type="file",
+        text="In place of motion: by the displacement RAOs of a database, or of hull_115.",
+    )  # fmt: skip
+    return (
+        database,
+        Key(name="raos", type="table", keys=_rao_keys(), text="In place of motion: by a table of RAOs."),
+        Key(name="history", type="table", keys=history, text="In place of motion: by a history."),
+        *(replace(key, required=False) for key in keys),
+    )
+
+
+def _rao_keys() -> tuple[Key, ...]:
+    """The keys of `MotionRaos`, whose values are written heading by heading."""
+    columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
+    at_heading = (
+        Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
+        Key(
+            name="amplitude", unit="m/m, rad/m", text="Six motions at each frequency, zero or more.",
+            **columns,
+        ),
+        Key(
+            name="phase", unit="rad", text="By which each leads the crest at the reference point.", **columns
+        ),
+    )  # fmt: skip
+    omega = {"type": "array", "unit": "rad/s", "shapes": ((-1,),)}
+    table = keys_of(MotionRaos, more={"omega": omega, "depth": LENGTH}, without=("heading", "values", "g"))
+    headings = Key(name="headings", type="tables", keys=at_heading, required=True, text="Of the table.")
+    return (*table, headings)
+
+
+def sea_keys() -> tuple[Key, ...]:
+    several: dict[str, Any] = {
+        "type": "tables",
+        "keys": _system_keys(),
+        "text": "Wave systems, in place of hs to count.",
+    }
+    of_state = keys_of(SeaState, more=CHOSEN | {"depth": LENGTH}, without=("systems", "seed"))
+    plain = keys_of(
+        sea.add_sea,
+        more=CHOSEN | {
+            "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
+            "position": POINT | {"shapes": ((2,),)},
+        },
+        without=("sea",),
+    )  # fmt: skip
+    beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
+    return (*plain, *beside, Key(name="systems", **several))
+
+
+def _system_keys() -> tuple[Key, ...]:
+    frequency = {"unit": "rad/s"}
+    own = keys_of(
+        WaveSystem,
+        more=CHOSEN | {"spreading": NUMBER, "minimum_omega": frequency, "maximum_omega": frequency},
+    )
+    shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
+    return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
