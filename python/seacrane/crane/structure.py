@@ -74,19 +74,10 @@ def leaning(parts: CraneParts) -> tuple[CraneParts, Lean]:
     hinge = JointRecord(
         name=STRUCTURE, kind="revolute", first=FOOT, second=upper, point=bearing.point.copy(), axis=axis
     )
-    bodies, joints = list(parts.bodies), list(parts.joints)
     if parts.slew is None:
         hinge = dataclasses.replace(hinge, first=lower)
-        joints[joints.index(bearing)] = hinge
-    else:
-        k = next(i for i, body in enumerate(bodies) if body.name == upper)
-        bodies[k : k + 1] = _parted(bodies[k])
-        standing = dataclasses.replace(bearing, second=FOOT)
-        if bearing.first == upper:
-            standing = dataclasses.replace(bearing, first=FOOT)
-        at = joints.index(bearing)
-        joints[at : at + 1] = [standing, hinge]
-    moved = [body for body in bodies if body.name in beyond]
+    hinged = _hinged(parts, bearing, hinge)
+    moved = [body for body in hinged.bodies if body.name in beyond]
     levers = [_center(body) - bearing.point for body in moved]
     about = sum(
         body.mass * float(np.sum(np.cross(axis, lever) ** 2)) + float(_along(body, axis))
@@ -97,7 +88,24 @@ def leaning(parts: CraneParts) -> tuple[CraneParts, Lean]:
         first=hinge.first, second=upper, point=bearing.point + radius * out, weight=moment / radius,
         inertia=about / radius**2,
     )  # fmt: skip
-    return dataclasses.replace(parts, bodies=bodies, joints=joints), lean
+    return hinged, lean
+
+
+def _hinged(parts: CraneParts, bearing: JointRecord, hinge: JointRecord) -> CraneParts:
+    """With the hinge over a foot that slews, or in place of the first joint of a crane that does not."""
+    bodies, joints = list(parts.bodies), list(parts.joints)
+    at = joints.index(bearing)
+    if parts.slew is None:
+        joints[at] = hinge
+    else:
+        k = next(i for i, body in enumerate(bodies) if body.name == hinge.second)
+        bodies[k : k + 1] = _parted(bodies[k])
+        below = bearing.first == hinge.second
+        standing = (
+            dataclasses.replace(bearing, first=FOOT) if below else dataclasses.replace(bearing, second=FOOT)
+        )
+        joints[at : at + 1] = [standing, hinge]
+    return dataclasses.replace(parts, bodies=bodies, joints=joints)
 
 
 def _beyond(parts: CraneParts, bearing: JointRecord) -> set[str]:

@@ -19,12 +19,12 @@ from seacrane.plotting.tabular import write_csv
 from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
 from seacrane.series.reading import Columns, read_series
+from seacrane.series.rows import FEWEST
 
 if TYPE_CHECKING:
     import pandas
 
 Array = NDArray[np.float64]
-FEWEST = 8
 MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
 
 
