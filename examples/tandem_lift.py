@@ -27,7 +27,7 @@ def lift(hs: float) -> Result:
         pose = {"foot": (x, 10.0, 10.0), "slew": -np.pi / 2, "s1": 2.0, "s2": 1.0}
         crane = scene.add_crane(**pose, held=True, prefix=f"{name} ")
         body, point = crane.tip
-        tip = scene.place_of(body=body, point=point)
+        tip = scene.place_of(f"{name} tip")
         if not lengths:
             middle = (x - LUGS[name], tip[1], START)
             scene.add_body(name="load", mass=MASS, inertia=(2e5, across, across), position=middle)

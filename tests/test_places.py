@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from seacrane import Scene, SceneError, simulate
+from seacrane import Lift, Scene, SceneError, simulate
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 POSE = {"slew": -1.2, "s1": 1.0, "s2": 2.0}
@@ -17,6 +19,8 @@ def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> Non
     body, point = scene.add_crane(**POSE).tip or ("", ())
     x, y, z = np.asarray(FOOT) + KnuckleBoomCrane.load().geometry.tip(**POSE)
     np.testing.assert_allclose(scene.place_of(body=body, point=point), (100.0 - y, -30.0 + x, 1.0 + z))
+    np.testing.assert_array_equal(scene.place_of("tip"), scene.place_of(body=body, point=point))
+    np.testing.assert_allclose(simulate(scene, 0.1, dt_out=0.1).place_of("tip")[0], scene.place_of("tip"))
 
 
 def test_a_point_is_recorded_where_it_was_described() -> None:
@@ -40,3 +44,52 @@ def test_what_has_no_place_is_refused() -> None:
         scene.place_of(body="bocks")
     with pytest.raises(SceneError, match=r"place on 'box': point has shape \(2,\); give \(3,\)"):
         scene.place_of(body="box", point=(1.0, 2.0))
+
+
+def test_a_body_is_placed_below_the_tip(tmp_path: Path) -> None:
+    """Its top, where it has a size and however it is turned; its origin, where it has none."""
+    scene = Scene()
+    scene.add_crane(base="ground", prefix="aft ", **POSE)
+    tip = scene.place_of("aft tip")
+    half = np.sqrt(0.5)  # a quarter turn about x: body y is up
+    box = {"mass": 2e4, "size": (3.0, 2.0, 1.0), "center_of_mass": (0.1, 0.2, 0.3)}
+    scene.add_body("box", **box, below="aft tip", drop=4.0)
+    scene.add_body("turned", **box, below="aft tip", drop=4.0, quaternion=(half, half, 0.0, 0.0))
+    scene.add_body("ball", mass=1.0, inertia=(1.0, 1.0, 1.0), below="aft tip", drop=2.0)
+    down = np.array([0.0, 0.0, 1.0])
+    np.testing.assert_allclose(scene.place_of("box", (0.1, 0.2, 0.8)), tip - 4.0 * down)
+    np.testing.assert_allclose(scene.place_of("turned", (0.1, 0.2, 0.8)), tip - 4.0 * down)
+    np.testing.assert_allclose(scene.place_of("ball"), tip - 2.0 * down)
+    (tmp_path / "lift.toml").write_text(
+        """format = "seacrane lift"
+version = 2
+[[body]]
+name = "box"
+mass_kg = 2e4
+size_m = [3, 2, 1]
+center_of_mass_m = [0.1, 0.2, 0.3]
+below = "aft tip"
+drop_m = 4
+[[crane]]
+base = "ground"
+prefix = "aft "
+slew_rad = -1.2
+s1_m = 1
+s2_m = 2
+"""
+    )
+    read = Lift.load(tmp_path / "lift.toml").scene()
+    np.testing.assert_allclose(read.place_of("box"), scene.place_of("box"))
+
+
+def test_a_place_given_twice_or_below_nothing_is_named() -> None:
+    scene = Scene()
+    scene.add_crane(base="ground")
+    box = {"mass": 2e4, "size": (3.0, 2.0, 1.0)}
+    with pytest.raises(SceneError, match="body 'box': has a position and below; give one of them"):
+        scene.add_body("box", **box, below="tip", position=(1.0, 0.0, 0.0))
+    with pytest.raises(SceneError, match="body 'box': drop is 3 m, below nothing"):
+        scene.add_body("box", **box, drop=3.0)
+    with pytest.raises(SceneError, match=r"body 'box': below: there is no body 'top', .* and points 'tip'"):
+        scene.add_body("box", **box, below="top")
+    assert "box" not in scene.bodies

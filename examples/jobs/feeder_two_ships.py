@@ -12,9 +12,9 @@ SHIP = shipped_database()  # of both here; each may have its own
 scene = Scene(name="feeder")
 scene.add_vessel(SHIP, name="ship")
 crane = load_crane("lattice_boom_100t")
-tip = scene.add_crane(crane, base="ship", foot=(20, 9, 8), coordinates={"slew": -np.pi / 2, "boom": 1.0}).tip
+scene.add_crane(crane, base="ship", foot=(20, 9, 8), coordinates={"slew": -np.pi / 2, "boom": 1.0})
 scene.add_ballast()
-x, y, _ = scene.place_of(body=tip[0], point=tip[1])
+x, y, _ = scene.place_of("tip")
 scene.add_vessel(SHIP, name="feeder", position=(x, y, 0), heading_deg=180, mooring_period=60)
 scene.add_hoist(mass=MASS, size=(6, 6, 6), on="feeder", height=DECK, EA=EA, slack=1.0, winch={"lag": 0.2})
 scene.add_sea(vessel="ship", hs=1.2, tp=7.0, direction_deg=180.0)

@@ -29,7 +29,7 @@ peak = roll[lost].argmax()
 
 rest, modes = statics(bare), natural_modes(bare)
 mode = modes.find("vessel roll")
-arm = result.place_of(*scene.roles[""].tip)[0, 1]  # m to port, at the heel
+arm = result.place_of("tip")[0, 1]  # m to port, at the heel
 back = np.degrees(MASS * arm / (rest["GM"].item() * bare.bodies["vessel"].mass))
 swings = np.exp(-np.pi * modes.damping_ratio[mode])  # of what is left after half a period
 main, _ = KnuckleBoomCrane.load().static_cylinder_forces(**POSE, payload_mass=MASS)

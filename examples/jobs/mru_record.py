@@ -27,9 +27,9 @@ zero = np.zeros(t.size)
 motion = np.column_stack([zero, zero, heave, np.radians(roll), np.radians(pitch), zero])
 scene = Scene(name="record")
 scene.add_given_vessel(MotionHistory(time=record[:, 0], motion=motion), ramp=0.0)
-tip = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0).tip
+scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
 scene.add_hoist(mass=MASS, size=(1.6, 1.6, 1.2), length=ROPE, stiffness=STIFF, damping=False)
-at = scene.place_of(body=tip[0], point=tip[1])
+at = scene.place_of("tip")
 result = simulate(scene, t_end=END, dt_out=0.1)
 
 # By hand: the tip's path by rotations and a spline, and a mass on a spring below it.

@@ -17,7 +17,7 @@ tip = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0).tip
 scene.add_ballast()  # upright without the load
 scene.add_hoist(mass=MASS, size=(4, 4, 3), length=20.0, EA=4e8, rung="quasi-static")
 weight, rest = MASS * scene.gravity, sc.statics(scene)
-arm = scene.place_of(body=tip[0], point=tip[1])[1]
+arm = scene.place_of("tip")[1]
 heel = -np.degrees(MASS * arm / rest["GM"].item() / scene.bodies["vessel"].mass)
 print(f"heel {np.degrees(rest['heel'].item()):.2f} deg, by hand {heel:.2f} deg")
 

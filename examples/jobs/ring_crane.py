@@ -40,7 +40,7 @@ luff = {"luffing rope.rate": -FALLS * (low - high) / TIME}
 stages = [Stage(name="hold", duration=10.0), Stage(name="luff", duration=TIME + 1.0, commands=luff)]
 stages += [Stage(name="stop", duration=60.0, commands={"luffing rope.rate": 0.0})]
 result = simulate_stages(scene, stages, start="rest")
-tip, rope = result.place_of(*scene.roles[""].tip), result.select("line_tension", line="luffing rope") / 1e3
+tip, rope = result.place_of("tip"), result.select("line_tension", line="luffing rope") / 1e3
 for name, at in (("before", slice(0, 50)), ("after ", slice(-100, None))):
     angle = np.degrees(np.arctan2(tip[at, 2] - HINGE[1], -tip[at, 0] - HINGE[0])).mean()
     hand = by_hand(angle)[0] / 1e3

@@ -9,8 +9,8 @@ MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (3
 scene = Scene(name="subsea lowering")
 scene.add_given_vessel(shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
-jib, head = scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0).tip
-tip = scene.place_of(body=jib, point=head)[2]
+scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
+tip = scene.place_of("tip")[2]
 strain = MASS * scene.gravity / EA
 first, deep = (tip - START) / (1.0 + strain), (tip + DEPTH) / (1.0 + strain)
 scene.add_hoist("wire", mass=MASS, size=(3, 3, 2), length=tip - START, EA=EA, winch={"lag": 0.2})

@@ -25,7 +25,7 @@ for (x, y, z), one in bodies[1:]:
 restoring[[3, 4], [3, 4]] += ballast.force[2] * ballast.point[2]
 at, omega = np.abs(np.asarray(SHIP.heading) - HEADING).argmin(), np.asarray(SHIP.omega)
 motion = motion_response(replace(SHIP, mass_matrix=mass, restoring=restoring))[at]
-x, y, _ = scene.place_of(body=tip[0], point=tip[1])
+x, y, _ = scene.place_of("tip")
 rate = np.abs(omega * (motion[:, 2] + y * motion[:, 3] - x * motion[:, 4]))  # m/s per m of wave
 for hs, tp in SEAS:
     spectrum = jonswap(hs=hs, tp=tp)

@@ -18,7 +18,7 @@ lugs = {}
 for name, (base, foot, slew) in CRANES.items():
     crane = scene.add_crane(base=base, foot=foot, slew=slew, s1=2.0, s2=1.0, held=True, prefix=f"{name} ")
     body, point = crane.tip
-    above = scene.place_of(body=body, point=point) - CENTRE
+    above = scene.place_of(f"{name} tip") - CENTRE
     lugs[name] = above[1]
     points = [point, (0.0, above[1], 0.0)]
     scene.add_line(name=name, bodies=[body, "load"], points=points, EA=EA, length=above[2] - 0.02)

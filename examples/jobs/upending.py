@@ -10,7 +10,7 @@ HEAD, TAIL, ANGLES = np.array([22.0, 0.0]), np.array([-18.0, 1.5]), (0, 15, 30, 
 scene = Scene(name="upending")
 crane = load_crane("lattice_boom_100t")
 jib, head = scene.add_crane(crane, base="ground", foot=(0, 0, 0), coordinates={"boom": 1.2}).tip
-x, y, z = scene.place_of(body=jib, point=head)
+x, y, z = scene.place_of("tip")
 
 
 def by_hand(angle: float) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -16,7 +16,7 @@ from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, T
 from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import tips_over, warn_of_rest
-from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded, with_what_hangs
+from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unbounded, with_what_hangs
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -33,6 +33,7 @@ CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states o
 DIGITS = 1e-15  # of the largest position
 ROUGHEST = 1e3  # times that, where a step has not brought the scene nearer to rest
 LARGEST_MOVE = 0.5  # m and rad in one step
+LEAST_LED = 0.01  # m: by less, what hangs is moved by Newton's method alone
 MOST_STEPS = 100
 PATIENCE = 5  # steps
 FALLING = 10.0  # ratio of what acts where nothing brings anything back to what acts elsewhere
@@ -200,10 +201,11 @@ def _searched(scene: Description, model: _core.Model, time: float, values: Array
 
     Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
     """
-    found = _search(model, time, values)
+    led = partial(with_what_hangs, scene, model, least=LEAST_LED) if has_masses(scene) else _as_moved
+    found = _search(model, time, values, led)
     if found.state is None or found.tips:
         near = relaxed(model, time, values, capsized=partial(most_turned, scene, model))
-        other = found if near is None else _search(model, time, near)
+        other = found if near is None else _search(model, time, near, led)
         if found.state is None or (other.state is not None and not other.tips):
             found = other
     if found.state is None:
@@ -221,8 +223,18 @@ class _Search:
     tips: bool = False
 
 
-def _search(model: _core.Model, time: float, values: Array) -> _Search:
-    """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it."""
+def _as_moved(_before: Array, after: Array) -> Array:
+    return after
+
+
+def _search(
+    model: _core.Model, time: float, values: Array, led: Callable[[Array, Array], Array]
+) -> _Search:
+    """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it.
+
+    `led` takes what hangs along with a step, given the states before and after it: masses of a line that follow
+    their upper end along straight lines are strained by the square of its step.
+    """
     terms = Terms(model, time=time)
     y = at_rest(model, values)
     y = terms.evaluator.project(time, y)
@@ -255,9 +267,9 @@ def _search(model: _core.Model, time: float, values: Array) -> _Search:
         if done or (steps >= PATIENCE and free > max(FALLING * left, CREEP)):
             break  # what is left acts where nothing brings anything back
         share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
-        y = terms.moved(y, displacement=share * move)
-        y[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
-        y = at_rest(model, terms.evaluator.project(time, y))
+        moved = terms.moved(y, displacement=share * move)
+        moved[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
+        y = at_rest(model, led(y, terms.evaluator.project(time, moved)))
     return _Search(state=None, values=y)
 
 

@@ -10,6 +10,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
 from seacrane.description.loads import lines_of
+from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.frames import rotation_matrix
 
@@ -40,8 +41,10 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     return (out, state) if found else None
 
 
-def with_what_hangs(scene: Description, model: _core.Model, before: Array, after: Array) -> Array:
-    """The later of two states, with what hangs on lines moved as far as what holds them.
+def with_what_hangs(
+    scene: Description, model: _core.Model, before: Array, after: Array, *, least: float = 0.0
+) -> Array:
+    """The later of two states, with what hangs on lines moved as far as what holds them, from `least` (m) on.
 
     A line that is stretched by metres on the way to a pose would throw what it is made of about.
     """
@@ -53,11 +56,18 @@ def with_what_hangs(scene: Description, model: _core.Model, before: Array, after
         ends = [
             place + turn @ point for place, turn in (pose_of(scene, model, body, y) for y in (before, after))
         ]
+        if np.max(np.abs(ends[1] - ends[0])) < least:
+            continue
         for name in bodies:
             at = model.pose_index(list(model.bodies).index(name))
             out[at : at + 3] = before[at : at + 3] + ends[1] - ends[0]
         moved |= set(bodies)
     return out
+
+
+def has_masses(scene: Description) -> bool:
+    """Whether something hangs on a line with mass, and on nothing else."""
+    return any(line.rung == WITH_MASS for line, _ in bodies_below(scene))
 
 
 def unbounded(scene: Some) -> Some:

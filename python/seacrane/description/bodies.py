@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description, insert
+from seacrane.description.places import on_body, placed
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, numbers_of, shaped_of
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import warn_of_density
 
 Array = NDArray[np.float64]
@@ -29,6 +31,8 @@ def add_body(
     angular_velocity: Any = (0.0, 0.0, 0.0),
     gravity: bool = True,
     size: Any = None,
+    below: str | None = None,
+    drop: float = 0.0,
 ) -> _core.Body:
     """Add a rigid body.
 
@@ -49,12 +53,17 @@ def add_body(
         Whether weight acts on it. The body of a vessel never gets weight: its restoring carries it.
     size : array_like, shape (3,), optional
         Edges (x, y, z) of the box that it is, m, about its centre of mass along body axes.
+    below : str, optional
+        In place of a position, a point such as "tip", as `place_of` takes it: the top of the box, or the
+        origin of a body without a size, is straight below it.
+    drop : float
+        From there down, m.
 
     Raises
     ------
     SceneError
-        For a duplicate name, a value that is not of that shape, or neither inertia nor size; other values are
-        checked at compile().
+        For a duplicate name, a value that is not of that shape, neither inertia nor size, or a place given
+        twice; other values are checked at compile().
 
     Warns
     -----
@@ -63,6 +72,12 @@ def add_body(
     """
     what = f"body {name_of('body', name)!r}"
     edges = np.zeros(3) if size is None else shaped_of(f"{what}: size", size, (3,))
+    if below is not None:
+        middle = shaped_of(f"{what}: center_of_mass", center_of_mass, (3,))
+        top = np.add(middle, (0.0, 0.0, 0.5 * edges[2])) if edges.any() else edges
+        position = _below(scene, what, below, drop, position, quaternion, top)
+    elif drop:
+        raise SceneError(f"{what}: drop is {drop:g} m, below nothing; give below=, or leave drop out")
     body = _core.Body(
         name=name,
         mass=mass,
@@ -79,6 +94,17 @@ def add_body(
     if edges.any():
         warn_of_density(what, body.mass, float(np.prod(edges)))
     return inserted
+
+
+def _below(
+    scene: Description, what: str, point: str, drop: float, position: Any, quaternion: Any, top: Array
+) -> Array:
+    """The origin of a body whose `top`, in its coordinates, is straight below a named point, m."""
+    if np.any(np.asarray(position)):
+        raise SceneError(f"{what}: has a position and below; give one of them")
+    turned = rotation_matrix(shaped_of(f"{what}: quaternion", quaternion, (4,)))
+    under = placed(scene, *on_body(scene, f"{what}: below", point, (0.0, 0.0, 0.0)))
+    return np.asarray(under - (0.0, 0.0, number_of(f"{what}: drop", drop)) - turned @ top)
 
 
 def _tensor(what: str, inertia: Any) -> Array:

@@ -13,15 +13,16 @@ from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 
 
-def place_of(scene: Description, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
-    """Where a point of a body is in the pose described, in the inertial frame, m.
+def place_of(scene: Description, body: str, point: Any = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
+    """Where a point is in the pose described, in the inertial frame, m.
 
-    What hangs below a crane's tip is placed by it: ``body, point = scene.roles[""].tip``.
+    What hangs below a crane's tip is placed by it: ``x, y, z = scene.place_of("tip")``.
 
     Parameters
     ----------
     body : str
-        Of the scene, or "ground".
+        Of the scene, or "ground". In its place the name of one of the scene's points, or "tip", after the
+        prefix of its crane; a body of that name comes first.
     point : array_like, shape (3,)
         In the coordinates of the body, m; default: its origin.
 
@@ -32,14 +33,33 @@ def place_of(scene: Description, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> 
     Raises
     ------
     SceneError
-        For a body that is not in the scene, or a point that is not three numbers.
+        For a name that is not in the scene, or a point that is not three numbers.
     """
-    name = text_of("place: body", body)
-    local = np.array(shaped_of(f"place on {name!r}: point", point, (3,)))
-    if name != GROUND and name not in scene.bodies:
-        known = ", ".join(map(repr, scene.bodies)) or "none"
-        raise SceneError(f"place: there is no body {name!r}, the scene has {known}; add it first")
-    return placed(scene, name, local)
+    return placed(scene, *on_body(scene, "place", body, point))
+
+
+def on_body(scene: Description, what: str, name: str, point: Any) -> tuple[str, NDArray[np.float64]]:
+    """A body and a point in its coordinates, m, of a body by its name or a point by its own.
+
+    Raises SceneError as `place_of`.
+    """
+    name = text_of(f"{what}: body", name)
+    offset = np.array(shaped_of(f"{what} on {name!r}: point", point, (3,)))
+    if name == GROUND or name in scene.bodies:
+        return name, offset
+    named = _points(scene)
+    if name in named:
+        body, own = named[name]
+        return body, np.asarray(own, dtype=float) + offset
+    bodies = ", ".join(map(repr, scene.bodies)) or "none"
+    points = f", and points {', '.join(map(repr, named))}" if named else ""
+    raise SceneError(f"{what}: there is no body {name!r}, the scene has {bodies}{points}; add it first")
+
+
+def _points(scene: Description) -> dict[str, tuple[str, Any]]:
+    """Points by name: tips of cranes, and what is recorded."""
+    tips = {f"{one.prefix}tip": one.tip for one in scene.roles.values() if one.tip is not None}
+    return tips | {name: (one.body, one.point) for name, one in scene.points.items()}
 
 
 def placed(scene: Description, body: str, point: Any) -> NDArray[np.float64]:

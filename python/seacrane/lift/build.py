@@ -78,7 +78,7 @@ class _Build:
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
         """The scene with its commands not yet controlled, and what balances it where [balance] says so."""
         scene = made(self.document, self.entries, "scene", Scene)
-        for entry in self.entries:
+        for entry in _in_order(self.entries):
             if entry.table.name not in NO_CALLS:
                 with refused_at(self.document, entry):
                     self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
@@ -145,6 +145,14 @@ class _Build:
         for given in commands:
             scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
         return scene
+
+
+def _in_order(entries: Sequence[Entry]) -> list[Entry]:
+    """Bodies that are placed below a crane's tip follow the cranes; all else is as the tables are."""
+    later = [entry for entry in entries if entry.table.name == "body" and "below" in entry.values]
+    rest = [entry for entry in entries if entry not in later]
+    last = max((i for i, entry in enumerate(rest) if entry.table.name == "crane"), default=-1) + 1
+    return [*rest[:last], *later, *rest[last:]]
 
 
 @contextlib.contextmanager

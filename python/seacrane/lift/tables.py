@@ -243,7 +243,7 @@ _ALL = (
     Table(
         name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=given_vessel_keys(),
     ),
-    _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}),
+    _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}, drop=LENGTH),
     Table(
         name="hydrodynamics", text="Hydrodynamics of a body by their matrices.",
         keys=tuple(

@@ -14,11 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
-from seacrane.description.description import GROUND
 from seacrane.description.pick import Pick, pick_of
+from seacrane.description.places import on_body
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_to_bytes
@@ -334,6 +333,8 @@ class Result(Mapping[str, Array]):
 
         Parameters
         ----------
+        body : str
+            Or the name of a point, such as "tip", as `Scene.place_of` takes it.
         point : array_like, shape (3,)
             Coordinates of the body, m; default: its origin.
 
@@ -348,15 +349,13 @@ class Result(Mapping[str, Array]):
             For a body that is not there, and where poses were not recorded or the result has no scene.
         """
         what = f"place_of {shown(body)}"
-        place, scene = shaped_of(f"{what}: point", point, (3,)), self.scene
+        scene = self.scene
         missing = [name for name in POSE if name not in self.channels]
         if missing:
             raise SceneError(f"{what}: channel {missing[0]!r} was not recorded; ask for it in channels=[...]")
         if scene is None:
             raise SceneError(f"{what}: this result has no scene; ask that of the run, or its file")
-        if body not in scene.bodies and body != GROUND:
-            raise SceneError(f"{what}: there is no such body; the scene has {', '.join(scene.bodies)}")
-        return position_of(scene, self.channels, body, place)
+        return position_of(scene, self.channels, *on_body(scene, "place_of", body, point))
 
     def _picked(self, channel: str | Pick, names: Mapping[str, str]) -> Pick:
         """A selector as a value; KeyError for a plain name that is no channel."""
