@@ -10,7 +10,8 @@ from line_scenes import case2_on_a_line
 
 from seacrane import allowable_hs, cases, simulate
 
-RESULTS = Path(__file__).resolve().parent.parent / "benchmarks" / "results"
+ROOT = Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "benchmarks" / "results"
 OTHER_MACHINES = 0.1  # of the evaluations: adaptive steps follow rounding, which differs between compilers
 
 
@@ -113,3 +114,15 @@ def test_every_benchmark_can_be_imported() -> None:
         [sys.executable, "-c", script, *names], cwd=folder, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def scripts() -> list[str]:
+    """Those that their own text calls by a path."""
+    found = sorted(ROOT.glob("benchmarks/**/*.py"))
+    named = [(path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")) for path in found]
+    return [name for name, text in named if f"python {name}" in text and "ArgumentParser" in text]
+
+
+@pytest.mark.parametrize("script", scripts())
+def test_every_script_starts_as_its_text_says(script: str) -> None:
+    subprocess.run([sys.executable, script, "--help"], cwd=ROOT, check=True, capture_output=True)

@@ -18,6 +18,7 @@ from heavy_line_scenes import (
     string,
     weights_of_shape,
 )
+from numpy.typing import NDArray
 
 from seacrane import Curve, Result, Scene, SceneError, equilibrium, natural_modes, simulate
 from seacrane.analysis import fastest_mode
@@ -143,6 +144,25 @@ def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(rung: str
         stretched = 1000.0 + (20e3 + 6e3) * G * 1000.0 / 2e8
         assert run.select("position", body="load")[-1, 2] == pytest.approx(top[2] - stretched, abs=1e-5)
         assert np.abs(run["velocity"]).max() < 1e-5
+
+
+def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
+    """A load that swings and bounces on 30 m of wire, undamped, with 5 % to 0.6 % of its mass in the wire."""
+
+    def path(mass_per_length: float) -> NDArray[np.float64]:
+        scene = Scene(name="thrown")
+        start = (0.0, 0.0, -30.0 * (1.0 + 1e3 * G / 1e6))
+        scene.add_body(name="load", mass=1e3, inertia=(1e3,) * 3, position=start, velocity=(1.0, 0.0, 0.5))
+        heavy: dict[str, Any] = {"rung": "with mass", "mass_per_length": mass_per_length, "segments": 4}
+        scene.add_line(
+            name="wire", first="ground", second="load", EA=1e6, length=30.0, damping_ratio=0.0,
+            **(heavy if mass_per_length else {"rung": "elastic"}),
+        )  # fmt: skip
+        return simulate(scene, t_end=5.0, rtol=1e-9).select("position", body="load")
+
+    elastic = path(0.0)
+    errors = [np.abs(path(mass) - elastic).max() for mass in (1.6, 0.8, 0.4, 0.2)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([1.0] * 3, abs=0.03)
 
 
 def test_half_masses_are_carried_by_the_ends() -> None:
