@@ -82,6 +82,7 @@ py::dict tree_of(const Model& model) {
   out["positions"] = tree.positions;
   out["speeds"] = tree.speeds;
   out["loop_rows"] = tree.loop_rows;
+  out["loop_trees"] = SparseLoops::trees_of(model.stepped(), tree);
   return out;
 }
 
@@ -293,7 +294,8 @@ void bind_model(py::module_& m) {
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
       .def_property_readonly("tree", &tree_of,
                              "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
-                             "loops in closed form), positions, speeds, loop_rows (rows left to close).")
+                             "loops in closed form), positions, speeds, loop_rows (rows left to close), "
+                             "loop_trees (trees, each with a root of its own, that they couple).")
       .def_property_readonly("merge", &merge_of,
                              "What runs step: bodies merged by the one that carries them, drivers that lock "
                              "a joint, elements dropped, coordinates and constraints of formulation "

@@ -11,6 +11,7 @@
 #include "seacrane/compile/fast_motions.hpp"
 #include "seacrane/compile/find_kinks.hpp"
 #include "seacrane/compile/line_bounces.hpp"
+#include "seacrane/compile/locked_loops.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
@@ -452,7 +453,8 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   const std::shared_ptr<Model> open = when_open(model, closed);
   hang_on_lines(*model, find_line_bounces(*open));
   hang_on_lines(*open, model->line_bounces);
-  MergePlan plan = merge ? plan_merge(start) : no_merge(start);
+  if (merge) model->locked_loops = locked_loops(*model);
+  MergePlan plan = merge ? plan_merge(start, model->locked_loops) : no_merge(start);
   if (plan.merges()) {
     auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
     std::vector<double> state(merged->initial_state);
@@ -472,8 +474,9 @@ std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   out->merges = model.merges;
   out->initial_state = model.initial_state;
   out->kinks = model.kinks;
+  out->locked_loops = model.locked_loops;
   hang_on_lines(*out, model.line_bounces);
-  MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
+  MergePlan plan = model.merges ? plan_merge(scene, model.locked_loops) : no_merge(scene);
   if (plan.merges()) {
     auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
     hang_on_lines(*merged, model.line_bounces);

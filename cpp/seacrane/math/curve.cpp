@@ -192,4 +192,14 @@ std::vector<double> Curve::breakpoints(int derivatives) const {
   return out;
 }
 
+std::optional<double> Curve::constant_value() const {
+  const double value = pieces_.front().coefficients[0];
+  for (const Piece& piece : pieces_) {
+    const auto& c = piece.coefficients;
+    const bool still = std::all_of(c.begin() + 1, c.end(), [](double x) { return x == 0.0; });
+    if (!still || piece.amplitude != 0.0 || c[0] != value) return std::nullopt;
+  }
+  return value;
+}
+
 }  // namespace seacrane

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace seacrane {
@@ -49,6 +50,8 @@ class Curve {
     return piece_at(t, before);
   }
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// The value that it has at all times; none where it moves.
+  std::optional<double> constant_value() const;
   /// Starts of pieces where the value or one of its first three derivatives jumps.
   std::vector<CurveKink> kinks() const;
   /// Times where the value or one of its first `derivatives` (0 to 3) derivatives jumps.

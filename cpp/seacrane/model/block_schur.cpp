@@ -201,6 +201,15 @@ void BlockSchur::assemble(const RowBlock<double>* blocks, const Mat6d* over_mass
       for (int r = 0; r < term.row_count; ++r) target[r] += column[r];
     }
   }
+  keep_diagonal(values);
+}
+
+BlockSchur::Place BlockSchur::place(int row_element, int column_element) const {
+  return {entry(row(row_element), row(column_element)),
+          panels_[idx(panel_of_element_[idx(column_element)])].height};
+}
+
+void BlockSchur::keep_diagonal(double* values) const {
   double* diagonal = values + value_count_ - rows_;
   for (const Panel& panel : panels_) {
     for (int c = 0; c < panel.width; ++c) *diagonal++ = values[panel.values + idx(c * (panel.height + 1))];

@@ -26,6 +26,15 @@ class BlockSchur {
 
   /// Sums S from D of each element and D M^-1 of each side [2 element + side].
   void assemble(const RowBlock<double>* blocks, const Mat6d* over_mass, double* values) const;
+  /// Where the block of a row's element and a column's begins among the values, and the way from one column
+  /// to the next; of two that couple, the row's eliminated no earlier.
+  struct Place {
+    std::size_t first = 0;
+    int height = 0;
+  };
+  Place place(int row_element, int column_element) const;
+  /// Keeps the diagonal of S, as factor() needs it.
+  void keep_diagonal(double* values) const;
   /// In place; returns the largest S_ii / d_i (1 for orthogonal constraints), infinity when a pivot
   /// is not positive. The ratio is invariant to the scaling of rows and estimates the lost digits.
   double factor(double* values) const;

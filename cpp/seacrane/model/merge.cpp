@@ -14,23 +14,6 @@
 namespace seacrane {
 namespace {
 
-/// A joint without relative motion: the second body's frame in the first's.
-struct RigidLink {
-  int first = 0, second = 0;
-  Vec3d origin;
-  Mat3d axes;
-};
-
-std::optional<double> constant_value(const Curve& curve) {
-  const double value = curve.pieces().front().coefficients[0];
-  for (const Curve::Piece& piece : curve.pieces()) {
-    const auto& c = piece.coefficients;
-    const bool still = std::all_of(c.begin() + 1, c.end(), [](double x) { return x == 0.0; });
-    if (!still || piece.amplitude != 0.0 || c[0] != value) return std::nullopt;
-  }
-  return value;
-}
-
 class Merger {
  public:
   explicit Merger(const SceneDescription& scene)
@@ -43,33 +26,35 @@ class Merger {
     for (const auto& v : scene.vessels) anchored_[idx(index_.at(v.body))] = true;
   }
 
-  MergePlan run() {
+  MergePlan run(const std::vector<RigidLink>& loops) {
     MergePlan plan;
     const auto locks = find_locks();
     for (const auto& joint : scene_.joints) {
       const auto lock = locks.find(joint.name);
       const bool locked = lock != locks.end();
-      if ((joint.kind == Weld::kind && !joint.open) || locked) join(joint, locked ? lock->second.value : 0.0);
-      if (locked && same(joint)) plan.locked.push_back(lock->second.driver);
+      if ((joint.kind == Weld::kind && !joint.open) || locked) join(joint, locked ? lock->second : 0.0);
+    }
+    for (const RigidLink& loop : loops) join(loop);
+    for (const auto& d : scene_.drivers) {
+      if (same(joint_of(d))) plan.locked.push_back(d.name);
     }
     place(plan);
     return plan;
   }
 
  private:
-  struct Lock {
-    double value = 0.0;
-    std::string driver;
-  };
+  const JointDescription& joint_of(const DriverDescription& driver) const {
+    return *std::find_if(scene_.joints.begin(), scene_.joints.end(),
+                         [&](const auto& j) { return j.name == driver.coordinate.joint; });
+  }
 
-  /// Hinges and slides held by a driver, by the joint's name.
-  std::map<std::string, Lock> find_locks() const {
-    std::map<std::string, Lock> out;
+  /// Values at which a driver holds hinges and slides, by the joint's name.
+  std::map<std::string, double> find_locks() const {
+    std::map<std::string, double> out;
     for (const auto& d : scene_.drivers) {
-      const auto joint = std::find_if(scene_.joints.begin(), scene_.joints.end(),
-                                      [&](const auto& j) { return j.name == d.coordinate.joint; });
-      if (joint->kind != Revolute::kind && joint->kind != Prismatic::kind) continue;
-      if (const auto value = constant_value(d.curve)) out[joint->name] = {*value, d.name};
+      const JointDescription& joint = joint_of(d);
+      if (joint.kind != Revolute::kind && joint.kind != Prismatic::kind) continue;
+      if (const auto value = d.curve.constant_value()) out[joint.name] = *value;
     }
     return out;
   }
@@ -84,11 +69,6 @@ class Merger {
   }
 
   void join(const JointDescription& joint, double coordinate) {
-    const int first = index_.at(joint.first), second = index_.at(joint.second);
-    const int a = find(first), b = find(second);
-    if (a == b || (anchored_[idx(a)] && anchored_[idx(b)])) return;
-    group_[idx(b)] = a;
-    if (anchored_[idx(b)]) anchored_[idx(a)] = true;
     Mat3d turn = Mat3d::Identity();
     Vec3d slide = Vec3d::Zero();
     if (joint.kind == Revolute::kind)
@@ -96,7 +76,15 @@ class Merger {
     if (joint.kind == Prismatic::kind) slide.z() = coordinate;
     const Frame &f = joint.first_frame, &s = joint.second_frame;
     const Mat3d axes = f.axes * turn * s.axes.transpose();
-    links_.push_back({first, second, f.point + f.axes * slide - axes * s.point, axes});
+    join({index_.at(joint.first), index_.at(joint.second), f.point + f.axes * slide - axes * s.point, axes});
+  }
+
+  void join(const RigidLink& link) {
+    const int a = find(link.first), b = find(link.second);
+    if (a == b || (anchored_[idx(a)] && anchored_[idx(b)])) return;
+    group_[idx(b)] = a;
+    if (anchored_[idx(b)]) anchored_[idx(a)] = true;
+    links_.push_back(link);
   }
 
   /// The vessel or the ground of every group, else the body described first.
@@ -165,10 +153,10 @@ MergePlan no_merge(const SceneDescription& scene) {
   return plan;
 }
 
-MergePlan plan_merge(const SceneDescription& scene) {
+MergePlan plan_merge(const SceneDescription& scene, const std::vector<RigidLink>& loops) {
   const bool paper = std::any_of(scene.vessels.begin(), scene.vessels.end(),
                                  [](const auto& v) { return v.kinematics == VesselKinematics::paper; });
-  MergePlan plan = paper ? no_merge(scene) : Merger(scene).run();
+  MergePlan plan = paper ? no_merge(scene) : Merger(scene).run(loops);
   return plan.carriers.empty() ? no_merge(scene) : plan;
 }
 

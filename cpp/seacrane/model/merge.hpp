@@ -16,6 +16,14 @@ struct Placement {
   Vec3d point(const Vec3d& p) const { return origin + axes * p; }
 };
 
+/// Two described bodies that never move relative to each other: the second's frame in the first's; ground =
+/// their count.
+struct RigidLink {
+  int first = 0, second = 0;
+  Vec3d origin;
+  Mat3d axes;
+};
+
 /// Bodies that never move relative to each other, as one. The carrier's frame is that of the vessel among
 /// them, else of the ground, else of the body described first.
 struct MergePlan {
@@ -29,9 +37,9 @@ struct MergePlan {
 /// Every body by itself.
 MergePlan no_merge(const SceneDescription& scene);
 
-/// Merges across welds, and across hinges and slides whose coordinate a driver holds at a constant value.
-/// Two vessels, or a vessel and the ground, stay apart; so does a scene in the paper's kinematics, and one
-/// in which nothing would be left to move.
-MergePlan plan_merge(const SceneDescription& scene);
+/// Merges across welds, across hinges and slides whose coordinate a driver holds at a constant value, and
+/// what such drivers lock around loops (compile/locked_loops.hpp). Two vessels, or a vessel and the ground,
+/// stay apart; so does a scene in the paper's kinematics, and one in which nothing would be left to move.
+MergePlan plan_merge(const SceneDescription& scene, const std::vector<RigidLink>& loops);
 
 }  // namespace seacrane

@@ -105,6 +105,7 @@ struct Model {
   bool redundant = false;  // rank of D below its rows
   bool paper_kinematics = false;
   MergePlan merge;
+  std::vector<RigidLink> locked_loops;  // between described bodies, whatever limits hold
   std::shared_ptr<const Model> merged;  // what runs step, with bodies that move as one merged; null: this
   bool merges = true;                   // whether bodies are merged at all
   std::vector<Limit> limits;

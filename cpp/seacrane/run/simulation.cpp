@@ -56,6 +56,7 @@ void Simulation::put_on_constraints(double t) {
                                 " m or rad at t = " + to_text(t) +
                                 " s; give a state of this scene at its own time");
   }
+  stepper().bodies.check_merged(bodies_.data());
   system.take_residual_before_projection();
 }
 

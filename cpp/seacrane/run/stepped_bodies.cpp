@@ -4,8 +4,14 @@
 #include <utility>
 
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/elements/check.hpp"
 
 namespace seacrane {
+namespace {
+
+constexpr double kMisplaced = 1e-6;  // m: what is left of projection is below it
+
+}  // namespace
 
 SteppedBodies::SteppedBodies(const std::string& formulation, std::shared_ptr<const Model> model)
     : terms_(std::make_shared<Terms>(std::move(model))),
@@ -43,6 +49,22 @@ const double* SteppedBodies::merged(const double* bodies) {
   if (!map_) return bodies;
   map_->merge(bodies, merged_.data());
   return merged_.data();
+}
+
+void SteppedBodies::check_merged(const double* bodies) {
+  if (!map_) return;
+  const Model& full = described_.model();
+  std::vector<double> carried(idx(full.layout.size));
+  map_->spread(merged(bodies), carried.data());
+  for (int b = 0; b < full.body_count(); ++b) {
+    const int at = full.layout.pose(b);
+    const double apart = (view<3>(&carried[idx(at)]) - view<3>(bodies + at)).norm();
+    if (apart <= kMisplaced) continue;
+    throw std::invalid_argument("state: body '" + full.bodies[idx(b)].name + "' is " + to_text(apart) +
+                                " m from where it is held: its joints close in another way than when the "
+                                "scene was compiled; describe the scene in that pose, or compile it with "
+                                "merge=False");
+  }
 }
 
 void SteppedBodies::read(double t, const double* bodies, double* y) {

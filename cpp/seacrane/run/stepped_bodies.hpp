@@ -38,6 +38,8 @@ class SteppedBodies {
   void place(double t, const double* y);
   /// The state of the bodies that are stepped, merged ones as one; valid until the next call.
   const double* merged(const double* bodies);
+  /// Throws std::invalid_argument where a body is not where it moves as one with what carries it.
+  void check_merged(const double* bodies);
   /// Accelerations of the described bodies' state points at the last derivative().
   const std::vector<Vec6d>& accelerations();
 

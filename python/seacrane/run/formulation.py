@@ -14,6 +14,7 @@ SOLVES_FOR_MULTIPLIERS = "ida"
 PER_BODY = 2000.0  # kinematics, inertia and loads, in either form
 PER_RESPONSE = 150.0  # of one body to one row of a loop
 EIGENVECTORS = 9.0  # times the rows cubed, where rows depend on each other
+FEW_ROWS = 12  # of loops, up to which the core takes them densely
 LOST_DIGITS = 1e5  # S_ii / d_i beyond which the redundant form is solved by a dense LU, as in the core
 # An evaluation of the redundant form must be this much dearer before it is left: where a mechanism folds, it
 # can take a hundred times fewer steps.
@@ -93,8 +94,12 @@ def recursive_pays(model: _core.Model) -> bool:
     loops = float(model.tree["loop_rows"])
     unknowns = 6.0 * bodies + rows
     dense = PER_BODY * bodies + 2.0 / 3.0 * unknowns**3
-    tree = PER_BODY * bodies + PER_RESPONSE * bodies * loops + loops**3 / 3.0
     if dependent:
         dense += EIGENVECTORS * rows**3
-        tree += PER_RESPONSE * bodies * loops + EIGENVECTORS * loops**3
+    if loops > FEW_ROWS and model.tree["loop_trees"] > 1:  # sparse: a row feels two trees
+        tree = PER_BODY * bodies + PER_RESPONSE * loops * 2.0 * bodies / model.tree["loop_trees"]
+    else:
+        tree = PER_BODY * bodies + PER_RESPONSE * bodies * loops + loops**3 / 3.0
+        if dependent:
+            tree += PER_RESPONSE * bodies * loops + EIGENVECTORS * loops**3
     return bool(dense > MARGIN * tree)

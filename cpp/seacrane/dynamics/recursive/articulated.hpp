@@ -17,6 +17,12 @@ namespace seacrane {
 template <class T>
 class ArticulatedTree {
  public:
+  /// A wrench about the state point of a body, or of the ground, which takes it.
+  struct Push {
+    int body = 0;
+    Wrench<T> wrench;
+  };
+
   ArticulatedTree(const BodyTree& tree, int bodies)
       : kinematics_(tree, bodies),
         ground_(bodies),
@@ -70,6 +76,9 @@ class ArticulatedTree {
   /// (null: none; of joints with a direction held, none). Without `moving` velocities count as zero: the
   /// response to an impulse. Loads are used up: set them again.
   void solve(bool moving, T* u_rate, const T* torque = nullptr);
+  /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
+  /// two bodies; others keep what they have.
+  void respond(const std::vector<int>& clusters, const Push& first, const Push& second, T* u_rate);
   /// At the last solve(); of the ground too.
   const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
   /// Solves for loads of the bodies, and writes accelerations of the bodies, ground last.

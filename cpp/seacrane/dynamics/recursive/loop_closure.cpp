@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "seacrane/dynamics/inertia.hpp"
 
 namespace seacrane {
 namespace {
+
+constexpr std::size_t kFewRows = 12;  // up to these, G is decomposed densely
+constexpr double kOpen = 1e-6;        // m or rad by which a row that is left out may stand open
+constexpr double kMissed = 1e-4;      // of the accelerations along it: what its drift makes of them is less
 
 /// Compliance of a free body per unit force and per unit moment, at most.
 Eigen::Vector2d free_compliance(const Model& model, int body) {
@@ -25,6 +30,7 @@ double free_along(const Eigen::Vector2d& free, const Vec6d& direction) {
 
 LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
     : model_(model),
+      tree_(tree),
       load_(idx(model.body_count()) + 1, Vec6d::Zero()),
       response_(idx(model.body_count()) + 1, Vec6d::Zero()),
       shape_mass_(idx(model.body_count()), Mat6d::Zero()),
@@ -34,8 +40,9 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
   for (int e : tree.loops) {
     const ElementModel& element = model.elements[idx(e)];
     for (int r = 0; r < element.rows; ++r) {
-      rows_.push_back({e, r, element.first, element.second, element.driver,
-                       free_compliance(model, element.first), free_compliance(model, element.second)});
+      rows_.push_back({{e, r, element.first, element.second, element.driver},
+                       free_compliance(model, element.first),
+                       free_compliance(model, element.second)});
     }
   }
   const auto n = static_cast<Eigen::Index>(rows_.size());
@@ -74,16 +81,90 @@ double LoopClosure::decompose(const MatXd& g) {
   return ldlt_.vectorD().minCoeff() / ldlt_.vectorD().maxCoeff();
 }
 
+/// Compliance of both bodies of a row along it, without joints.
+double LoopClosure::loose(const Row& row, const RowBlock<double>* blocks) const {
+  const RowBlock<double>& block = blocks[row.element];
+  return free_along(row.first_free, block.d[0].row(row.row).transpose()) +
+         free_along(row.second_free, block.d[1].row(row.row).transpose());
+}
+
 void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
                          const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
+  is_sparse_ = sparse_ && factor_sparse(blocks, tree);
+  if (!is_sparse_) factor_all(blocks, mass, bodies, tree);
+}
+
+/// Whether the rows that are kept determine the others here, and G is accurate.
+bool LoopClosure::factor_sparse(const RowBlock<double>* blocks, ArticulatedTree<double>& tree) {
+  for (const int i : sparse_->left_out()) {
+    const Row& row = rows_[idx(i)];
+    if (std::abs(blocks[row.element].phi[row.row]) > kOpen) return false;
+  }
+  free_.setConstant(std::numeric_limits<double>::infinity());
+  const double pivots = sparse_->factor(blocks, tree, free_.data());
+  double open = 1.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    open = std::min(open, free_[static_cast<Eigen::Index>(i)] / loose(rows_[i], blocks));
+  }
+  condition_ = pivots;
+  ratio_ = pivots / std::max(0.0, open);
+  left_out_ = static_cast<int>(sparse_->left_out().size());
+  dependent_ = false;
+  most_left_out_ = std::max(most_left_out_, left_out_);
+  return ratio_ < kInaccuratePivot;
+}
+
+bool LoopClosure::misses(const RowBlock<double>* blocks, const Vec6d* acceleration) const {
+  if (!is_sparse_) return false;
+  return std::ranges::any_of(sparse_->left_out(), [&](int i) {
+    const Row& row = rows_[idx(i)];
+    const RowBlock<double>& block = blocks[row.element];
+    const Vec6d &first = acceleration[row.first], &second = acceleration[row.second];
+    const double left =
+        block.gamma[row.row] - block.d[0].row(row.row).dot(first) - block.d[1].row(row.row).dot(second);
+    const double size = std::abs(block.gamma[row.row]) + block.d[0].row(row.row).norm() * first.norm() +
+                        block.d[1].row(row.row).norm() * second.norm();
+    return std::abs(left) > kMissed * size;
+  });
+}
+
+void LoopClosure::choose_rows(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
+                              ArticulatedTree<double>& tree) {
+  const std::vector<LoopRow> rows(rows_.begin(), rows_.end());
+  if (rows_.size() <= kFewRows || SparseLoops::trees_of(model_, tree_) < 2) return;
+  gather_shape(blocks, bodies, tree);
+  std::vector<char> kept(rows.size(), 0);
+  VecXd left = scaled_.diagonal();
+  MatXd factor = MatXd::Zero(scaled_.rows(), scaled_.cols());  // of a pivoted Cholesky decomposition
+  Eigen::Index count = 0;
+  for (const bool driver : {true, false}) {
+    for (;;) {
+      Eigen::Index best = -1;
+      for (Eigen::Index i = 0; i < left.size(); ++i) {
+        const bool open =
+            !kept[static_cast<std::size_t>(i)] && rows[static_cast<std::size_t>(i)].driver == driver;
+        if (open && (best < 0 || left[i] > left[best])) best = i;
+      }
+      if (best < 0 || !(left[best] > kEnforcedEigenvalue)) break;
+      auto column = factor.col(count);
+      column = scaled_.col(best) - factor.leftCols(count) * factor.row(best).head(count).transpose();
+      column /= std::sqrt(left[best]);
+      left -= column.cwiseAbs2();
+      kept[static_cast<std::size_t>(best)] = 1;
+      ++count;
+    }
+  }
+  sparse_.emplace(tree_, model_.body_count(), rows, kept);
+}
+
+void LoopClosure::factor_all(const RowBlock<double>* blocks, const Mat6d* mass,
+                             const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
+  is_sparse_ = false;
   gather(blocks, tree, g_);
   double cancelled = 1.0, open = 1.0;
   for (Eigen::Index i = 0; i < g_.rows(); ++i) {
     const Row& row = rows_[static_cast<std::size_t>(i)];
-    const RowBlock<double>& block = blocks[row.element];
-    const double loose = free_along(row.first_free, block.d[0].row(row.row).transpose()) +
-                         free_along(row.second_free, block.d[1].row(row.row).transpose());
-    open = std::min(open, g_(i, i) / loose);
+    open = std::min(open, g_(i, i) / loose(row, blocks));
     cancelled = std::max(cancelled, free_[i] / std::abs(g_(i, i)));
   }
   const double pivots = decompose(g_);
@@ -101,7 +182,7 @@ Dependence LoopClosure::take_dependence() {
   if (rows_.empty()) return {};
   redundant_ = redundant_rows(model_, redundant_, left_out_);
   // Rows that are redundant from the start always reduce the worst one to zero.
-  if (redundant_ > 0 && redundant_ <= left_out_) {
+  if (!is_sparse_ && redundant_ > 0 && redundant_ <= left_out_) {
     ratio_ = redundant_ < rows() ? 1.0 / std::max(0.0, eigen_.eigenvalues()[redundant_]) : 1.0;
   }
   return {ratio_, redundant_, left_out_, std::exchange(most_left_out_, 0)};
@@ -112,12 +193,29 @@ Dependence LoopClosure::take_dependence() {
 /// both make G nearly singular: only the latter do so with equal masses.
 bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* mass,
                                  const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
+  gather_shape(blocks, bodies, tree);
+  tree.factor(mass);
+  const Eigen::Index n = shape_.rows();
+  eigen_.compute(scaled_);
+  if (eigen_.eigenvalues()[0] > kEnforcedEigenvalue) {
+    decompose(g_);
+    return true;
+  }
+  basis_.noalias() = scale_.asDiagonal() * eigen_.eigenvectors();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(eigen_.eigenvalues()[i] > kEnforcedEigenvalue)) basis_.col(i).setZero();
+  }
+  return false;
+}
+
+/// `shape_` is G with every mass one, `scaled_` the same over what both bodies of a row give without joints.
+void LoopClosure::gather_shape(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
+                               ArticulatedTree<double>& tree) {
   for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
     shape_mass_[b] = shape_mass_matrix(model_.bodies[b], bodies[b].rotation);
   }
   tree.factor(shape_mass_.data());
   gather(blocks, tree, shape_);
-  tree.factor(mass);
   const Eigen::Index n = shape_.rows();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Row& row = rows_[static_cast<std::size_t>(i)];
@@ -134,16 +232,6 @@ bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* ma
   }
   scaled_.noalias() = scale_.asDiagonal() * shape_;
   scaled_.array().rowwise() *= scale_.transpose().array();
-  eigen_.compute(scaled_);
-  if (eigen_.eigenvalues()[0] > kEnforcedEigenvalue) {
-    decompose(g_);
-    return true;
-  }
-  basis_.noalias() = scale_.asDiagonal() * eigen_.eigenvectors();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!(eigen_.eigenvalues()[i] > kEnforcedEigenvalue)) basis_.col(i).setZero();
-  }
-  return false;
 }
 
 /// G of the independent combinations; a one stands for each that is left out.
@@ -157,6 +245,10 @@ void LoopClosure::reduce() {
 }
 
 const VecXd& LoopClosure::solve(const VecXd& right) {
+  if (is_sparse_) {
+    sparse_->solve(right, multipliers_);
+    return multipliers_;
+  }
   if (dependent_) {
     combined_.noalias() = basis_.transpose() * right;
   } else {

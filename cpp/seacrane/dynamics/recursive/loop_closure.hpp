@@ -2,26 +2,38 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <optional>
 #include <vector>
 
 #include "seacrane/dynamics/dependence.hpp"
 #include "seacrane/dynamics/recursive/articulated.hpp"
+#include "seacrane/dynamics/recursive/sparse_loops.hpp"
 #include "seacrane/dynamics/terms.hpp"
 
 namespace seacrane {
 
 /// Rows that a tree leaves open (cut joints, drivers): a small dense block G = D M^-1 D^T on top of the tree,
 /// one response of the tree per row. Where rows depend on each other or on what the tree holds, only the
-/// combinations that geometry tells apart are enforced, by the measure of the maximal form (RowSpace).
-/// Nothing is allocated after construction. Scratch of one run.
+/// combinations that geometry tells apart are enforced, by the measure of the maximal form (RowSpace). Where
+/// many rows couple several trees, G is sparse, and rows that the others hold at assembled poses are left out
+/// as long as they hold. Nothing is allocated after choose_rows(). Scratch of one run.
 class LoopClosure {
  public:
   LoopClosure(const Model& model, const BodyTree& tree);
 
   int rows() const { return static_cast<int>(rows_.size()); }
+  /// Chooses the rows that are enforced, at assembled poses, with the drivers among them, where G is sparse.
+  /// The tree is left with inertias of geometry.
+  void choose_rows(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
+                   ArticulatedTree<double>& tree);
   /// G at the tree's last factor(mass), for the rows in `blocks` (by element); the tree is left as it was.
   void factor(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
               ArticulatedTree<double>& tree);
+  /// The same with all rows, after misses().
+  void factor_all(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
+                  ArticulatedTree<double>& tree);
+  /// Whether rows that were left out do not hold under accelerations of all bodies, ground last.
+  bool misses(const RowBlock<double>* blocks, const Vec6d* acceleration) const;
   /// Multipliers of the smallest motion in the mass metric with D dv = right.
   const VecXd& solve(const VecXd& right);
   /// loads += D^T multipliers.
@@ -44,20 +56,25 @@ class LoopClosure {
   const VecXd& multipliers() const { return multipliers_; }
 
  private:
-  struct Row {
-    int element, row, first, second;
-    bool driver;
+  struct Row : LoopRow {
     Eigen::Vector2d first_free, second_free;  // compliance of the bodies without joints: force, moment
   };
 
   void gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, MatXd& g);
   double decompose(const MatXd& g);
+  void gather_shape(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
+                    ArticulatedTree<double>& tree);
+  double loose(const Row& row, const RowBlock<double>* blocks) const;
+  bool factor_sparse(const RowBlock<double>* blocks, ArticulatedTree<double>& tree);
   bool is_independent(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
                       ArticulatedTree<double>& tree);
   void reduce();
 
   const Model& model_;
+  const BodyTree& tree_;
   std::vector<Row> rows_;
+  std::optional<SparseLoops> sparse_;
+  bool is_sparse_ = false;  // at the last factor()
   std::vector<Vec6d> load_, response_;
   std::vector<Mat6d> shape_mass_;
   std::vector<double> speeds_;

@@ -59,6 +59,17 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
   layout_.size = layout_.work + 2;
+  choose_rows();
+}
+
+/// Where the model is assembled; the sets of limits that are compiled on the way are not.
+void RecursiveSystem::choose_rows() {
+  if (loops_.rows() == 0 || model_.assembly.rank == 0) return;
+  std::vector<double> y(idx(layout_.size));
+  read_bodies(0.0, model_.initial_state.data(), y.data());
+  place(y.data());
+  evaluate_constraints(model_, 0.0, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
+  loops_.choose_rows(blocks_.data(), terms_->bodies().data(), articulated_);
 }
 
 std::vector<double> RecursiveSystem::scale() const {
@@ -137,6 +148,13 @@ void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot,
 
 /// Under the wrenches of the terms and the torques of the actuators.
 void RecursiveSystem::solve_acceleration(double* u_rate) {
+  solve_with_loops(u_rate);
+  if (!loops_.misses(blocks_.data(), acceleration_.data())) return;
+  loops_.factor_all(blocks_.data(), mass_.data(), terms_->bodies().data(), articulated_);
+  solve_with_loops(u_rate);
+}
+
+void RecursiveSystem::solve_with_loops(double* u_rate) {
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyLoad<double>& applied = terms_->applied(b);
     for (int i = 0; i < 3; ++i) {

@@ -67,7 +67,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void evaluate_inertia();
   void evaluate_compact(int body);
   void factor(double t);
+  void choose_rows();
   void solve_acceleration(double* u_rate);
+  void solve_with_loops(double* u_rate);
   void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();

@@ -244,6 +244,29 @@ void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque) {
 }
 
 template <class T>
+void ArticulatedTree<T>::respond(const std::vector<int>& clusters, const Push& first, const Push& second,
+                                 T* u_rate) {
+  force_[idx(ground_)] = Wrench<T>::zero();
+  for (const int i : clusters) {
+    for (const Member& m : this->clusters()[idx(i)].members) force_[idx(m.body)] = Wrench<T>::zero();
+  }
+  for (const Push* push : {&first, &second}) {
+    if (push->body != ground_) force_[idx(push->body)] += -push->wrench;
+  }
+  for (auto i = clusters.rbegin(); i != clusters.rend(); ++i) {
+    const Cluster& c = this->clusters()[idx(*i)];
+    if (with_held(c, [&]<class Branch>() { gather_held(idx(*i), false); })) continue;
+    with_speeds(c, [&]<int n>() { gather<n>(idx(*i), false, nullptr); });
+  }
+  acceleration_[idx(ground_)] = Twist<T>::zero();
+  for (const int i : clusters) {
+    const Cluster& c = this->clusters()[idx(i)];
+    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(idx(i), false, u_rate); })) continue;
+    with_speeds(c, [&]<int n>() { spread<n>(idx(i), false, u_rate); });
+  }
+}
+
+template <class T>
 template <int n>
 void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
   const Cluster& c = clusters()[i];

@@ -1,0 +1,133 @@
+#include "seacrane/dynamics/recursive/sparse_loops.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace seacrane {
+namespace {
+
+/// The tree of every body, by the order of its root; -1: the ground's.
+std::vector<int> roots_of(const BodyTree& tree, int bodies) {
+  std::vector<int> out(idx(bodies) + 1, -1);
+  int count = 0;
+  for (const Cluster& c : tree.clusters) {
+    const bool root = c.kind == Cluster::floating || c.parent == bodies;
+    const int of = root ? count++ : out[idx(c.parent)];
+    for (const Member& m : c.members) out[idx(m.body)] = of;
+  }
+  return out;
+}
+
+}  // namespace
+
+int SparseLoops::trees_of(const Model& model, const BodyTree& tree) {
+  const std::vector<int> root = roots_of(tree, model.body_count());
+  std::set<int> found;
+  for (const int e : tree.loops) {
+    found.insert({root[idx(model.elements[idx(e)].first)], root[idx(model.elements[idx(e)].second)]});
+  }
+  found.erase(-1);
+  return static_cast<int>(found.size());
+}
+
+SparseLoops::SparseLoops(const BodyTree& tree, int bodies, const std::vector<LoopRow>& rows,
+                         const std::vector<char>& kept)
+    : rows_(rows), speeds_(idx(tree.speeds)) {
+  const std::vector<int> root = roots_of(tree, bodies);
+  std::map<int, std::vector<int>> clusters;
+  for (std::size_t i = 0; i < tree.clusters.size(); ++i) {
+    clusters[root[idx(tree.clusters[i].body)]].push_back(static_cast<int>(i));
+  }
+  std::map<int, int> node_of;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const LoopRow& row = rows[i];
+    const auto [at, added] = node_of.try_emplace(row.element, static_cast<int>(nodes_.size()));
+    if (added) nodes_.push_back({row.element, row.first, row.second, {}, {}, {}});
+    if (kept[i]) {
+      nodes_[idx(at->second)].rows.push_back(static_cast<int>(i));
+    } else {
+      left_out_.push_back(static_cast<int>(i));
+    }
+  }
+  std::vector<GraphNode> graph;
+  std::map<int, std::set<int>> on;  // nodes by tree
+  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+    Node& node = nodes_[idx(n)];
+    const std::set<int> trees = {root[idx(node.first)], root[idx(node.second)]};
+    for (const int t : trees) {
+      if (t < 0) continue;
+      node.clusters.insert(node.clusters.end(), clusters[t].begin(), clusters[t].end());
+      if (!node.rows.empty()) on[t].insert(n);
+    }
+    std::sort(node.clusters.begin(), node.clusters.end());
+    graph.push_back({static_cast<int>(node.rows.size()), root[idx(node.first)], root[idx(node.second)]});
+  }
+  schur_ = BlockSchur(graph, static_cast<int>(clusters.size()));
+  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+    std::set<int> near;
+    const std::set<int> trees = {root[idx(nodes_[idx(n)].first)], root[idx(nodes_[idx(n)].second)]};
+    for (const int t : trees) {
+      if (t >= 0) near.insert(on[t].begin(), on[t].end());
+    }
+    for (const int other : near) {
+      if (nodes_[idx(n)].rows.empty() || schur_.row(other) < schur_.row(n)) continue;
+      const Node& row = nodes_[idx(other)];
+      nodes_[idx(n)].below.push_back(
+          {other, root[idx(row.first)] >= 0 && trees.count(root[idx(row.first)]) > 0,
+           root[idx(row.second)] >= 0 && trees.count(root[idx(row.second)]) > 0, schur_.place(other, n)});
+    }
+  }
+  values_.assign(schur_.value_count(), 0.0);
+  right_.assign(idx(schur_.rows()), 0.0);
+}
+
+/// The trees' accelerations under a force along one row.
+void SparseLoops::respond(const Node& column, int row, const RowBlock<double>* blocks,
+                          ArticulatedTree<double>& tree) {
+  const RowBlock<double>& block = blocks[column.element];
+  const Vec6d first = block.d[0].row(row).transpose(), second = block.d[1].row(row).transpose();
+  tree.respond(column.clusters, {column.first, Wrench<double>(first)},
+               {column.second, Wrench<double>(second)}, speeds_.data());
+}
+
+double SparseLoops::factor(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal) {
+  std::ranges::fill(values_, 0.0);
+  for (const Node& column : nodes_) {
+    for (std::size_t c = 0; c < column.rows.size(); ++c) {
+      respond(column, rows_[idx(column.rows[c])].row, blocks, tree);
+      for (const Neighbour& near : column.below) {
+        const Node& node = nodes_[idx(near.node)];
+        const RowBlock<double>& block = blocks[node.element];
+        double* const target = values_.data() + near.place.first + c * idx(near.place.height);
+        for (std::size_t r = 0; r < node.rows.size(); ++r) {
+          const int row = rows_[idx(node.rows[r])].row;
+          double sum = 0.0;
+          if (near.first) sum += block.d[0].row(row).dot(tree.acceleration(node.first).vector());
+          if (near.second) sum += block.d[1].row(row).dot(tree.acceleration(node.second).vector());
+          target[r] = sum;
+          if (&node == &column && r == c) diagonal[column.rows[c]] = sum;
+        }
+      }
+    }
+  }
+  schur_.keep_diagonal(values_.data());
+  return schur_.factor(values_.data());
+}
+
+void SparseLoops::solve(const VecXd& right, VecXd& multipliers) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const int at = schur_.row(static_cast<int>(n));
+    const std::vector<int>& rows = nodes_[n].rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) right_[idx(at) + r] = right[rows[r]];
+  }
+  schur_.solve(values_.data(), right_.data());
+  multipliers.setZero();
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const int at = schur_.row(static_cast<int>(n));
+    const std::vector<int>& rows = nodes_[n].rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) multipliers[rows[r]] = right_[idx(at) + r];
+  }
+}
+
+}  // namespace seacrane

@@ -1,0 +1,55 @@
+"""Many loops between several trees: sparse, with the rows that the others hold left out, as all rows say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_problems import four_bars
+
+from seacrane import Curve, Scene, _core, simulate
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+
+
+@pytest.mark.parametrize("planar", [True, False])
+@pytest.mark.parametrize("loops", [3, 8])
+def test_both_formulations_accelerate_alike_along_a_turn(loops: int, planar: bool) -> None:
+    scene = four_bars.scene(loops, planar=planar)
+    model = scene.compile()
+    recursive, redundant = (_core.Evaluator(model, name) for name in ("recursive", "redundant"))
+    for end in (0.0, 0.6, 1.2):
+        start = model.initial_state
+        values = simulate(scene, end, formulation="redundant", rtol=1e-10).state.values if end else start
+        found, expected = (np.asarray(one.accelerations(0.0, values)) for one in (recursive, redundant))
+        assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("planar", [True, False])
+def test_ten_four_bars_go_round_as_elliptic_functions_say(planar: bool) -> None:
+    """Through the pose, twice a turn, in which every loop could fold."""
+    result = simulate(
+        four_bars.scene(10, planar=planar), 4.0, formulation="recursive", rtol=1e-9, dt_out=0.05
+    )
+    w, _, y, _ = result.select("quaternion", body="post 0").T
+    turned = 2.0 * np.arctan2(y, w)
+    expected, _ = four_bars.turned(10, result.time)
+    apart = np.angle(np.exp(1j * (turned - turned[0] - expected)))
+    assert np.abs(apart).max() < 1e-5
+
+
+def test_a_mechanism_with_redundant_loops_keeps_its_energy() -> None:
+    result = simulate(four_bars.scene(8), 3.0, formulation="recursive", rtol=1e-9)
+    falling = 17.0 * four_bars.GRAVITY  # J for each metre: all rods
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * falling
+
+
+def test_a_driver_of_one_post_leads_them_all() -> None:
+    """A driver's row is among those kept, and its power is what the energy takes."""
+    scene: Scene = four_bars.scene(6)
+    scene.add_driver("foot 3", curve=Curve.quintic(start_time=0.0, end_time=2.0, start=0.0, end=0.6))
+    for name in list(scene.bodies):
+        scene.replace(name, velocity=(0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 0.0))
+    results = [simulate(scene, 2.0, formulation=form, rtol=1e-9) for form in ("recursive", "redundant")]
+    for name in ("position", "driver_force"):
+        one, other = (result[name] for result in results)
+        assert np.abs(one - other).max() < 1e-6 * np.abs(other).max()
