@@ -227,9 +227,7 @@ def _as_moved(_before: Array, after: Array) -> Array:
     return after
 
 
-def _search(
-    model: _core.Model, time: float, values: Array, led: Callable[[Array, Array], Array]
-) -> _Search:
+def _search(model: _core.Model, time: float, values: Array, led: Callable[[Array, Array], Array]) -> _Search:
     """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it.
 
     `led` takes what hangs along with a step, given the states before and after it: masses of a line that

@@ -23,6 +23,8 @@ AXES_NOTE = (
 def rotation_matrix(quaternion: Any) -> Array:
     """Body-to-inertial matrices (..., 3, 3) of quaternions (..., 4), scalar first."""
     q = np.asarray(quaternion, dtype=float)
+    if q.shape == (4,):
+        return _rotation_of_one(*q.tolist())
     w, x, y, z = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -31,6 +33,19 @@ def rotation_matrix(quaternion: Any) -> Array:
     ]
     matrix: Array = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
     return matrix
+
+
+def _rotation_of_one(w: float, x: float, y: float, z: float) -> Array:
+    """As `rotation_matrix`, to the bit, without the cost of its arrays."""
+    size = math.sqrt(w * w + x * x + y * y + z * z)
+    if size == 0.0:
+        return np.full((3, 3), np.nan)
+    w, x, y, z = w / size, x / size, y / size, z / size
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
 
 
 def heading_of(quaternion: Any) -> float:

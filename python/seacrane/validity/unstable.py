@@ -16,6 +16,7 @@ from seacrane.warnings import UnstableRestWarning
 if TYPE_CHECKING:
     from seacrane import _core
     from seacrane.description.description import Description
+    from seacrane.description.suspension import Suspension
 
 
 def warn_of_capsize(scene: Description) -> None:
@@ -30,7 +31,8 @@ def warn_of_capsize(scene: Description) -> None:
             continue
         hull = scene.bodies[vessel.body]
         weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
-        lowered = sum(body.mass * scene.gravity * _height(scene, body, hull) for body in weights)
+        hung = bodies_below(scene)
+        lowered = sum(body.mass * scene.gravity * _height(scene, hung, body, hull) for body in weights)
         raised = sum(
             float(force.force[2]) * _above(scene.bodies[force.body], force.point, hull)
             for force in scene.point_forces.values()
@@ -67,9 +69,11 @@ def carried_by(scene: Description, vessel: str) -> set[str]:
     return found if alone else set()
 
 
-def _height(scene: Description, body: _core.Body, hull: _core.Body) -> float:
+def _height(
+    scene: Description, hung: list[tuple[Suspension, list[str]]], body: _core.Body, hull: _core.Body
+) -> float:
     """Above a hull's origin at which a body's weight acts, m: that of the point from which it hangs."""
-    for one, below in bodies_below(scene):
+    for one, below in hung:
         if body.name in below and one.held_at[0] in scene.bodies:
             return _above(scene.bodies[one.held_at[0]], one.held_at[1], hull)
     return _above(body, body.center_of_mass, hull)
