@@ -193,6 +193,7 @@ winch = { lag_s = 0.1, maximum_rate = 0.5 }
         ({"EA": 3e7, "crane": "aft "}, "prefixes of the scene's cranes are ''"),
         ({"EA": 3e7, "rung": "rigid?"}, "rung is 'rigid\\?'"),
         ({"EA": 3e7, "on": "barge"}, "barge"),
+        ({"EA": 3e7, "rung": "quasi-static", "winch": True}, "its winch has no lag"),
         ({"EA": 3e7, "slack": 0.2}, "its load stands on a deck"),
         ({"EA": 3e7, "on": "ground", "slack": 0.2, "block_mass": 1e3}, "has no block"),
         ({"EA": 3e7, "on": "ground", "slack": -0.2}, "slack is -0.2"),

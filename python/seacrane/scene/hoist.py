@@ -20,7 +20,7 @@ from seacrane.description.places import place_of
 from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.recorded import add_point
 from seacrane.description.roles import CraneRoles
-from seacrane.description.rungs import ELASTIC, RIGID, WITH_MASS, Rung
+from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import (
     flag_of,
@@ -204,6 +204,12 @@ def add_hoist(
             f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
             "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
         )
+    drive = {} if isinstance(winch, bool) else dict(winch)
+    if rung == QUASI_STATIC and winch is not False and not drive.get("lag"):
+        raise SceneError(
+            f"{what}: a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such "
+            "as winch={\"lag\": 0.1}, or rung 'elastic'"
+        )
     rig = Slings(**slings) if isinstance(slings, Mapping) else slings
     not_negative_of(f"{what}: block_mass", block_mass)
     if rig is not None and block_mass == 0.0:
@@ -229,7 +235,7 @@ def add_hoist(
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
         if winch is not False:
-            add_winch(scene, name, **({} if winch is True else winch))
+            add_winch(scene, name, **drive)
         if rig is not None:
             _sling(scene, name, hook[0], load, rig, standing=on is not None)
         if flag_of(f"{what}: damping", damping):
