@@ -114,7 +114,9 @@ def test_place_of_any_point_after_a_run(tmp_path: Path) -> None:
     assert_allclose(result.place_of("ground", (1, 2, 3)), np.tile([1.0, 2.0, 3.0], (len(edge), 1)))
     result.save(tmp_path / "run.nc")
     assert np.array_equal(Result.load(tmp_path / "run.nc").place_of("hull", EDGE), edge)
-    with pytest.raises(SceneError, match="there is no such body; the scene has load, hull"):
+    with pytest.raises(
+        SceneError, match=r"there is no body .ship., the scene has .load., .hull., and points"
+    ):
         result.place_of("ship")
     with pytest.raises(SceneError, match="point"):
         result.place_of("hull", (1.0, 2.0))
