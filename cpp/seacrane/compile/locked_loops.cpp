@@ -11,8 +11,8 @@
 namespace seacrane {
 namespace {
 
-constexpr double kAlike = 1e-7;      // of a motion of unit size: what moves two bodies apart
-constexpr int kMostBodies = 60;      // of a component: its rows are decomposed densely
+constexpr double kAlike = 1e-7;  // of a motion of unit size: what moves two bodies apart
+constexpr int kMostBodies = 60;  // of a component: its rows are decomposed densely
 
 struct Edge {
   int element = 0, first = 0, second = 0;
