@@ -31,10 +31,12 @@ std::vector<SceneDescription> scenes() {
   return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false), hoisted};
 }
 
-/// Also loops whose rows depend on each other, which an eigendecomposition solves.
+/// Also loops whose rows depend on each other: few, which an eigendecomposition solves, and so many that rows
+/// are left out.
 std::vector<SceneDescription> scenes_with_loops() {
   std::vector<SceneDescription> out = scenes();
   out.push_back(parallelogram(3));
+  out.push_back(parallelogram(4));
   return out;
 }
 

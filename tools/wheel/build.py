@@ -10,13 +10,13 @@ from __future__ import annotations
 import argparse
 import os
 import platform
-import shutil
 import subprocess
 import sys
 import sysconfig
 from pathlib import Path
 
 import ziglang
+from unpack import unpack
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
@@ -89,8 +89,7 @@ def python_headers() -> str:
 def wheel(archive: Path) -> Path:
     """The wheel as the build makes it from the sdist, tagged for this system only."""
     source, raw = BUILD / "source", BUILD / "raw"
-    shutil.rmtree(source, ignore_errors=True)
-    shutil.unpack_archive(archive, source)
+    unpack(archive, source)
     _clear(raw, "*.whl")
     environment = compilers() | {
         "SKBUILD_BUILD_DIR": str(BUILD / "package"),
