@@ -81,6 +81,14 @@ py::dict tree_of(const Model& model) {
   out["struts"] = tree.struts.size();
   out["positions"] = tree.positions;
   out["speeds"] = tree.speeds;
+  std::vector<std::string> driven;
+  for (const Cluster& c : tree.clusters) {
+    for (const int d : c.drive.drivers) {
+      const int element = model.stepped().drivers[static_cast<std::size_t>(d)].element;
+      driven.push_back(model.stepped().elements[static_cast<std::size_t>(element)].name);
+    }
+  }
+  out["driven"] = driven;
   out["loop_rows"] = tree.loop_rows;
   out["loop_trees"] = SparseLoops::trees_of(model.stepped(), tree);
   return out;
@@ -294,7 +302,8 @@ void bind_model(py::module_& m) {
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
       .def_property_readonly("tree", &tree_of,
                              "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
-                             "loops in closed form), positions, speeds, loop_rows (rows left to close), "
+                             "loops in closed form), positions, speeds, driven (drivers whose coordinate is a "
+                             "function of time and no unknown), loop_rows (rows left to close), "
                              "loop_trees (trees, each with a root of its own, that they couple).")
       .def_property_readonly("merge", &merge_of,
                              "What runs step: bodies merged by the one that carries them, drivers that lock "

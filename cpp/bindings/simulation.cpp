@@ -321,6 +321,8 @@ void bind_simulation(py::module_& m) {
            })
       .def("__exit__", [](S& s, const py::object&, const py::object&, const py::object&) { s.leave(); })
       .def_property_readonly("time", alone([](Simulation& s) { return s.time(); }))
+      .def_property_readonly("set_aside", alone([](Simulation& s) { return s.set_aside(); }),
+                             "Why it was not stepped on beside others; empty: it was.")
       .def_property_readonly("order", alone([](Simulation& s) { return s.order(); }),
                              "Order of the method, the highest where it varies.")
       .def_property_readonly("adaptive", alone([](Simulation& s) { return s.is_adaptive(); }),

@@ -5,13 +5,6 @@
 namespace seacrane {
 namespace {
 
-std::string kept_out_by_loads(const Model& m) {
-  for (const auto& list : m.loads.lists) {
-    if (!list->kind.packs) return std::string("it has a ") + list->kind.name;
-  }
-  return "";
-}
-
 std::string kept_out_by_waves(const WaveLoad& wave) {
   const WaveLoadDescription& s = wave.sources;
   if (s.positioned) return "its wave loads are those of the actual position";
@@ -27,7 +20,6 @@ std::string kept_out_of_lanes(const Model& model) {
   if (m.paper_kinematics) return "it has the paper's kinematics";
   if (m.description.baumgarte > 0.0) return "it stabilises its joints";
   if (!m.limits.empty() || !model.limits.empty()) return "it has limits";
-  if (m.inertial_tensions > 0) return "it has a line whose stretch is quasi-static";
   for (const Vessel& vessel : m.vessels) {
     if (std::holds_alternative<Convolution>(vessel.memory)) return "its fluid memory is a convolution";
   }
@@ -35,11 +27,9 @@ std::string kept_out_of_lanes(const Model& model) {
     const std::string why = kept_out_by_waves(wave);
     if (!why.empty()) return why;
   }
-  const std::string why = kept_out_by_loads(m);
-  if (!why.empty()) return why;
   const BodyTree tree = build_tree(m);
   if (tree.loop_rows > 0) return "it has loops that constraints close";
-  return tree.speeds == 0 ? "nothing moves" : "";
+  return tree.speeds == tree.driven ? "nothing moves" : "";
 }
 
 }  // namespace seacrane

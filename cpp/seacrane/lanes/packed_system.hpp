@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/recursive/driven_speeds.hpp"
 #include "seacrane/dynamics/recursive/tree_actuators.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/recursive/turning_inertia.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/lanes/lane_system.hpp"
+#include "seacrane/lanes/loads_by_lane.hpp"
 #include "seacrane/lanes/packed_load.hpp"
 #include "seacrane/lanes/packed_table.hpp"
+#include "seacrane/lanes/tensions_by_lane.hpp"
 #include "seacrane/math/pack.hpp"
 
 namespace seacrane {
@@ -33,6 +36,9 @@ class PackedSystem final : public LaneSystem {
         tree_(build_tree(*model_)),
         articulated_(tree_, model_->body_count()),
         actuators_(*model_, tree_),
+        driven_(*model_, tree_),
+        by_lane_(without_packs(actuators_.others()), model_->body_count(), model_->load_states.size()),
+        tensions_(by_lane_.lists(), model_->body_count(), tree_.speeds),
         torque_(idx(tree_.speeds), T(0.0)),
         speeds_(tree_.positions),
         memory_(speeds_ + tree_.speeds),
@@ -40,6 +46,9 @@ class PackedSystem final : public LaneSystem {
         work_(memory_ + model_->layout.work - model_->layout.memory),
         slots_(idx(model_->slot_count), 0.0) {
     const auto bodies = idx(model_->body_count());
+    positions_.assign(idx(tree_.positions), 0.0);
+    for (auto* values : {&speed_, &speed_rate_, &jump_}) values->assign(idx(tree_.speeds), 0.0);
+    driven_rate_ = torque_;
     state_.assign(idx(work_ + 2), T(0.0));
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
@@ -47,7 +56,9 @@ class PackedSystem final : public LaneSystem {
     for (const BodyModel& body : model_->bodies) turning_.emplace_back(body.inertia);
     wrench_.resize(bodies + 1);
     for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
-    for (const auto& list : actuators_.others().lists) applied_.emplace_back(packed(*list), &*list);
+    for (const auto& list : actuators_.others().lists) {
+      if (list->kind.packs) applied_.emplace_back(packed(*list), &*list);
+    }
     for (const auto& one : actuators_.along()) along_.push_back(packed(*one.list));
   }
 
@@ -56,23 +67,25 @@ class PackedSystem final : public LaneSystem {
   bool jacobian(double /*t*/, const double* /*y*/, double* /*out*/) override { return false; }
   void set_curve_limit(double time) override { curve_limit_ = time; }
   void set_inputs(const std::vector<double>& slots) override { slots_ = slots; }
-  void freeze(std::size_t lane) override { frozen_.push_back(lane); }
+  void freeze(std::size_t lane) override {
+    frozen_.push_back(lane);
+    by_lane_.freeze(lane);
+    while (std::ranges::find(frozen_, leading_) != frozen_.end() && leading_ + 1 < L) ++leading_;
+  }
 
   void derivative(double t, const double* y, double* ydot) override {
     std::memcpy(state_.data(), y, size() * sizeof(double));
     const T *const q = state_.data(), *const u = q + speeds_;
-    articulated_.place(q, u, bodies_.data());
-    for (std::size_t v = 0; v < frames_.size(); ++v) {
-      frames_[v] = YawFrame<T>(bodies_[idx(model_->vessels[v].body)]);
-    }
-    evaluate_inertia();
-    articulated_.factor();
+    if (driven_.any()) follow_drivers(t);
+    factor();
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
-    for (int b = 0; b < model_->body_count(); ++b) {
-      articulated_.set_load(b, {wrench_[idx(b)].force, wrench_[idx(b)].moment});
+    solve_acceleration();
+    if (tensions_.any()) {
+      tensions_.add(by_lane_, articulated_, rate_.data() + speeds_, sum);
+      if (driven_.any()) solve_acceleration();  // for what drives
     }
-    articulated_.solve(true, rate_.data() + speeds_, torque_.data());
+    driven_.for_each_power(articulated_, [&](const T& power) { sum.add_power(power); });
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
     rate_[idx(work_)] = sum.power;
     rate_[idx(work_) + 1] = sum.absolute_power;
@@ -83,8 +96,12 @@ class PackedSystem final : public LaneSystem {
   }
 
   /// Lane by lane, as in the scalar form.
-  bool project(double /*t*/, double* y, bool /*evaluated_here*/) override {
+  bool project(double t, double* y, bool /*evaluated_here*/) override {
     bool changed = false;
+    if (driven_.any()) {
+      take_drivers(t, y);
+      changed = true;
+    }
     for_each_quaternion(tree_, [&](int at) {
       for (std::size_t lane = 0; lane < L; ++lane) {
         using Strided = Eigen::Map<Vec4d, 0, Eigen::InnerStride<L>>;
@@ -95,6 +112,65 @@ class PackedSystem final : public LaneSystem {
   }
 
  private:
+  /// Places the bodies, and factors their inertias.
+  void factor() {
+    articulated_.place(state_.data(), state_.data() + speeds_, bodies_.data());
+    for (std::size_t v = 0; v < frames_.size(); ++v) {
+      frames_[v] = YawFrame<T>(bodies_[idx(model_->vessels[v].body)]);
+    }
+    evaluate_inertia();
+    articulated_.factor();
+  }
+
+  /// Sets what drivers prescribe, which is the same in all lanes; their states say what it is near to.
+  void follow_drivers(double t) {
+    read_leading();
+    driven_.follow(t, curve_limit_, positions_.data(), speed_.data(), speed_rate_.data());
+    for (const std::size_t i : driven_.clusters()) {
+      const Cluster& c = tree_.clusters[i];
+      for (int k = c.q; k < c.q + c.positions; ++k) state_[idx(k)] = T(positions_[idx(k)]);
+      for (int k = c.u; k < c.u + c.speeds; ++k) {
+        state_[idx(speeds_ + k)] = T(speed_[idx(k)]);
+        driven_rate_[idx(k)] = T(speed_rate_[idx(k)]);
+      }
+    }
+  }
+
+  void read_leading() {
+    const int lane = static_cast<int>(leading_);
+    for (std::size_t k = 0; k < positions_.size(); ++k) positions_[k] = state_[k][lane];
+    for (std::size_t k = 0; k < speed_.size(); ++k) speed_[k] = state_[idx(speeds_) + k][lane];
+  }
+
+  /// Takes over what drivers prescribe, and its impulse where it jumps in rate.
+  void take_drivers(double t, double* y) {
+    std::memcpy(state_.data(), y, size() * sizeof(double));
+    read_leading();
+    const bool jumps = driven_.jump(t, curve_limit_, positions_.data(), speed_.data(), jump_.data());
+    follow_drivers(t);
+    if (jumps) strike();
+    std::memcpy(y, state_.data(), size() * sizeof(double));
+  }
+
+  void solve_acceleration() {
+    for (int b = 0; b < model_->body_count(); ++b) {
+      articulated_.set_load(b, {wrench_[idx(b)].force, wrench_[idx(b)].moment});
+    }
+    articulated_.solve(true, rate_.data() + speeds_, torque_.data(), driven_rate_.data());
+  }
+
+  void strike() {
+    factor();
+    for (int b = 0; b < model_->body_count(); ++b) articulated_.set_load(b, Wrench<T>::zero());
+    for (std::size_t k = 0; k < jump_.size(); ++k) driven_rate_[k] = T(jump_[k]);
+    articulated_.solve(false, rate_.data() + speeds_, nullptr, driven_rate_.data());
+    for (const Cluster& c : tree_.clusters) {
+      for (int k = speeds_ + c.u; k < speeds_ + c.u + c.speeds && !c.is_driven(); ++k) {
+        state_[idx(k)] += rate_[idx(k)];
+      }
+    }
+  }
+
   struct Waves {
     int body, vessel;
     PackedTable<L, ExactWaveLoad> force;
@@ -109,6 +185,14 @@ class PackedSystem final : public LaneSystem {
       }
       return out;
     }(std::type_identity<LoadTypes>{});
+  }
+
+  static std::vector<const LoadList*> without_packs(const CompiledLoads& loads) {
+    std::vector<const LoadList*> out;
+    for (const auto& list : loads.lists) {
+      if (!list->kind.packs) out.push_back(&*list);
+    }
+    return out;
   }
 
   static Waves waves_of(const LaneModels& models, std::size_t load) {
@@ -152,6 +236,10 @@ class PackedSystem final : public LaneSystem {
     const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
     for (const Gravity& load : model_->gravity) load.apply<T>(input, sum);
     for (const auto& [kind, list] : applied_) kind->apply(*list, input, sum);
+    if (!by_lane_.lists().empty()) {
+      by_lane_.read(input);
+      by_lane_.apply(tensions_.none(), sum);
+    }
     std::fill(torque_.begin(), torque_.end(), T(0.0));
     actuators_.apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
                         torque_.data(), sum,
@@ -187,7 +275,12 @@ class PackedSystem final : public LaneSystem {
   BodyTree tree_;
   ArticulatedTree<T> articulated_;
   TreeActuators actuators_;
-  std::vector<T> torque_;
+  DrivenSpeeds driven_;
+  LoadsByLane<L> by_lane_;
+  TensionsByLane<L> tensions_;
+  std::vector<T> torque_, driven_rate_;
+  std::vector<double> positions_, speed_, speed_rate_, jump_;  // of the lane that leads drivers
+  std::size_t leading_ = 0;                                    // the first that is not frozen
   int speeds_, memory_, loads_, work_;  // where they begin in the state of a lane
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();

@@ -37,7 +37,6 @@ std::string kept_apart(const Simulation& run) {
   if (run.options().formulation != "recursive") return "its formulation is not the recursive one";
   if (!integrator_of(run.options().integrator).lanes) return "its integrator is no explicit pair";
   if (run.options().energy_limit) return "its energy is watched";
-  if (run.has_switches()) return "its loads have kinks where it moves";
   return kept_out_of_lanes(*run.model());
 }
 
@@ -110,7 +109,9 @@ bool SideBySide::advance(double t_end, const std::function<bool(double)>& keep_g
     asked = Stopwatch::now();
   }
   count_time(asked);
-  for (std::size_t lane = 0; lane < runs_.size(); ++lane) hand_over(lane);
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    hand_over(lane, integrator_->time(), integrator_->state());
+  }
   counted_ = counters();
   wall_seconds_ = 0.0;
   return going;
@@ -135,6 +136,7 @@ void SideBySide::step(double t_end) {
   } catch (const IntegrationError& error) {
     return drop(error);
   }
+  leave_at_kinks();
   record(smooth_until);
   if (integrator_->time() >= smooth_until) reset();
 }
@@ -152,9 +154,26 @@ void SideBySide::drop(const IntegrationError& error) {
   integrator_->init(integrator_->time(), all_.data());
 }
 
+/// A lane in which a load passes a kink in the state goes on by itself from before the step, which is taken
+/// again there up to the kink.
+void SideBySide::leave_at_kinks() {
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (has_left(lane)) continue;
+    take_lane(integrator_->state(), lane, one_.data());
+    if (!runs_[lane]->passes_kink(integrator_->time(), one_.data())) continue;
+    hand_over(lane, integrator_->previous_time(), integrator_->previous_state());
+    set_aside(lane, "a load passed a kink");
+  }
+}
+
 void SideBySide::leave(std::size_t lane) {
   if (has_left(lane)) return;
-  hand_over(lane);
+  hand_over(lane, integrator_->time(), integrator_->state());
+  set_aside(lane, "its step beside the others failed");
+}
+
+void SideBySide::set_aside(std::size_t lane, const std::string& why) {
+  runs_[lane]->set_aside(why);
   gone_[lane] = true;
   ++left_;
   system_->freeze(lane);
@@ -162,8 +181,11 @@ void SideBySide::leave(std::size_t lane) {
 
 /// Drops the derivative's past: the next step is on the other side of a kink.
 void SideBySide::reset() {
+  const double now = integrator_->time();
   std::copy_n(integrator_->state(), all_.size(), all_.data());
-  integrator_->reset(integrator_->time(), all_.data());
+  system_->set_curve_limit(kinks_.next(runs_.front()->model()->kinks, *integrator_, now));
+  system_->project(now, all_.data(), false);
+  integrator_->reset(now, all_.data());
 }
 
 void SideBySide::record(double smooth_until) {
@@ -195,13 +217,14 @@ void SideBySide::take_lane(const double* all, std::size_t lane, double* y) const
   for (std::size_t i = 0; i < states_; ++i) y[i] = all[lanes_ * i + lane];
 }
 
-/// To a run that has not left: its state, its share of the time, and the steps, which are those of all.
-void SideBySide::hand_over(std::size_t lane) {
+/// To a run that has not left: its part of a state of all, its share of the time, and the steps, which are
+/// those of all.
+void SideBySide::hand_over(std::size_t lane, double t, const double* all) {
   if (has_left(lane)) return;
-  take_lane(integrator_->state(), lane, one_.data());
+  take_lane(all, lane, one_.data());
   Counters taken = counters();
   taken -= counted_;
-  runs_[lane]->go_on_from(integrator_->time(), one_.data(), taken,
+  runs_[lane]->go_on_from(t, one_.data(), taken,
                           wall_seconds_ / static_cast<double>(runs_.size()));
 }
 

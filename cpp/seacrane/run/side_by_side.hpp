@@ -18,7 +18,8 @@ std::string kept_apart(const std::vector<Simulation*>& runs);
 
 /// Steps runs of one model in different seas side by side, in lanes, with steps that they share: an error is
 /// that of the lane where it is largest. Outputs are taken by each run. A run that fails in its lane is left
-/// where it was, and goes on by itself, which tells why.
+/// where it was, and goes on by itself, which tells why. So does one whose loads pass a kink in the state,
+/// from the step before it.
 class SideBySide {
  public:
   /// As many runs as the module has lanes, or fewer, which outlive this. Throws std::invalid_argument for
@@ -38,13 +39,15 @@ class SideBySide {
 
   void step(double t_end);
   void drop(const IntegrationError& error);
+  void leave_at_kinks();
   void leave(std::size_t lane);
+  void set_aside(std::size_t lane, const std::string& why);
   bool has_left(std::size_t lane) const { return gone_[lane]; }
   void reset();
   void record(double smooth_until);
   const std::vector<double>& state_at(double t);
   void take_lane(const double* all, std::size_t lane, double* y) const;
-  void hand_over(std::size_t lane);
+  void hand_over(std::size_t lane, double t, const double* all);
   Counters counters() const;
   void count_time(std::chrono::steady_clock::time_point since);
 

@@ -65,14 +65,19 @@ class Simulation {
   const RunOptions& options() const { return options_; }
   const std::vector<double>& inputs() const { return inputs_.slots(); }
   IntegratorOptions step_options() const { return integrator_options(stepper().stepped, *model_, options_); }
-  /// Whether loads have kinks in the state, where its own steps would end.
-  bool has_switches() const { return switches_ != nullptr; }
+  /// Whether a load passes a kink that it has in the state between here and (t, y), stepped elsewhere.
+  bool passes_kink(double t, const double* y) {
+    return switches_ != nullptr && switches_->crossed(stepper(), t, y);
+  }
   /// At time(), as it is stepped.
   const double* stepped_state() const { return integrator().state(); }
   /// Records the outputs due until t, at states that were stepped elsewhere; `curve_limit`: see Curve::at.
   void record_beside(double t, double curve_limit, const OutputSampler::StateAt& state_at);
   /// Takes over what was stepped elsewhere until t.
   void go_on_from(double t, const double* y, const Counters& taken, double wall_seconds);
+  /// Why it was not stepped on beside others; empty: it was. Notes it.
+  const std::string& set_aside() const { return set_aside_; }
+  void set_aside(const std::string& why) { set_aside_ = why; }
 
  private:
   Stepper& stepper() const { return steppers_.current(); }
@@ -109,6 +114,7 @@ class Simulation {
   std::vector<double> bodies_, state_;                          // of the described bodies, of what is stepped
   double wall_seconds_ = 0.0;
   Counters beside_;  // of steps that were taken elsewhere
+  std::string set_aside_;
 };
 
 }  // namespace seacrane

@@ -17,8 +17,9 @@ constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one s
 
 /// Where limits leave nothing to move, the recursive form has no coordinates.
 std::string formulation_of(const Model& model, const RunOptions& run) {
-  const bool rigid = !model.limits.empty() && build_tree(model.stepped()).speeds == 0;
-  return rigid ? "redundant" : run.formulation;
+  if (model.limits.empty()) return run.formulation;
+  const BodyTree tree = build_tree(model.stepped());
+  return tree.speeds == tree.driven ? "redundant" : run.formulation;
 }
 
 /// Adds how tolerances of load states grow. These states are the last before both integrals of work.

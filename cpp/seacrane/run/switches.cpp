@@ -159,6 +159,11 @@ bool Switches::fell_short(Stepper& at) {
   return std::abs(left) > kShort * std::abs(aim.from_start);
 }
 
+bool Switches::crossed(Stepper& at, double t, const double* y) {
+  find_sides(at, t, y, after_);
+  return after_ != before_;
+}
+
 std::optional<double> Switches::find(Stepper& at) {
   Integrator& integrator = *at.integrator;
   find_sides(at, integrator.time(), integrator.state(), after_);

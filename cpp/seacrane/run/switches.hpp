@@ -40,6 +40,9 @@ class Switches {
   void watch(Stepper& at, double t, const double* y);
   /// Begins a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
+  /// Whether what is stepped is on other sides at (t, y) than where its step starts, or on one that it cannot
+  /// be on.
+  bool crossed(Stepper& at, double t, const double* y);
   /// Where the last step of `at` is to end when it is taken again: at the first crossing inside it, or just
   /// behind its start, where it began on the old side of a jump. Nothing where there is no crossing but at
   /// its ends: then the next step starts from the sides at its end.

@@ -64,7 +64,7 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
     reached = _core.advance_side_by_side([run.core for run in runs], module, runs[0].t_end, look)
     for run in runs:
         if reached and run.core.time < run.t_end:
-            run.lanes["kept_apart"] = f"from t = {run.core.time:.6g} s on: its step beside the others failed"
+            run.lanes["kept_apart"] = f"from t = {run.core.time:.6g} s on: {run.core.set_aside}"
     return reached
 
 

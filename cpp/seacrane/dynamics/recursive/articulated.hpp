@@ -11,7 +11,9 @@ namespace seacrane {
 /// Forward dynamics of a tree of clusters by articulated-body inertias [R. Featherstone, Rigid Body Dynamics
 /// Algorithms, 2008, chapter 7], with all quantities in inertial axes about the bodies' state points, and
 /// several bodies that share the speeds of one cluster. Inertias are symmetric in blocks; bodies that carry
-/// nothing stay a mass and a 3 x 3. A joint that holds one direction is eliminated by the force along it.
+/// nothing stay a mass and a 3 x 3. A joint that holds one direction is eliminated by the force along it. A
+/// cluster that is driven shows its parent all of its inertia, and its force follows from its motion
+/// [section 9.2, hybrid dynamics].
 /// Cost linear in the bodies; nothing is allocated after construction. On any scalar: a dual number
 /// differentiates. Scratch of one run.
 template <class T>
@@ -73,18 +75,32 @@ class ArticulatedTree {
   /// What acts on a body in the next solve(): its wrench less M-independent velocity terms.
   void set_load(int body, const Wrench<T>& load) { force_[idx(body)] = -load; }
   /// Accelerations of the bodies and of the speeds under the loads of all bodies, and `torque` on every speed
-  /// (null: none; of joints with a direction held, none). Without `moving` velocities count as zero: the
-  /// response to an impulse. Loads are used up: set them again.
-  void solve(bool moving, T* u_rate, const T* torque = nullptr);
+  /// (null: none; of joints with a direction held, none). Driven speeds have the rates `driven` (null: zero).
+  /// Without `moving` velocities count as zero: the response to an impulse. Loads are used up: set them again.
+  void solve(bool moving, T* u_rate, const T* torque = nullptr, const T* driven = nullptr);
   /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
   /// two bodies; others keep what they have.
   void respond(const std::vector<int>& clusters, const Push& first, const Push& second, T* u_rate);
   /// At the last solve(); of the ground too.
   const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
+  /// What drives the speed of a driven cluster, beside the torque on it, at the last solve(): N or N m.
+  T drive(std::size_t cluster) const {
+    const Cluster& c = clusters()[cluster];
+    const T carried = dot(acceleration_[idx(c.parent)], at_parent_[idx(c.u)]);
+    return carried + inverse_[cluster](0, 0) * torque_[cluster][0] - torque_[cluster][1];
+  }
+  /// The same of a floating body: a wrench about its state point.
+  Wrench<T> drive_wrench(std::size_t cluster) const {
+    const int body = clusters()[cluster].body;
+    Wrench<T> out = force_[idx(body)];
+    with_inertia(body, [&](const auto& inertia) { out += inertia * acceleration_[idx(body)]; });
+    return out;
+  }
   /// Solves for loads of the bodies, and writes accelerations of the bodies, ground last.
-  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr) {
+  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr,
+             const T* driven = nullptr) {
     for (int b = 0; b < ground_; ++b) set_load(b, Wrench<T>(load[b]));
-    solve(moving, u_rate, torque);
+    solve(moving, u_rate, torque, driven);
     for (int b = 0; b <= ground_; ++b) acceleration[b] = acceleration_[idx(b)].vector();
   }
 
@@ -107,7 +123,7 @@ class ArticulatedTree {
   template <int speeds>
   void factor_cluster(std::size_t i);
   template <int speeds>
-  void gather(std::size_t i, bool moving, const T* torque);
+  void gather(std::size_t i, bool moving, const T* torque, const T* driven);
   template <int speeds>
   void spread(std::size_t i, bool moving, T* u_rate);
   template <class Branch>
@@ -142,9 +158,11 @@ class ArticulatedTree {
   std::vector<SpatialInertia<T>> inertia_;  // articulated
   std::vector<CompactInertia<T>> compact_;  // of leaves
   std::vector<Wrench<T>> force_;            // articulated, minus the load
-  std::vector<Mat6<T>> inverse_;            // (S^T I S)^-1 per cluster; of a leaf that is held, of its 3 x 3
+  // (S^T I S)^-1 per cluster; of one that is driven S^T I S; of a leaf that is held, of its 3 x 3.
+  std::vector<Mat6<T>> inverse_;
   std::vector<SpdFactor<6, T>> free_;       // of I, of clusters that float or are held
-  std::vector<Vec6<T>> torque_;             // (S^T I S)^-1 (-S^T p) per cluster; of one that is held, I^-1 p
+  // (S^T I S)^-1 (-S^T p) per cluster; of one that is driven its rate and -S^T p; of one that is held, I^-1 p.
+  std::vector<Vec6<T>> torque_;
   std::vector<Held> held_;                  // per cluster
   std::vector<Twist<T>> acceleration_;
 };

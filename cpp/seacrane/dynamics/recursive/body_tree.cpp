@@ -7,7 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "seacrane/dynamics/recursive/driven_stroke.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
+#include "seacrane/dynamics/recursive/tree_coordinate.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -19,6 +21,7 @@ struct Edge {
   JointData joint;
   int rows = 0;
   bool branch = false;  // the type can be a branch
+  bool driven = false;
 };
 
 /// Share of a strut's length within which a point counts as on its line, and the like of directions.
@@ -68,7 +71,7 @@ class TreeBuilder {
   explicit TreeBuilder(const Model& model) : model_(model), ground_(model.body_count()) {
     for (const JointKind& kind : joint_kinds()) {
       for (const JointData& joint : model.joints[kind.index]) {
-        if (kind.rows > 0) edges_.push_back({kind.index, joint, kind.rows, kind.branch});
+        if (kind.rows > 0) edges_.push_back({kind.index, joint, kind.rows, kind.branch, is_driven(joint)});
       }
     }
     std::sort(edges_.begin(), edges_.end(),
@@ -84,6 +87,7 @@ class TreeBuilder {
     while (!span()) {
     }
     number();
+    drive();
     find_leaves();
     return std::move(tree_);
   }
@@ -207,7 +211,15 @@ class TreeBuilder {
     }
   }
 
-  int rank(std::size_t e) const { return edges_[e].rows + (carries_struts(e) ? kMaxRows : 0); }
+  int rank(std::size_t e) const {
+    return 2 * (edges_[e].rows + (carries_struts(e) ? kMaxRows : 0)) + (edges_[e].driven ? 1 : 0);
+  }
+
+  bool is_driven(const JointData& joint) const {
+    return std::ranges::any_of(model_.drivers, [&](const DriverData& driver) {
+      return driver.coordinate.joint.element == joint.element;
+    });
+  }
 
   bool reaches_out(std::size_t e) const {
     const JointData& j = edges_[e].joint;
@@ -323,6 +335,57 @@ class TreeBuilder {
       tree_.loops.push_back(element);
       tree_.loop_rows += model_.elements[e].rows;
     }
+  }
+
+  /// Takes drivers of the tree's own coordinates from the rows; the first of two that drive one cluster.
+  void drive() {
+    for (std::size_t d = 0; d < model_.drivers.size(); ++d) {
+      const std::optional<TreeCoordinate> place = find_coordinate(model_.drivers[d].coordinate, tree_);
+      if (!place) continue;
+      Cluster& c = tree_.clusters[place->cluster];
+      if (c.is_driven() || (place->strut >= 0 && !tells_angle(c, place->strut))) continue;
+      lead(c, {{static_cast<int>(d)}, place->strut, place->sign});
+    }
+    for (Cluster& c : tree_.clusters) {
+      if (c.kind != Cluster::floating) continue;
+      for (const JointData& joint : model_.joints[kind_of("free")]) {
+        if (joint.first != ground_ || joint.second != c.body || c.is_driven()) continue;
+        std::vector<int> drivers = drivers_of(joint);
+        if (std::ranges::none_of(drivers, [](int d) { return d < 0; })) lead(c, {std::move(drivers), -1, 1.0});
+      }
+    }
+  }
+
+  void lead(Cluster& c, Drive drive) {
+    c.drive = std::move(drive);
+    tree_.driven += c.speeds;
+    for (const int d : c.drive.drivers) {
+      const int element = model_.drivers[idx(d)].element;
+      tree_.loop_rows -= model_.elements[idx(element)].rows;
+      std::erase(tree_.loops, element);
+    }
+  }
+
+  /// Of x, y, z, roll, pitch, yaw; -1: none.
+  std::vector<int> drivers_of(const JointData& free) const {
+    std::vector<int> out(6, -1);
+    for (std::size_t d = 0; d < model_.drivers.size(); ++d) {
+      const CoordinateData& of = model_.drivers[d].coordinate;
+      const int place = static_cast<int>(of.kind) - static_cast<int>(CoordinateKind::x);
+      if (of.joint.element == free.element && place >= 0) out[idx(place)] = static_cast<int>(d);
+    }
+    return out;
+  }
+
+  /// Whether a strut's stroke tells the hinge angle where it starts: not at a dead centre.
+  bool tells_angle(const Cluster& c, int strut) const {
+    constexpr double kDeadCentre = 1e-3;  // rad
+    const BodyKinematics<double> parent = start(c.parent), child = start(c.body);
+    double angle = 0.0, rate = 0.0;
+    with_joint_type(c.kind, [&]<class Type>() {
+      if constexpr (Type::Branch::speeds == 1) Type::Branch::read(c.joint, parent, child, &angle, &rate);
+    });
+    return std::abs(DrivenStroke(tree_.struts[idx(strut)], c.joint).sine(angle)) > kDeadCentre;
   }
 
   void find_leaves() {

@@ -16,6 +16,14 @@ struct Member {
   bool leaf = false;  // compact, and carries no cluster: a mass and an inertia about its centre of mass
 };
 
+/// The drivers that prescribe all coordinates of a cluster: one that of its joint, or the stroke of one of its
+/// struts; or six those of a floating body over the ground, x, y, z, roll, pitch, yaw.
+struct Drive {
+  std::vector<int> drivers;  // of the model; none: the cluster is free
+  int strut = -1;
+  double sign = 1.0;  // of the driver's coordinate over the tree's
+};
+
 /// Bodies that move together over one parent: one body of a tree joint, with the struts across a hinge, or
 /// a body that floats freely (no parent, six speeds).
 struct Cluster {
@@ -27,23 +35,27 @@ struct Cluster {
   int positions = 7, speeds = 6;
   int element = -1;  // the joint
   int first_strut = 0, struts = 0;
+  Drive drive;
   std::vector<Member> members;  // the joint's child first
+
+  bool is_driven() const { return !drive.drivers.empty(); }
 };
 
 /// A spanning tree of clusters, parents before children, and the elements left for constraint rows.
 struct BodyTree {
   std::vector<Cluster> clusters;
   std::vector<Strut> struts;
-  std::vector<int> loops;  // elements with rows that no branch stands for: cut joints and drivers
+  std::vector<int> loops;  // elements with rows that no branch stands for: cut joints and other drivers
   int positions = 0, speeds = 0, columns = 0;
+  int driven = 0;  // of the speeds
   int loop_rows = 0;
 
   /// Typical magnitude of every position, then of every speed.
   std::vector<double> scales(double length, double angle) const;
 };
 
-/// Joints with the most rows become branches first; a joint type without a branch is left to rows. Struts are
-/// found wherever their pattern occurs.
+/// Joints with the most rows become branches first, and of these such that a driver moves; a joint type
+/// without a branch is left to rows. Struts are found wherever their pattern occurs.
 BodyTree build_tree(const Model& model);
 
 /// Calls f(place in the positions) for every quaternion.

@@ -29,7 +29,10 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
       loops_(model_, tree_),
       tensions_(model_),
       actuators_(model_, tree_),
+      driven_(model_, tree_),
       torque_(idx(tree_.speeds), 0.0),
+      driven_rate_(torque_),
+      jump_(torque_),
       residual_(VecXd::Zero(loops_.rows())),
       loop_bias_(VecXd::Zero(loops_.rows())) {
   if (model_.paper_kinematics) {
@@ -59,6 +62,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
   layout_.size = layout_.work + 2;
+  followed_.assign(idx(layout_.size), 0.0);
   choose_rows();
 }
 
@@ -67,18 +71,35 @@ void RecursiveSystem::choose_rows() {
   if (loops_.rows() == 0 || model_.assembly.rank == 0) return;
   std::vector<double> y(idx(layout_.size));
   read_bodies(0.0, model_.initial_state.data(), y.data());
-  place(y.data());
+  place_as_given(y.data());
   evaluate_constraints(model_, 0.0, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
   loops_.choose_rows(blocks_.data(), terms_->bodies().data(), articulated_);
 }
 
 std::vector<double> RecursiveSystem::scale() const {
   std::vector<double> out = tree_.scales(model_.translation_scale, model_.rotation_scale);
+  for (const std::size_t i : driven_.clusters()) {
+    const Cluster& c = tree_.clusters[i];
+    std::fill_n(out.begin() + c.q, c.positions, std::numeric_limits<double>::infinity());
+    std::fill_n(out.begin() + layout_.speeds + c.u, c.speeds, std::numeric_limits<double>::infinity());
+  }
   out.insert(out.end(), model_.scale.begin() + model_.layout.memory, model_.scale.end());
   return out;
 }
 
-void RecursiveSystem::place(const double* y) {
+/// The state with what drivers prescribe, at which the bodies are.
+const double* RecursiveSystem::place(double t, const double* y) {
+  if (driven_.any()) {
+    followed_.assign(y, y + layout_.size);
+    y = followed_.data();
+    driven_.follow(t, terms_->curve_limit(), followed_.data(), followed_.data() + layout_.speeds,
+                   driven_rate_.data());
+  }
+  place_as_given(y);
+  return y;
+}
+
+void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
@@ -117,13 +138,14 @@ void RecursiveSystem::factor(double t) {
 void RecursiveSystem::derivative(double t, const double* y, double* ydot) { evaluate(t, y, ydot, true); }
 
 void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
-  place(y);
+  y = place(t, y);
   terms_->follow_yaw();
   factor(t);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
+  driven_.for_each_power(articulated_, [&](double power) { terms_->add_driver_power(power); });
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
@@ -162,11 +184,14 @@ void RecursiveSystem::solve_with_loops(double* u_rate) {
       load_[idx(b)][3 + i] = applied.moment[i] - bias_[idx(b)][3 + i];
     }
   }
-  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data());
+  const auto solve = [&] {
+    articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data(), driven_rate_.data());
+  };
+  solve();
   if (loops_.rows() == 0) return;
   loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
   loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
-  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data());
+  solve();
 }
 
 void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
@@ -176,7 +201,7 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
     inertial_speed_rates_.col(i) = Eigen::Map<const VecXd>(speed_rate_.data(), tree_.speeds);
   }
   const VecXd& tension = tensions_.finish(*terms_);
-  if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
+  if (loops_.rows() > 0 || driven_.any()) {  // whose forces the responses have overwritten
     solve_acceleration(u_rate);
     return;
   }
@@ -193,13 +218,13 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   evaluate(t, y, jacobian_rate_.data(), false);
   if (!loops_.regular()) return false;
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
-                       acceleration_.data(), blocks_.data()},
-                      t, y, jacobian_rate_.data(), out);
+                       acceleration_.data(), blocks_.data(), driven_},
+                      t, driven_.any() ? followed_.data() : y, jacobian_rate_.data(), out);
   return true;
 }
 
 void RecursiveSystem::move(double h, double* y) {
-  place(y);
+  place_as_given(y);
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(),
                                            position_rate_.data());
   for_each_quaternion(tree_, [&](int at) {
@@ -227,12 +252,36 @@ void RecursiveSystem::twists_here() {
   }
 }
 
+/// Takes over what drivers prescribe. Where it jumps in rate, the driven bodies strike the others; whether
+/// they do.
+bool RecursiveSystem::follow_drivers(double t, double* y) {
+  double* const u = y + layout_.speeds;
+  const double limit = terms_->curve_limit();
+  const bool jumps = driven_.jump(t, limit, y, u, jump_.data());
+  driven_.follow(t, limit, y, u, driven_rate_.data());
+  if (jumps) strike(t, y);
+  return jumps;
+}
+
+/// The impulse of jumps of the driven speeds on the others.
+void RecursiveSystem::strike(double t, double* y) {
+  place_as_given(y);
+  terms_->follow_yaw();
+  factor(t);
+  for (auto& load : load_) load.setZero();
+  articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data(), nullptr, jump_.data());
+  for (const Cluster& c : tree_.clusters) {
+    for (int k = c.u; k < c.u + c.speeds && !c.is_driven(); ++k) y[layout_.speeds + k] += speed_rate_[idx(k)];
+  }
+}
+
 bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
-  bool normalised = false;
-  for_each_quaternion(tree_, [&](int at) { normalised |= normalise_drifted(view<4>(y + at)); });
-  if (loops_.rows() == 0) return normalised;
-  if (!evaluated_here || normalised) {
-    place(y);
+  bool moved_before = false;
+  for_each_quaternion(tree_, [&](int at) { moved_before |= normalise_drifted(view<4>(y + at)); });
+  if (driven_.any()) moved_before |= follow_drivers(t, y);
+  if (loops_.rows() == 0) return moved_before || driven_.any();
+  if (!evaluated_here || moved_before) {
+    place(t, y);
     terms_->follow_yaw();
     factor(t);
   }
@@ -251,7 +300,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
   const bool moved = projection::close_positions(worst, tolerance, [&](int /*i*/) {
     impulse();
     move_positions(y, acceleration_.data());
-    place(y);
+    place(t, y);
     terms_->follow_yaw();
     factor(t);
     return open();
@@ -265,9 +314,9 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
       [&] {
         impulse();
         for (int k = 0; k < tree_.speeds; ++k) y[layout_.speeds + k] -= speed_rate_[idx(k)];
-        place(y);
+        place(t, y);
       });
-  return normalised || moved || turned;
+  return moved_before || moved || turned || driven_.any();
 }
 
 double RecursiveSystem::take_residual_before_projection() {
@@ -282,8 +331,8 @@ void RecursiveSystem::read_bodies(double t, const double* bodies, double* y) {
   std::copy_n(bodies + model_.layout.memory, layout_.size - layout_.memory, y + layout_.memory);
 }
 
-void RecursiveSystem::write_bodies(double /*t*/, const double* y, double* bodies) {
-  place(y);
+void RecursiveSystem::write_bodies(double t, const double* y, double* bodies) {
+  place(t, y);
   const StateLayout& s = model_.layout;
   for (int b = 0; b < s.bodies; ++b) {
     const BodyKinematics<double>& k = terms_->bodies()[idx(b)];

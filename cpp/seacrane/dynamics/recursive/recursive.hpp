@@ -9,6 +9,7 @@
 
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertial_tensions.hpp"
+#include "seacrane/dynamics/recursive/driven_speeds.hpp"
 #include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
 #include "seacrane/dynamics/recursive/tree_actuators.hpp"
 #include "seacrane/dynamics/recursive/turning_inertia.hpp"
@@ -18,7 +19,8 @@ namespace seacrane {
 
 /// The recursive formulation: positions and speeds of a tree of clusters, O(n); constraint rows only where
 /// the tree leaves a loop or a driver. Loads come from `terms`, whose kinematics this one sets. State:
-/// positions, speeds, memory, work, |work|.
+/// positions, speeds, memory, work, |work|. Coordinates that drivers prescribe stand in it too, but what they
+/// are follows from the time.
 class RecursiveSystem final : public Formulation, public PositionMap {
  public:
   /// Throws std::invalid_argument for the paper's kinematics and Baumgarte stabilisation.
@@ -38,7 +40,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
-  void place_bodies(double /*t*/, const double* y) override { place(y); }
+  void place_bodies(double t, const double* y) override { place(t, y); }
   bool closes_joints() const override { return loops_.rows() == 0; }
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
@@ -61,7 +63,10 @@ class RecursiveSystem final : public Formulation, public PositionMap {
     int speeds = 0, memory = 0, work = 0, size = 0;
   };
 
-  void place(const double* y);
+  const double* place(double t, const double* y);
+  void place_as_given(const double* y);
+  bool follow_drivers(double t, double* y);
+  void strike(double t, double* y);
   void evaluate(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_inertia();
@@ -81,6 +86,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   LoopClosure loops_;
   InertialTensions tensions_;
   TreeActuators actuators_;
+  DrivenSpeeds driven_;
   std::vector<TurningInertia> turning_;  // by body
   Layout layout_;
   std::vector<Mat6d> mass_;
@@ -88,7 +94,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<Wrench<double>> along_;
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
-  std::vector<double> torque_;  // of actuators, on the speeds
+  std::vector<double> torque_;               // of actuators, on the speeds
+  std::vector<double> followed_;             // a state with what drivers prescribe
+  std::vector<double> driven_rate_, jump_;  // of the speeds that drivers prescribe
   std::vector<double> speed_rate_, position_rate_;
   MatXd inertial_speed_rates_;  // for 1 N of each inertial tension
   VecXd residual_, loop_bias_;

@@ -42,6 +42,8 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
 void RecursiveJacobian::evaluate(const TreeEvaluation& at, double t, const double* y, const double* rate,
                                  double* out) {
   at_ = &at;
+  drive_power_.clear();
+  at.driven.for_each_power(at.tree, [&](double power) { drive_power_.push_back(power); });
   const int size = tree_.positions + tree_.speeds;
   const std::size_t n = idx(size + states_ + 2);
   std::fill_n(out, n * n, 0.0);
@@ -96,6 +98,11 @@ void RecursiveJacobian::differentiate_tree(int first, const double* y, const dou
   const std::size_t n = idx(size + states_ + 2);
   for (int i = 0; i < size; ++i) state_[idx(i)] = Scalar(y[i]);
   for (int i = first; i < last; ++i) state_[idx(i)] = Scalar::variable(y[i], i - first);
+  for (const std::size_t i : at_->driven.clusters()) {  // functions of time
+    const Cluster& c = tree_.clusters[i];
+    for (int k = c.q; k < c.q + c.positions; ++k) state_[idx(k)] = Scalar(y[k]);
+    for (int k = tree_.positions + c.u; k < tree_.positions + c.u + c.speeds; ++k) state_[idx(k)] = Scalar(y[k]);
+  }
   const Scalar* u = state_.data() + tree_.positions;
   kinematics_.place(state_.data(), u, bodies_.data());
   kinematics_.position_rates(state_.data(), u, bodies_.data(), state_rate_.data());
@@ -303,8 +310,18 @@ void RecursiveJacobian::solve(double* column, double power, double absolute_powe
       absolute_power += sign(rate * multipliers_[idx(element.row)]) * rate * change;
     }
   }
+  add_drive_power(power, absolute_power);
   column[tree_.positions + tree_.speeds + states_] = power;
   column[tree_.positions + tree_.speeds + states_ + 1] = absolute_power;
+}
+
+/// By how the drives' forces change at the last respond().
+void RecursiveJacobian::add_drive_power(double& power, double& absolute_power) const {
+  auto before = drive_power_.begin();
+  at_->driven.for_each_power(at_->tree, [&](double change) {
+    power += change;
+    absolute_power += sign(*before++) * change;
+  });
 }
 
 double RecursiveJacobian::along_row(int row, const Vec6d* acceleration) const {

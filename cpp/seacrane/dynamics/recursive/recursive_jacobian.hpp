@@ -5,6 +5,7 @@
 #include "seacrane/dynamics/body_residual.hpp"
 #include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/jacobian.hpp"
+#include "seacrane/dynamics/recursive/driven_speeds.hpp"
 #include "seacrane/dynamics/recursive/loop_closure.hpp"
 
 namespace seacrane {
@@ -19,6 +20,7 @@ struct TreeEvaluation {
   const Vec6d* load;               // by body: wrench less velocity terms, multipliers of loops included
   const Vec6d* acceleration;       // by body
   const RowBlock<double>* blocks;  // by element
+  const DrivenSpeeds& driven;
 };
 
 /// Exact Jacobian of dy/dt of the recursive formulation, y = (positions q, speeds u, memory, work). With the
@@ -62,6 +64,7 @@ class RecursiveJacobian {
   void write_column(int k, double* column);
   void spread_torques(int k);
   void turn_rows(int k);
+  void add_drive_power(double& power, double& absolute_power) const;
   void solve(double* column, double power, double absolute_power);
   void respond(double* u_rate);
   void add_inertial_slopes(int direction);
@@ -77,6 +80,7 @@ class RecursiveJacobian {
   int states_ = 0;                         // of the memory and of loads
   std::vector<std::pair<int, int>> rows_;  // element and its row, of the loops
   std::vector<double> multipliers_;        // by row of the model
+  std::vector<double> drive_power_;        // by driver of the tree, at the evaluation
 
   std::vector<Share> shares_;
   std::vector<RowShare> row_shares_;

@@ -10,7 +10,7 @@ std::vector<std::pair<std::string, double>> RecursiveSystem::time_parts(double t
   const auto later = [&](long i) { return t + 1e-3 * static_cast<double>(i); };
   derivative(t, y, rate.data());
   out.measure("kinematics", [&](long) {
-    place(y);
+    place(t, y);
     terms_->follow_yaw();
   });
   out.measure("inertia", [&](long) { evaluate_inertia(); });

@@ -145,6 +145,7 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
         }
       }
       if constexpr (n > 0) {
+        if (c.is_driven()) return;
         const Mat<n> inverse = spd_inverse<n>(gram);
         for (int k = 0; k < n; ++k) pivot = std::max<T>(pivot, gram(k, k) * inverse(k, k));
       }
@@ -167,7 +168,7 @@ template <int n>
 void ArticulatedTree<T>::factor_cluster(std::size_t i) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
+    if (!c.is_driven()) free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
     return;
   }
   Mat<n> gram = Mat<n>::Zero();
@@ -184,7 +185,7 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
     });
   }
   Mat<n> inverse;
-  if constexpr (n > 0) inverse = spd_inverse<n>(gram);
+  if constexpr (n > 0) inverse = c.is_driven() ? gram : spd_inverse<n>(gram);
   inverse_[i].template topLeftCorner<n, n>() = inverse;
   if (c.parent == ground_) return;
   SpatialInertia<T>& to = inertia_[idx(c.parent)];
@@ -192,6 +193,7 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
     with_inertia(m.body,
                  [&](const auto& inertia) { to.add_shifted_from(kinematics_.reach(m.body), inertia); });
   }
+  if (c.is_driven()) return;
   for (int k = 0; k < n; ++k) {
     Wrench<T> row = inverse(0, k) * at_parent[0];
     for (int l = 1; l < n; ++l) row += inverse(l, k) * at_parent[l];
@@ -228,12 +230,12 @@ Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) co
 }
 
 template <class T>
-void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque) {
+void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque, const T* driven) {
   force_[idx(ground_)] = Wrench<T>::zero();
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { gather_held(i, moving); })) continue;
-    with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque); });
+    with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque, driven); });
   }
   acceleration_[idx(ground_)] = Twist<T>::zero();
   for (std::size_t i = 0; i < clusters().size(); ++i) {
@@ -256,7 +258,7 @@ void ArticulatedTree<T>::respond(const std::vector<int>& clusters, const Push& f
   for (auto i = clusters.rbegin(); i != clusters.rend(); ++i) {
     const Cluster& c = this->clusters()[idx(*i)];
     if (with_held(c, [&]<class Branch>() { gather_held(idx(*i), false); })) continue;
-    with_speeds(c, [&]<int n>() { gather<n>(idx(*i), false, nullptr); });
+    with_speeds(c, [&]<int n>() { gather<n>(idx(*i), false, nullptr, nullptr); });
   }
   acceleration_[idx(ground_)] = Twist<T>::zero();
   for (const int i : clusters) {
@@ -268,9 +270,13 @@ void ArticulatedTree<T>::respond(const std::vector<int>& clusters, const Push& f
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
+void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque, const T* driven) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
+    if (c.is_driven()) {
+      for (int k = 0; k < 6; ++k) torque_[i][k] = driven ? driven[c.u + k] : T(0);
+      return;
+    }
     Vec6<T> sum = -force_[idx(c.body)].vector();
     if (torque) sum += Eigen::Map<const Vec6<T>>(torque + c.u);
     torque_[i] = free_[i].solve(sum);
@@ -287,6 +293,15 @@ void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
     const Twist<T>* const column = kinematics_.columns(m);
     for (int k = 0; k < n; ++k) sum[k] -= dot(column[k], force);
     to.add_shifted_from(kinematics_.reach(m.body), force);
+  }
+  if constexpr (n == 1) {
+    if (c.is_driven()) {
+      const T rate = driven ? driven[c.u] : T(0);
+      torque_[i][0] = rate;
+      torque_[i][1] = sum[0];
+      to += rate * at_parent_[idx(c.u)];
+      return;
+    }
   }
   for (int k = 0; k < n; ++k) {
     T rate = inverse_[i](k, 0) * sum[0];
@@ -323,7 +338,9 @@ void ArticulatedTree<T>::spread(std::size_t i, bool moving, T* u_rate) {
   for (int k = 0; k < n; ++k) carried[k] = dot(parent, at_parent[k]);
   for (int k = 0; k < n; ++k) {
     rate[k] = torque_[i][k];
-    for (int l = 0; l < n; ++l) rate[k] -= inverse_[i](k, l) * carried[l];
+    if (!c.is_driven()) {
+      for (int l = 0; l < n; ++l) rate[k] -= inverse_[i](k, l) * carried[l];
+    }
     u_rate[c.u + k] = rate[k];
   }
   for (const Member& m : c.members) {

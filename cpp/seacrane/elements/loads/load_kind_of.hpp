@@ -82,6 +82,10 @@ class LoadListOf final : public LoadsOf<Load> {
   bool looks_at_states(Place i, int first, int last) const override {
     return seacrane::looks_at_states(items[i], first, last);
   }
+  StateRange states(Place i) const override {
+    if constexpr (HasStates<Load>) return items[i].states;
+    return {};
+  }
   void add_unit(Place i, int component, const LoadInput<double>& in, Vec6d* wrenches) const override {
     if constexpr (HasUnit<Load>) items[i].add_unit(component, in, wrenches);
   }

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "seacrane/elements/loads/load_list.hpp"
+#include "seacrane/math/pack.hpp"
+
+namespace seacrane {
+
+/// Loads that take no packs, lane by lane: what they look at is taken from packs of kinematics, and what they
+/// add is put into packs of wrenches. Where a load does not hold in a lane, the lane's numbers become NaN.
+template <int L>
+class LoadsByLane {
+ public:
+  using T = Pack<L>;
+
+  /// For lists of loads of `bodies` bodies, with `states` states of all loads.
+  LoadsByLane(std::vector<const LoadList*> lists, int bodies, std::size_t states)
+      : lists_(std::move(lists)), wrench_(idx(bodies) + 1), total_(idx(bodies) + 1), rates_(states, 0.0) {
+    for (const LoadList* list : lists_) {
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        bodies_.insert(bodies_.end(), list->bodies[i].begin(), list->bodies[i].end());
+        const StateRange own = list->states(i);
+        for (int k = own.first; k < own.first + own.count; ++k) own_states_.push_back(idx(k));
+      }
+    }
+    std::ranges::sort(bodies_);
+    bodies_.erase(std::ranges::unique(bodies_).begin(), bodies_.end());
+    for (auto& lane : kinematics_) lane.assign(idx(bodies) + 1, BodyKinematics<double>::ground());
+    for (auto& lane : states_) lane.assign(states, 0.0);
+  }
+
+  const std::vector<const LoadList*>& lists() const { return lists_; }
+  /// Those on which the loads act, or look.
+  const std::vector<int>& bodies() const { return bodies_; }
+  void freeze(std::size_t lane) { frozen_[lane] = true; }
+
+  /// Takes what the loads look at. Call it before the others.
+  void read(const LoadInput<T>& in) {
+    now_ = {in.time, in.curve_limit, nullptr, in.slots, nullptr};
+    for (int lane = 0; lane < L; ++lane) {
+      for (const int b : bodies_) read_body(in.bodies[b], lane, kinematics_[idx(lane)][idx(b)]);
+      std::vector<double>& states = states_[idx(lane)];
+      for (std::size_t k = 0; k < states.size(); ++k) states[k] = in.states[k][lane];
+    }
+  }
+  LoadInput<double> input(int lane, const double* inertial) const {
+    LoadInput<double> out = now_;
+    out.bodies = kinematics_[idx(lane)].data();
+    out.states = states_[idx(lane)].data();
+    out.inertial = inertial;
+    return out;
+  }
+
+  /// Calls f(lane) for each lane that is not frozen; f'(lane) where that throws.
+  template <class F, class Fail>
+  void for_each_lane(F&& f, Fail&& fail) const {
+    for (int lane = 0; lane < L; ++lane) {
+      if (frozen_[idx(lane)]) continue;
+      try {
+        f(lane);
+      } catch (const std::domain_error&) {
+        fail(lane);
+      }
+    }
+  }
+
+  /// Adds the loads, with inertial tensions of zero.
+  void apply(const double* inertial, LoadSum<T>& sum) {
+    for (const int b : bodies_) total_[idx(b)].fill(T(0.0));
+    T power(0.0), absolute_power(0.0);
+    const auto put = [&](int lane, const LoadSum<double>& of) {
+      power.set(lane, of.power);
+      absolute_power.set(lane, of.absolute_power);
+      for (const std::size_t k : own_states_) sum.state_rates[k].set(lane, rates_[k]);
+    };
+    for_each_lane(
+        [&](int lane) {
+          for (const int b : bodies_) wrench_[idx(b)] = BodyLoad<double>();
+          LoadSum<double> of{wrench_.data(), rates_.data()};
+          const LoadInput<double> in = input(lane, inertial);
+          for (const LoadList* list : lists_) list->apply(in, of);
+          put(lane, of);
+          for (const int b : bodies_) {
+            for (int i = 0; i < 3; ++i) {
+              total_[idx(b)][idx(i)].set(lane, wrench_[idx(b)].force[i]);
+              total_[idx(b)][idx(3 + i)].set(lane, wrench_[idx(b)].moment[i]);
+            }
+          }
+        },
+        [&](int lane) {
+          constexpr double none = std::numeric_limits<double>::quiet_NaN();
+          LoadSum<double> of{nullptr};
+          of.power = of.absolute_power = none;
+          std::ranges::fill(rates_, none);
+          put(lane, of);
+          for (const int b : bodies_) {
+            for (T& component : total_[idx(b)]) component.set(lane, none);
+          }
+        });
+    for (const int b : bodies_) {
+      for (int i = 0; i < 3; ++i) {
+        sum.wrench[b].force[i] += total_[idx(b)][idx(i)];
+        sum.wrench[b].moment[i] += total_[idx(b)][idx(3 + i)];
+      }
+    }
+    sum.power += power;
+    sum.absolute_power += absolute_power;
+  }
+
+ private:
+  static void read_body(const BodyKinematics<T>& from, int lane, BodyKinematics<double>& to) {
+    for (int i = 0; i < 3; ++i) {
+      to.position[i] = from.position[i][lane];
+      to.velocity[i] = from.velocity[i][lane];
+      to.angular_velocity[i] = from.angular_velocity[i][lane];
+    }
+    for (int i = 0; i < 9; ++i) to.rotation(i) = from.rotation(i)[lane];
+  }
+
+  std::vector<const LoadList*> lists_;
+  std::vector<int> bodies_;
+  std::vector<std::size_t> own_states_;
+  std::array<bool, L> frozen_{};
+  LoadInput<double> now_{};
+  std::array<std::vector<BodyKinematics<double>>, L> kinematics_;
+  std::array<std::vector<double>, L> states_;
+  std::vector<BodyLoad<double>> wrench_;
+  std::vector<std::array<T, 6>> total_;  // by body
+  std::vector<double> rates_;
+};
+
+}  // namespace seacrane
