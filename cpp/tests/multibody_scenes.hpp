@@ -175,6 +175,24 @@ inline SceneDescription strut_scene(Random& random, bool universal_at_base, bool
   return scene;
 }
 
+/// The strut scene with its stroke driven, and its base too where that is asked for.
+inline SceneDescription driven_strut_scene(Random& random, bool universal_at_base, bool swapped, bool base) {
+  SceneDescription scene = strut_scene(random, universal_at_base, swapped);
+  const auto swing = [](double amplitude, double omega) {
+    return Curve::harmonic(0.0, 0.0, amplitude, omega, -0.5 * M_PI);
+  };
+  scene.drivers.push_back(
+      {"stroke", {"barrel-rod", "displacement"}, swing(0.05, 2.0)});
+  if (!base) return scene;
+  join(scene, "free", "motion", kGround, "base", random.vector(), random.rotation());
+  double omega = 1.0;
+  for (const char* motion : {"x", "y", "z", "roll", "pitch", "yaw"}) {
+    scene.drivers.push_back({motion, {"motion", motion}, swing(0.3, omega)});
+    omega += 0.2;
+  }
+  return scene;
+}
+
 /// Planar four-bar of two equal cranks and a coupler as long as the ground, in the x-z plane; with
 /// `count` cranks. Its out-of-plane constraints are redundant, and so is each crank after the second.
 inline SceneDescription parallelogram(int count) {

@@ -243,6 +243,15 @@ TEST_CASE("exact Jacobian of the recursive form: struts, and a loop that stays r
   check_recursive(slider_crank(), 9);
 }
 
+TEST_CASE("exact Jacobian of the recursive form: driven strokes and bodies, on the ground and afloat") {
+  Random random(21);
+  for (int trial = 0; trial < 4; ++trial) {
+    CAPTURE(trial);
+    SceneDescription scene = driven_strut_scene(random, trial % 2 == 0, trial < 2, trial != 1);
+    check_recursive(scene, 9);
+  }
+}
+
 TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
   Random random(10);
   for (const SceneDescription& scene : {strut_scene(random, true, false), pair("distance", random)}) {

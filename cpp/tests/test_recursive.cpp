@@ -267,4 +267,21 @@ TEST_CASE("loops, drivers, vessel, memory and waves: the recursive form agrees w
   check_agreement(parallelogram(5), 1e-9);
 }
 
+TEST_CASE("driven strokes and bodies: the recursive form, without unknowns for them, agrees") {
+  Random random(17);
+  int told = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    CAPTURE(trial);
+    const SceneDescription scene =
+        driven_strut_scene(random, trial % 2 == 0, trial % 4 < 2, trial > 3);
+    const BodyTree tree = build_tree(*compile(scene));
+    if (tree.struts.empty()) continue;  // its ends come nearer than they lie off the slide's line
+    ++told;
+    CHECK(tree.driven == (trial > 3 ? 7 : 1));
+    CHECK(tree.loop_rows == 0);
+    check_agreement(scene, 1e-9);
+  }
+  CHECK(told >= 4);
+}
+
 }  // namespace seacrane::test

@@ -1,0 +1,222 @@
+"""Coordinates that drivers prescribe are no unknowns of the recursive form: as with rows, at every level."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Curve, Run, Scene, SeacraneError, _core, shipped_database, simulate
+from seacrane.run.lanes import module_of
+
+Array = NDArray[np.float64]
+FORMULATIONS = ("redundant", "recursive")
+DRIVEN = ("A", "main_cylinder", "knuckle_cylinder")
+pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
+
+
+def moved(start: float, end: float, *, over: float = 8.0) -> Curve:
+    return Curve.quintic(start_time=0.5, end_time=0.5 + over, start=start, end=end)
+
+
+def lift(*, rung: str = "elastic", seed: int = 2, **hoist: Any) -> Scene:
+    """The shipped hull and crane, which slews and moves both cylinders, with 40 t on a line in the wind."""
+    scene = Scene(name="driven")
+    scene.add_vessel(shipped_database())
+    scene.add_crane(slew=-1.0, s1=1.5, s2=1.0, held=False)
+    scene.add_driver("A", curve=moved(-1.0, -0.3))
+    scene.add_driver("main_cylinder", curve=moved(1.5, 1.9))
+    scene.add_driver("knuckle_cylinder", curve=moved(1.0, 0.7))
+    scene.add_hoist(mass=40e3, size=(4.0, 4.0, 3.0), length=12.0, EA=2e8, rung=rung, **hoist)
+    scene.add_air_drag("load", frontal_area=12.0, lateral_area=12.0)
+    scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=seed)
+    return scene
+
+
+def given_ship() -> Scene:
+    """A ship led by six drivers off its centre, with a crane that slews and a load on its rod."""
+    scene = Scene(name="given ship")
+    scene.add_body("ship", mass=1e6, inertia=(1e8, 2e9, 2e9), center_of_mass=(3.0, 0.5, 1.0))
+    scene.add_joint("motion", kind="free", first="ground", second="ship", point=(2.0, 1.0, 3.0))
+    for i, name in enumerate(("x", "y", "z", "roll", "pitch", "yaw")):
+        curve = Curve.harmonic(amplitude=0.3 - 0.04 * i, omega=0.7 + 0.1 * i, phase=0.4 * i - 0.5 * np.pi)
+        scene.add_driver("motion", coordinate=name, curve=curve, name=f"motion {name}")
+    scene.add_body("jib", mass=2e4, inertia=(1e5, 4e5, 4e5), position=(8.0, 0.0, 12.0))
+    scene.add_joint("slew", kind="revolute", first="ship", second="jib", point=(0.0, 0.0, 10.0))
+    scene.add_driver("slew", curve=moved(0.0, 0.8))
+    scene.add_body("load", mass=3e4, inertia=(1e4, 1e4, 1e4), position=(16.0, 0.0, 2.0))
+    scene.add_joint("rod", kind="distance", first="jib", second="load", first_point=(8.0, 0.0, 0.0), length=10.0)
+    return scene
+
+
+def reversed_slide() -> Scene:
+    """A slide and a hinge whose first body is the outer one, and a door on two hinges beside them."""
+    scene = Scene(name="reversed")
+    scene.add_body("cart", mass=50.0, inertia=(9.0, 8.0, 7.0), position=(0.3, 0.0, 0.0))
+    scene.add_joint("rail", kind="prismatic", first="cart", second="ground", axis=(1.0, 0.2, 0.0))
+    scene.add_driver("rail", curve=Curve.harmonic(amplitude=0.4, omega=2.0, phase=-0.5 * np.pi))
+    scene.add_body("wheel", mass=20.0, inertia=(3.0, 2.0, 4.0), position=(0.3, 0.1, 0.5))
+    scene.add_joint("axle", kind="revolute", first="wheel", second="cart", axis=(0.0, 1.0, 0.3))
+    scene.add_driver("axle", curve=Curve.harmonic(amplitude=1.4, omega=1.1, phase=-0.5 * np.pi))
+    scene.add_body("door", mass=30.0, inertia=(4.0, 4.0, 1.0), position=(0.8, 0.1, 0.5))
+    for name, height in (("upper", 1.0), ("lower", 0.0)):
+        scene.add_joint(
+            name, kind="revolute", first="wheel", second="door", point=(0.3, 0.1, height), axis=(0.1, 0.0, 1.0)
+        )
+    return scene
+
+
+def four_bar() -> Scene:
+    """A crank that a driver turns round and round, in a loop of three spatial joints and a pin."""
+    scene = Scene(name="four bar")
+    corners = np.array([[0.0, 0.0], [0.907, 1.782], [4.62, 5.13], [6.0, 0.0]])
+    for name, a, b in zip(("crank", "coupler", "rocker"), corners, corners[1:], strict=False):
+        x, z = 0.5 * (a + b)
+        scene.add_body(name, mass=10.0, inertia=(1.0, 1.0, 1.0), position=(x, 0.0, z))
+    ends = ("ground", "crank", "coupler", "rocker", "ground")
+    for i, kind in enumerate(("revolute", "spherical", "universal", "revolute")):
+        axes = {"axis": (0.0, 1.0, 0.0)} if kind == "revolute" else {}
+        point = (corners[i][0], 0.0, corners[i][1])
+        scene.add_joint(f"pin {i}", kind=kind, first=ends[i], second=ends[i + 1], point=point, **axes)
+    scene.add_driver("pin 0", curve=Curve.quintic(start_time=0.0, end_time=6.0, start=0.0, end=5.0))
+    return scene
+
+
+SCENES = {
+    "crane": lift, "crane on the rod's rung": lambda: lift(rung="quasi-static"), "given ship": given_ship,
+    "reversed": reversed_slide, "four bar": four_bar,
+}  # fmt: skip
+
+
+def recorded(scene: Scene, t_end: float, **settings: Any) -> dict[str, Any]:
+    model = scene.compile()
+    names = model.channel_names(defaults_only=False)
+    run = Run(scene, t_end=t_end, model=model, channels=names, **settings)
+    run.advance(t_end)
+    return dict(run.core.channels())
+
+
+def test_what_is_driven_is_told_and_chosen() -> None:
+    model = lift().compile()
+    assert sorted(model.tree["driven"]) == sorted(DRIVEN)
+    assert model.tree["loop_rows"] == 0
+    assert len(given_ship().compile().tree["driven"]) == 7
+    assert sorted(reversed_slide().compile().tree["driven"]) == ["axle", "rail"]
+    assert four_bar().compile().tree["driven"] == ["pin 0"]
+    assert simulate(lift(), 0.2).stats["formulation"] == "recursive"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_accelerations_at_the_same_state_are_those_of_rows(name: str) -> None:
+    scene = SCENES[name]()
+    model = scene.compile()
+    y = model.initial_state
+    for t in (0.0, 1.7, 3.1):
+        run = Run(scene, t_end=t + 1e-9, model=model, formulation="redundant", rtol=1e-9)
+        run.advance(t + 1e-9)
+        y = run.core.state.values
+        found = [
+            _core.Evaluator(model, formulation).accelerations(t + 1e-9, y) for formulation in FORMULATIONS
+        ]
+        assert np.abs(found[0] - found[1]).max() < 1e-10 * np.abs(found[0]).max()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_run_at_a_fixed_step_is_that_of_rows(name: str) -> None:
+    how = {"t_end": 3.0, "dt_out": 0.5, "integrator": "rk4", "dt": 0.0025}
+    rows, driven = (recorded(SCENES[name](), formulation=form, **how) for form in FORMULATIONS)
+    for channel in ("position", "velocity", "acceleration", "driver_force"):
+        scale = np.abs(rows[channel]).max()
+        assert np.abs(driven[channel] - rows[channel]).max() < 1e-8 * scale, channel
+    work = np.abs(rows["absolute_work"]).max()
+    assert np.abs(driven["absolute_work"] - rows["absolute_work"]).max() < 1e-7 * work
+    assert np.abs(driven["energy_balance"]).max() < 1e-6 * work
+
+
+def struck() -> Scene:
+    """A cart that takes up 1.5 m/s at once, with a pendulum on it."""
+    scene = Scene(name="struck")
+    scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    rest = Curve.constant(value=0.0)
+    runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
+    scene.add_driver("rail", curve=rest.then(time=1.0, curve=runs))
+    scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
+    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    return scene
+
+
+def test_a_rate_that_jumps_strikes_the_others_by_its_impulse() -> None:
+    rows, driven = (
+        recorded(struck(), 2.0, formulation=form, integrator="rk4", dt=0.005, dt_out=0.25)
+        for form in FORMULATIONS
+    )
+    assert np.abs(rows["velocity"][4:, 1, 0]).max() > 0.5  # the bob is struck
+    for channel in ("position", "velocity"):
+        assert np.abs(driven[channel] - rows[channel]).max() < 1e-9, channel
+
+
+def test_a_run_cut_where_a_rate_jumps_is_struck_once() -> None:
+    settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-9, "dt_out": 0.25}
+    whole = recorded(struck(), 2.0, **settings)
+    run = Run(struck(), t_end=2.0, **settings)
+    for stop in (0.5, 1.0, 1.0, 1.25, 2.0):
+        run.advance(stop)
+    cut = dict(run.core.channels())
+    assert np.abs(cut["position"] - whole["position"]).max() < 1e-7
+    first = Run(struck(), t_end=1.0, **settings)
+    first.advance(1.0)
+    second = Run(struck(), t_end=2.0, start=first.core.state, **settings)
+    second.advance(2.0)
+    assert np.abs(dict(second.core.channels())["position"][-1] - whole["position"][-1]).max() < 1e-7
+
+
+def test_a_restart_has_the_bits_of_the_whole() -> None:
+    settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-6, "dt_out": 0.5}
+    whole = Run(lift(), t_end=3.0, **settings)
+    whole.advance(3.0)
+    first = Run(lift(), t_end=1.5, **settings)
+    first.advance(1.5)
+    second = Run(lift(), t_end=3.0, start=first.core.state, **settings)
+    second.advance(3.0)
+    assert np.array_equal(
+        dict(second.core.channels())["position"][-1], dict(whole.core.channels())["position"][-1]
+    )
+
+
+def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
+    scene = Scene(name="far")
+    scene.add_vessel(shipped_database())
+    scene.add_crane(slew=-1.0, s1=1.5, s2=1.0, payload_mass=20e3, held=False)
+    scene.add_driver("A", curve=-1.0)
+    scene.add_driver("main_cylinder", curve=moved(1.5, 40.0))
+    scene.add_driver("knuckle_cylinder", curve=1.0)
+    with pytest.raises(SeacraneError, match="driver 'main_cylinder'.*stroke of"):
+        simulate(scene, 9.0)
+
+
+def test_a_stop_that_holds_leaves_one_unknown_less_and_the_same_motion() -> None:
+    scene = Scene(name="stop")
+    scene.add_body("bar", mass=5.0, inertia=(1.0, 2.0, 1.0), position=(1.0, 0.0, 0.0))
+    scene.add_joint("pin", kind="revolute", first="ground", second="bar", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(2.0, 0.0, -1.0))
+    scene.add_joint("knee", kind="revolute", first="bar", second="bob", point=(2.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    scene.add_end_stop("pin", maximum=0.4)
+    rows, driven = (recorded(scene, 2.0, formulation=form, rtol=1e-9, dt_out=0.25) for form in FORMULATIONS)
+    assert np.abs(driven["position"] - rows["position"]).max() < 1e-6
+
+
+@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@pytest.mark.parametrize("name", ["crane", "crane on the rod's rung", "given ship"])
+def test_lanes_follow_drivers_too(name: str) -> None:
+    scenes = [lift(rung="elastic" if name == "crane" else "quasi-static", seed=seed) for seed in range(1, 5)]
+    if name == "given ship":
+        scenes = [given_ship()] * 4
+    evaluator = _core.LaneEvaluator(module_of(4), [scene.compile() for scene in scenes])
+    start, rng = evaluator.start(), np.random.default_rng(1)
+    for t in (0.0, 1.1, 2.9):
+        state = start + 1e-3 * rng.normal(size=start.shape)
+        alone = evaluator.scalar_derivative(t, state)
+        assert np.abs(evaluator.derivative(t, state) - alone).max() < 1e-9 * np.abs(alone).max()
