@@ -437,7 +437,12 @@ def _run(
     count = len(members)
     left = sum(len(every[number]) for number in wanted)
     with progress_bar(count, count - left, progress) as bar:
-        fill(store, Job(study), packs, executor, done=bar.add, check=check)
+
+        def look(outcome: Outcome) -> None:
+            bar.tell(outcome, study.lanes)
+            check(outcome)
+
+        fill(store, Job(study), packs, executor, done=bar.add, check=look)
 
 
 def _places(members: Members, number: int, size: int) -> range:

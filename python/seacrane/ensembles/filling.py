@@ -64,11 +64,20 @@ class Progress:
 
     def __init__(self, bar: Any) -> None:
         self._bar = bar
+        self._told = False
 
     def add(self, count: int) -> None:
         """So many members more are done."""
         if self._bar is not None:
             self._bar.update(count)
+
+    def tell(self, outcome: Outcome, lanes: int) -> None:
+        """How the first member went: beside how many, or why by itself."""
+        if self._bar is None or lanes == 1 or self._told:
+            return
+        self._told = True
+        why = outcome.kept_apart
+        self._bar.set_postfix_str(f"one by one: {why}" if why else f"{lanes} side by side")
 
     def left(self, count: int) -> None:
         """So many members are still expected."""

@@ -42,7 +42,7 @@ def lanes_of(given: int | None) -> int:
 
 
 def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float], None]) -> bool:
-    """Step runs that begin together as far as they go side by side, and note in each what came of it.
+    """Step runs as far as they go side by side, those that differ apart, and note in each what came of it.
 
     Parameters
     ----------
@@ -55,6 +55,32 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
         False when Ctrl-C stopped them.
     """
     module = module_of(lanes)
+    for group in _alike(runs) if module is not None else [runs]:
+        if not _advance_alike(group, module, lanes, look):
+            return False
+    return True
+
+
+def _alike(runs: Sequence[Run]) -> list[list[Run]]:
+    """Groups of runs that can be stepped beside their first, in the order of their first; others alone."""
+    groups: list[list[Run]] = []
+    for run in runs:
+        beside = next((group for group in groups if not _differ(group[0], run)), None)
+        if beside is None:
+            groups.append([run])
+        else:
+            beside.append(run)
+    # What is alone is told why it is not beside the first of all.
+    return groups if len(groups) < len(runs) else [list(runs)]
+
+
+def _differ(one: Run, other: Run) -> bool:
+    return one.t_end != other.t_end or bool(_core.kept_apart([one.core, other.core]))
+
+
+def _advance_alike(
+    runs: Sequence[Run], module: ModuleType | None, lanes: int, look: Callable[[float], None]
+) -> bool:
     why = _kept_apart(runs, module)
     if why or module is None:
         note_apart(runs, why)
