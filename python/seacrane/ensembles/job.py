@@ -64,26 +64,17 @@ class Job:
             raise WorkerVersionError(
                 f"a worker has seacrane {__version__}, and the ensemble is of {version}; install the same"
             )
-        made = {one.index: one for members in self._groups(pack) for one in self._together(members)}
-        return [made[index] for index, _ in pack]
+        return [outcome for members in self._groups(pack) for outcome in self._together(members)]
 
     def _groups(self, pack: Pack) -> list[Pack]:
-        """Members that are stepped side by side, those that differ in their seas alone before others; without
-        lanes, a few at a time.
-
-        They follow from the pack alone, in whatever order the parameters stand.
-        """
+        """Members that are stepped side by side, by their numbers; without lanes, a few at a time."""
         lanes = self.study.lanes
         if lanes == 1:
             return [pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER)]
-        alike: dict[str, list[tuple[int, Mapping[str, Value]]]] = {}
+        beside: dict[int, list[tuple[int, Mapping[str, Value]]]] = {}
         for index, values in pack:
-            others = sorted(self.study.parts(values)[1].items())
-            alike.setdefault(repr(others), []).append((index, values))
-        whole = [members[: len(members) // lanes * lanes] for members in alike.values()]
-        left = [members[len(members) // lanes * lanes :] for members in alike.values()]
-        groups = [tuple(each[at : at + lanes]) for each in whole for at in range(0, len(each), lanes)]
-        return [*groups, *_side_by_side(left, lanes)]
+            beside.setdefault(index // lanes, []).append((index, values))
+        return [tuple(members) for members in beside.values()]
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
@@ -121,17 +112,6 @@ class Job:
         result = require_finite(run.result())
         told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
         return Outcome(index=index, kept=self.study.kept_of(result), **told)
-
-
-def _side_by_side(parts: Sequence[Sequence[tuple[int, Mapping[str, Value]]]], lanes: int) -> list[Pack]:
-    """Parts of fewer members than lanes, filled up by whole parts that follow."""
-    groups: list[Pack] = []
-    for part in filter(None, parts):
-        if groups and len(groups[-1]) + len(part) <= lanes:
-            groups[-1] = (*groups[-1], *part)
-        else:
-            groups.append(tuple(part))
-    return groups
 
 
 def _tried(work: Callable[[], Some]) -> Some | str:
