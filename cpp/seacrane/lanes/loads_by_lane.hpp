@@ -18,23 +18,30 @@ class LoadsByLane {
  public:
   using T = Pack<L>;
 
-  /// For lists of loads of `bodies` bodies, with `states` states of all loads.
-  LoadsByLane(std::vector<const LoadList*> lists, int bodies, std::size_t states)
+  /// Loads of one kind, those of each lane.
+  using Lists = std::array<const LoadList*, L>;
+
+  /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces others
+  /// ask for.
+  LoadsByLane(std::vector<Lists> lists, const std::vector<Lists>& read, int bodies, std::size_t states)
       : lists_(std::move(lists)), wrench_(idx(bodies) + 1), total_(idx(bodies) + 1), rates_(states, 0.0) {
-    for (const LoadList* list : lists_) {
-      for (std::size_t i = 0; i < list->size(); ++i) {
-        bodies_.insert(bodies_.end(), list->bodies[i].begin(), list->bodies[i].end());
-        const StateRange own = list->states(i);
+    for (const Lists& list : lists_) {
+      look_at(list);
+      for (std::size_t i = 0; i < list[0]->size(); ++i) {
+        const StateRange own = list[0]->states(i);
         for (int k = own.first; k < own.first + own.count; ++k) own_states_.push_back(idx(k));
       }
     }
+    for (const Lists& list : read) look_at(list);
     std::ranges::sort(bodies_);
     bodies_.erase(std::ranges::unique(bodies_).begin(), bodies_.end());
     for (auto& lane : kinematics_) lane.assign(idx(bodies) + 1, BodyKinematics<double>::ground());
     for (auto& lane : states_) lane.assign(states, 0.0);
   }
 
-  const std::vector<const LoadList*>& lists() const { return lists_; }
+  const std::vector<Lists>& lists() const { return lists_; }
+  /// Whether there is anything to look at.
+  bool any() const { return !bodies_.empty(); }
   /// Those on which the loads act, or look.
   const std::vector<int>& bodies() const { return bodies_; }
   void freeze(std::size_t lane) { frozen_[lane] = true; }
@@ -83,7 +90,7 @@ class LoadsByLane {
           for (const int b : bodies_) wrench_[idx(b)] = BodyLoad<double>();
           LoadSum<double> of{wrench_.data(), rates_.data()};
           const LoadInput<double> in = input(lane, inertial);
-          for (const LoadList* list : lists_) list->apply(in, of);
+          for (const Lists& list : lists_) list[idx(lane)]->apply(in, of);
           put(lane, of);
           for (const int b : bodies_) {
             for (int i = 0; i < 3; ++i) {
@@ -113,6 +120,10 @@ class LoadsByLane {
   }
 
  private:
+  void look_at(const Lists& list) {
+    for (const std::vector<int>& on : list[0]->bodies) bodies_.insert(bodies_.end(), on.begin(), on.end());
+  }
+
   static void read_body(const BodyKinematics<T>& from, int lane, BodyKinematics<double>& to) {
     for (int i = 0; i < 3; ++i) {
       to.position[i] = from.position[i][lane];
@@ -122,7 +133,7 @@ class LoadsByLane {
     for (int i = 0; i < 9; ++i) to.rotation(i) = from.rotation(i)[lane];
   }
 
-  std::vector<const LoadList*> lists_;
+  std::vector<Lists> lists_;
   std::vector<int> bodies_;
   std::vector<std::size_t> own_states_;
   std::array<bool, L> frozen_{};

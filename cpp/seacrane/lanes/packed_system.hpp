@@ -35,9 +35,10 @@ class PackedSystem final : public LaneSystem {
       : model_(models.front()->merged ? models.front()->merged : models.front()),
         tree_(build_tree(*model_)),
         articulated_(tree_, model_->body_count()),
-        actuators_(*model_, tree_),
+        actuators_(actuators_of(models, tree_)),
         driven_(*model_, tree_),
-        by_lane_(without_packs(actuators_.others()), model_->body_count(), model_->load_states.size()),
+        by_lane_(loads_by_lane(models), drives_by_lane(models), model_->body_count(),
+                 model_->load_states.size()),
         tensions_(by_lane_.lists(), model_->body_count(), tree_.speeds),
         torque_(idx(tree_.speeds), T(0.0)),
         speeds_(tree_.positions),
@@ -53,13 +54,20 @@ class PackedSystem final : public LaneSystem {
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
     frames_.assign(model_->vessels.size(), YawFrame<T>(BodyKinematics<T>::ground()));
-    for (const BodyModel& body : model_->bodies) turning_.emplace_back(body.inertia);
+    for (std::size_t b = 0; b < bodies; ++b) bodies_of_lanes_.emplace_back(models, b);
+    for (std::size_t g = 0; g < model_->gravity.size(); ++g) {
+      T weight;
+      for (int lane = 0; lane < L; ++lane) weight.set(lane, models[idx(lane)]->stepped().gravity[g].weight);
+      weights_.push_back(weight);
+    }
     wrench_.resize(bodies + 1);
     for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
-    for (const auto& list : actuators_.others().lists) {
-      if (list->kind.packs) applied_.emplace_back(packed(*list), &*list);
+    for (const auto& list : actuators_.front().others().lists) {
+      if (is_packed(models, *list)) applied_.emplace_back(packed(*list), &*list);
     }
-    for (const auto& one : actuators_.along()) along_.push_back(packed(*one.list));
+    for (const auto& one : actuators_.front().along()) {
+      along_.push_back(is_packed(models, *one.list) ? packed(*one.list) : nullptr);
+    }
   }
 
   std::size_t size() const override { return L * state_.size(); }
@@ -112,6 +120,81 @@ class PackedSystem final : public LaneSystem {
   }
 
  private:
+  /// Mass and inertia of a body, which lanes may have each for itself.
+  struct BodyOfLanes {
+    T mass;
+    TurningInertia turning;  // of the first
+    bool alike = true;
+    Mat3<T> inertia;  // body axes
+
+    BodyOfLanes(const LaneModels& models, std::size_t body)
+        : turning(models.front()->stepped().bodies[body].inertia) {
+      for (int lane = 0; lane < L; ++lane) {
+        const BodyModel& own = models[idx(lane)]->stepped().bodies[body];
+        alike = alike && own.inertia == models.front()->stepped().bodies[body].inertia;
+        mass.set(lane, own.mass);
+        for (int i = 0; i < 9; ++i) inertia(i).set(lane, own.inertia(i));
+      }
+    }
+    Symmetric3<T> at(const Mat3<T>& rotation) const {
+      if (alike) return turning.template at<T>(rotation);
+      Mat3<T> turned;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          turned(i, j) = rotation(i, 0) * inertia(0, j) + rotation(i, 1) * inertia(1, j) +
+                         rotation(i, 2) * inertia(2, j);
+        }
+      }
+      return Symmetric3<T>::turned(turned, rotation);
+    }
+  };
+
+  using Lists = typename LoadsByLane<L>::Lists;
+
+  /// One for all lanes, or one for each where their loads differ.
+  static std::vector<TreeActuators> actuators_of(const LaneModels& models, const BodyTree& tree) {
+    std::vector<TreeActuators> out;
+    out.emplace_back(models.front()->stepped(), tree);
+    const bool alike = std::ranges::all_of(models.front()->stepped().loads.lists, [&](const auto& list) {
+      return !differs(models, list->kind);
+    });
+    for (std::size_t lane = 1; lane < L && !alike; ++lane) out.emplace_back(models[lane]->stepped(), tree);
+    return out;
+  }
+  static bool differs(const LaneModels& models, const LoadKind& kind) {
+    return std::ranges::any_of(models, [&](const auto& model) {
+      return model != models.front() && loads_differ(*models.front(), *model, kind);
+    });
+  }
+  static bool is_packed(const LaneModels& models, const LoadList& list) {
+    return list.kind.packs && !differs(models, list.kind);
+  }
+  const TreeActuators& actuators_of_lane(std::size_t lane) const {
+    return actuators_[actuators_.size() == 1 ? 0 : lane];
+  }
+  /// Loads that take no packs, or have other numbers in other lanes.
+  std::vector<Lists> loads_by_lane(const LaneModels& models) const {
+    std::vector<Lists> out;
+    const auto& first = actuators_.front().others().lists;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (is_packed(models, *first[i])) continue;
+      Lists& lists = out.emplace_back();
+      for (std::size_t lane = 0; lane < L; ++lane) lists[lane] = &*actuators_of_lane(lane).others().lists[i];
+    }
+    return out;
+  }
+  /// Lists with loads along coordinates of the tree whose forces differ.
+  std::vector<Lists> drives_by_lane(const LaneModels& models) const {
+    std::vector<Lists> out;
+    const auto& first = actuators_.front().along();
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      if (is_packed(models, *first[k].list)) continue;
+      Lists& lists = out.emplace_back();
+      for (std::size_t lane = 0; lane < L; ++lane) lists[lane] = actuators_of_lane(lane).along()[k].list;
+    }
+    return out;
+  }
+
   /// Places the bodies, and factors their inertias.
   void factor() {
     articulated_.place(state_.data(), state_.data() + speeds_, bodies_.data());
@@ -187,14 +270,6 @@ class PackedSystem final : public LaneSystem {
     }(std::type_identity<LoadTypes>{});
   }
 
-  static std::vector<const LoadList*> without_packs(const CompiledLoads& loads) {
-    std::vector<const LoadList*> out;
-    for (const auto& list : loads.lists) {
-      if (!list->kind.packs) out.push_back(&*list);
-    }
-    return out;
-  }
-
   static Waves waves_of(const LaneModels& models, std::size_t load) {
     std::array<std::shared_ptr<const WaveTable>, L> force;
     std::array<std::shared_ptr<const DriftTable>, L> drift;
@@ -216,7 +291,8 @@ class PackedSystem final : public LaneSystem {
       const BodyKinematics<T>& k = bodies_[idx(b)];
       BodyLoad<T>& begin = wrench_[idx(b)];
       if (body.vessel < 0) {
-        const CompactInertia<T> inertia{T(body.mass), turning_[idx(b)].template at<T>(k.rotation)};
+        const BodyOfLanes& of = bodies_of_lanes_[idx(b)];
+        const CompactInertia<T> inertia{of.mass, of.at(k.rotation)};
         articulated_.set_inertia(b, inertia);
         begin.force = Vec3<T>(T(0.0), T(0.0), T(0.0));
         begin.moment = cross<T>(inertia.turning * k.angular_velocity, k.angular_velocity);
@@ -234,17 +310,16 @@ class PackedSystem final : public LaneSystem {
   void evaluate_loads(double t, LoadSum<T>& sum) {
     const T* const states = state_.data() + loads_;
     const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
-    for (const Gravity& load : model_->gravity) load.apply<T>(input, sum);
+    for (std::size_t g = 0; g < weights_.size(); ++g) weigh(model_->gravity[g], weights_[g], input);
     for (const auto& [kind, list] : applied_) kind->apply(*list, input, sum);
-    if (!by_lane_.lists().empty()) {
-      by_lane_.read(input);
-      by_lane_.apply(tensions_.none(), sum);
-    }
+    if (by_lane_.any()) by_lane_.read(input);
+    if (!by_lane_.lists().empty()) by_lane_.apply(tensions_.none(), sum);
     std::fill(torque_.begin(), torque_.end(), T(0.0));
-    actuators_.apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
+    actuators_.front().apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
                         torque_.data(), sum,
                         [&](std::size_t k, const LoadInput<T>& in, const T& value, const T& rate) {
-                          const TreeActuators::Along& one = actuators_.along()[k];
+                          const TreeActuators::Along& one = actuators_.front().along()[k];
+                          if (along_[k] == nullptr) return drive_by_lane(k, value, rate);
                           return along_[k]->force(*one.list, one.at, in, value, rate);
                         });
     for (std::size_t v = 0; v < frames_.size(); ++v) {
@@ -253,6 +328,29 @@ class PackedSystem final : public LaneSystem {
       vessel.apply<T>(input, frames_[v], state_.data() + own, rate_.data() + own, sum);
     }
     for (Waves& waves : waves_) apply(waves, t, sum);
+  }
+
+  T drive_by_lane(std::size_t k, const T& value, const T& rate) const {
+    T out(0.0);
+    by_lane_.for_each_lane(
+        [&](int lane) {
+          const TreeActuators::Along& one = actuators_of_lane(idx(lane)).along()[k];
+          const LoadInput<double> in = by_lane_.input(lane, tensions_.none());
+          out.set(lane, one.list->force(one.at, in, value[lane], rate[lane]));
+        },
+        [&](int lane) { out.set(lane, std::numeric_limits<double>::quiet_NaN()); });
+    return out;
+  }
+
+  void weigh(const Gravity& load, const T& weight, const LoadInput<T>& in) {
+    const Vec3<T> force(T(0.0), T(0.0), -weight);
+    BodyLoad<T>& on = wrench_[idx(load.body)];
+    if (load.center_of_mass.isZero(0.0)) {
+      on.force += force;
+      return;
+    }
+    const Vec3<T> lever = in.bodies[load.body].rotation * load.center_of_mass.cast<T>();
+    on.add(force, lever);
   }
 
   void apply(Waves& waves, double t, LoadSum<T>& sum) {
@@ -274,7 +372,7 @@ class PackedSystem final : public LaneSystem {
   std::shared_ptr<const Model> model_;
   BodyTree tree_;
   ArticulatedTree<T> articulated_;
-  TreeActuators actuators_;
+  std::vector<TreeActuators> actuators_;  // by lane, or of all
   DrivenSpeeds driven_;
   LoadsByLane<L> by_lane_;
   TensionsByLane<L> tensions_;
@@ -288,11 +386,12 @@ class PackedSystem final : public LaneSystem {
   std::vector<T> state_, rate_;
   std::vector<BodyKinematics<T>> bodies_;
   std::vector<YawFrame<T>> frames_;
-  std::vector<TurningInertia> turning_;
+  std::vector<BodyOfLanes> bodies_of_lanes_;
+  std::vector<T> weights_;  // of Model::gravity
   std::vector<BodyLoad<T>> wrench_;
   std::vector<Waves> waves_;
   std::vector<std::pair<const PackedLoad<L>*, const LoadList*>> applied_;
-  std::vector<const PackedLoad<L>*> along_;  // by load of actuators_.along()
+  std::vector<const PackedLoad<L>*> along_;  // by load along the tree; null: by lane
 };
 
 }  // namespace seacrane

@@ -16,15 +16,17 @@ class TensionsByLane {
  public:
   using T = Pack<L>;
 
-  TensionsByLane(const std::vector<const LoadList*>& lists, int bodies, int speeds)
+  using Lists = typename LoadsByLane<L>::Lists;
+
+  TensionsByLane(const std::vector<Lists>& lists, int bodies, int speeds)
       : bodies_(bodies), unit_lane_(idx(bodies) + 1, Vec6d::Zero()), path_lane_(unit_lane_) {
-    for (const LoadList* list : lists) {
-      for (std::size_t i = 0; i < list->size(); ++i) {
-        if (list->inertial_place(i) < 0) continue;
+    for (const Lists& list : lists) {
+      for (std::size_t i = 0; i < list[0]->size(); ++i) {
+        if (list[0]->inertial_place(i) < 0) continue;
         Line& line = lines_.emplace_back();
         line.list = list;
         line.at = i;
-        line.touched = list->bodies[i];
+        line.touched = list[0]->bodies[i];
         std::erase(line.touched, bodies);  // the ground
         for (auto* all : {&line.unit, &line.path}) all->assign(line.touched.size(), Wrench<T>::zero());
         line.rates.assign(idx(speeds), T(0.0));
@@ -60,7 +62,7 @@ class TensionsByLane {
 
  private:
   struct Line {
-    const LoadList* list;
+    Lists list;
     std::size_t at;
     std::vector<int> touched;
     std::vector<Wrench<T>> unit, path;  // of 1 N, with and without friction, by touched body
@@ -78,10 +80,10 @@ class TensionsByLane {
       const LoadInput<double> in = loads.input(lane, none());
       for (Line& line : lines_) {
         for (const int b : line.touched) unit_lane_[idx(b)] = path_lane_[idx(b)] = Vec6d::Zero();
-        line.list->add_unit(line.at, 0, in, unit_lane_.data());
-        line.list->add_path(line.at, in, path_lane_.data());
-        const InertialTension now = line.list->inertial(line.at, in, acceleration_.data());
-        put(line, lane, now);
+        const LoadList& list = *line.list[idx(lane)];
+        list.add_unit(line.at, 0, in, unit_lane_.data());
+        list.add_path(line.at, in, path_lane_.data());
+        put(line, lane, list.inertial(line.at, in, acceleration_.data()));
       }
     };
     loads.for_each_lane(one, [&](int lane) {

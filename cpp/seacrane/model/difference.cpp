@@ -48,25 +48,69 @@ std::string difference_of_scenes(const SceneDescription& one, const SceneDescrip
   if (one.orientation != other.orientation) return "orientation";
   if (one.baumgarte != other.baumgarte) return "baumgarte";
   if (one.length_scale != other.length_scale) return "length_scale";
-  std::string out = difference("body", one.bodies, other.bodies);
-  if (out.empty()) out = difference("joint", one.joints, other.joints);
+  std::string out = difference("joint", one.joints, other.joints);
   if (out.empty()) out = difference("driver", one.drivers, other.drivers);
   for (std::size_t i = 0; i < one.loads.lists.size() && out.empty(); ++i) {
-    out = one.loads.lists[i]->difference(*other.loads.lists[i]);
+    if (one.loads.lists[i]->names() != other.loads.lists[i]->names()) {
+      out = one.loads.lists[i]->difference(*other.loads.lists[i]);
+    }
   }
   if (out.empty()) out = difference("vessel", one.vessels, other.vessels);
   if (out.empty()) out = difference("limit", one.limits, other.limits);
   return out;
 }
 
+/// Of what is stepped: a hull is the same body in all lanes, and others have only masses of their own.
+std::string difference_of_bodies(const Model& one, const Model& other) {
+  for (std::size_t b = 0; b < std::min(one.bodies.size(), other.bodies.size()); ++b) {
+    const BodyModel &here = one.bodies[b], &there = other.bodies[b];
+    const std::string what = "body '" + here.name + "'";
+    if (here.name != there.name || (here.vessel < 0) != (there.vessel < 0)) return what;
+    if (here.center_of_mass != there.center_of_mass) return what + " (center_of_mass)";
+    if (here.vessel >= 0 && (here.mass != there.mass || here.inertia != there.inertia)) {
+      return what + " (mass or inertia), which has hydrodynamics";
+    }
+  }
+  return one.bodies.size() == other.bodies.size() ? "" : "the bodies that are merged";
+}
+
+/// A mass within a merged body moves its centre, from which points are counted.
+std::string difference_of_geometry(const Model& one, const Model& other) {
+  for (std::size_t kind = 0; kind < one.joints.size(); ++kind) {
+    for (std::size_t i = 0; i < std::min(one.joints[kind].size(), other.joints[kind].size()); ++i) {
+      const JointData &here = one.joints[kind][i], &there = other.joints[kind][i];
+      const std::string what = "where joint '" + one.elements[idx(here.element)].name + "' stands on its bodies";
+      if (here.first != there.first || here.second != there.second || here.first_point != there.first_point ||
+          here.second_point != there.second_point || here.first_axes != there.first_axes ||
+          here.second_axes != there.second_axes) {
+        return what;
+      }
+    }
+    if (one.joints[kind].size() != other.joints[kind].size()) return "the bodies that are merged";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string difference(const Model& one, const Model& other) {
-  const std::string described = difference_of_scenes(one.description, other.description);
-  if (!described.empty()) return described;
+  std::string out = difference_of_scenes(one.description, other.description);
+  if (!out.empty()) return out;
   if (one.merges != other.merges) return "whether bodies are merged";
   if (one.closed != other.closed) return "the limits that hold";
-  return difference_of_waves(one, other);
+  out = difference_of_bodies(one.stepped(), other.stepped());
+  if (out.empty()) out = difference_of_geometry(one.stepped(), other.stepped());
+  return out.empty() ? difference_of_waves(one, other) : out;
+}
+
+bool loads_differ(const Model& one, const Model& other, const LoadKind& kind) {
+  const SceneDescription &here = one.description, &there = other.description;
+  if (!difference("body", here.bodies, there.bodies).empty()) return true;
+  for (std::size_t i = 0; i < here.loads.lists.size(); ++i) {
+    if (&here.loads.lists[i]->kind != &kind) continue;
+    return !here.loads.lists[i]->difference(*there.loads.lists[i]).empty();
+  }
+  return false;
 }
 
 }  // namespace seacrane

@@ -6,8 +6,12 @@
 
 namespace seacrane {
 
-/// What tells two compiled scenes apart beside their seas, such as "body 'load' (mass)"; empty where they are
-/// stepped alike but for the values of their waves. What is only recorded does not count.
+/// What tells two compiled scenes apart in what runs side by side share, such as "joint 'pin' (kind)"; empty:
+/// nothing. They may differ in the values of their waves, in their start, in the mass and inertia of bodies
+/// without hydrodynamics, and in the parameters of their loads. What is only recorded does not count.
 std::string difference(const Model& one, const Model& other);
+
+/// Whether their loads of a kind, or bodies on which these act, have other numbers.
+bool loads_differ(const Model& one, const Model& other, const LoadKind& kind);
 
 }  // namespace seacrane

@@ -22,14 +22,38 @@ LaneModels lane_models(const std::vector<Simulation*>& runs, std::size_t lanes) 
   return out;
 }
 
-IntegratorOptions lane_options(const Simulation& run, std::size_t lanes) {
-  IntegratorOptions out = run.step_options();
-  for (std::vector<double>* given : {&out.absolute_tolerance, &out.tolerance_growth}) {
-    std::vector<double> tolerance;
-    for (const double one : *given) tolerance.insert(tolerance.end(), lanes, one);
-    *given = std::move(tolerance);
+/// Values of each lane beside each other, those of the first where there is no run.
+std::vector<double> interleaved(const std::vector<std::vector<double>>& of_runs, std::size_t lanes) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < of_runs.front().size(); ++i) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      out.push_back(of_runs[lane < of_runs.size() ? lane : 0][i]);
+    }
   }
+  return out;
+}
+
+IntegratorOptions lane_options(const std::vector<Simulation*>& runs, std::size_t lanes) {
+  IntegratorOptions out = runs.front()->step_options();
+  std::vector<std::vector<double>> absolute, growth;
+  for (const Simulation* run : runs) {
+    const IntegratorOptions own = run->step_options();
+    absolute.push_back(own.absolute_tolerance);
+    growth.push_back(own.tolerance_growth);
+  }
+  out.absolute_tolerance = interleaved(absolute, lanes);
+  out.tolerance_growth = interleaved(growth, lanes);
   out.lanes = lanes;
+  return out;
+}
+
+/// The kinks of all runs, by time.
+std::vector<Kink> kinks_of(const std::vector<Simulation*>& runs) {
+  std::vector<Kink> out;
+  for (const Simulation* run : runs) {
+    out.insert(out.end(), run->model()->kinks.begin(), run->model()->kinks.end());
+  }
+  std::ranges::stable_sort(out, [](const Kink& a, const Kink& b) { return a.time < b.time; });
   return out;
 }
 
@@ -43,13 +67,12 @@ std::string kept_apart(const Simulation& run) {
 bool by_one_method(const Simulation& one, const Simulation& other) {
   const RunOptions &a = one.options(), &b = other.options();
   return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance &&
-         a.max_step == b.max_step &&
-         one.step_options().absolute_tolerance == other.step_options().absolute_tolerance;
+         a.max_step == b.max_step;
 }
 
 std::string kept_apart(const Simulation& first, const Simulation& run) {
   const std::string other = difference(*first.model(), *run.model());
-  if (!other.empty()) return "the lifts differ in more than their seas: in " + other;
+  if (!other.empty()) return "the lifts differ in what lanes share: in " + other;
   if (!by_one_method(first, run)) return "the runs have different methods";
   if (run.time() != first.time()) return "the runs begin at different times";
   if (run.inputs() != first.inputs()) return "the runs have different inputs";
@@ -85,7 +108,8 @@ SideBySide::SideBySide(std::vector<Simulation*> runs, const LaneModule& module)
       lanes_(module.lanes),
       states_(static_cast<std::size_t>(runs_.front()->state_size())),
       system_(module.make(lane_models(runs_, lanes_))),
-      integrator_(make_integrator({*system_}, lane_options(*runs_.front(), lanes_))),
+      integrator_(make_integrator({*system_}, lane_options(runs_, lanes_))),
+      all_kinks_(kinks_of(runs_)),
       kinks_(runs_.front()->options().scaled_tolerance),
       all_(states_ * lanes_),
       one_(states_) {
@@ -128,7 +152,7 @@ void SideBySide::count_time(std::chrono::steady_clock::time_point since) {
 }
 
 void SideBySide::step(double t_end) {
-  const double smooth_until = kinks_.next(runs_.front()->model()->kinks, *integrator_, integrator_->time());
+  const double smooth_until = kinks_.next(all_kinks_, *integrator_, integrator_->time());
   system_->set_curve_limit(smooth_until);
   try {
     integrator_->step(std::min(smooth_until, t_end));
@@ -183,7 +207,7 @@ void SideBySide::set_aside(std::size_t lane, const std::string& why) {
 void SideBySide::reset() {
   const double now = integrator_->time();
   std::copy_n(integrator_->state(), all_.size(), all_.data());
-  system_->set_curve_limit(kinks_.next(runs_.front()->model()->kinks, *integrator_, now));
+  system_->set_curve_limit(kinks_.next(all_kinks_, *integrator_, now));
   system_->project(now, all_.data(), false);
   integrator_->reset(now, all_.data());
 }

@@ -57,6 +57,7 @@ class SideBySide {
   std::size_t lanes_, states_;     // states of one lane
   std::unique_ptr<LaneSystem> system_;
   std::unique_ptr<Integrator> integrator_;
+  std::vector<Kink> all_kinks_;
   KinkStops kinks_;
   StallWatch stall_;
   Counters before_, counted_;  // of steps before the last beginning; handed over so far
