@@ -71,7 +71,30 @@ std::string difference_of_bodies(const Model& one, const Model& other) {
       return what + " (mass or inertia), which has hydrodynamics";
     }
   }
+  const auto weighs = [](const Gravity& a, const Gravity& b) { return a.body == b.body; };
+  if (!std::ranges::equal(one.gravity, other.gravity, weighs)) return "the bodies that weigh";
   return one.bodies.size() == other.bodies.size() ? "" : "the bodies that are merged";
+}
+
+/// Of what is stepped: as many loads on the same bodies and coordinates, with the same states and inputs.
+std::string difference_of_loads(const Model& one, const Model& other) {
+  const auto state = [](const LoadState& a, const LoadState& b) { return a.name == b.name; };
+  if (!std::ranges::equal(one.load_states, other.load_states, state)) return "the states of loads";
+  if (one.slot_count != other.slot_count) return "the inputs of loads";
+  if (one.inertial_tensions != other.inertial_tensions) return "the lines whose stretch is quasi-static";
+  if (one.loads.lists.size() != other.loads.lists.size()) return "the loads that act";
+  for (std::size_t l = 0; l < one.loads.lists.size(); ++l) {
+    const LoadList &here = *one.loads.lists[l], &there = *other.loads.lists[l];
+    if (&here.kind != &there.kind || here.names != there.names) return "the loads that act";
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const CoordinateData *const a = here.coordinate(i), *const b = there.coordinate(i);
+      const bool along = a != nullptr && b != nullptr && (a->joint.element != b->joint.element || a->kind != b->kind);
+      if (here.bodies[i] != there.bodies[i] || (a == nullptr) != (b == nullptr) || along) {
+        return std::string("what ") + here.kind.name + " '" + here.names[i] + "' acts on";
+      }
+    }
+  }
+  return "";
 }
 
 /// A mass within a merged body moves its centre, from which points are counted.
@@ -100,6 +123,7 @@ std::string difference(const Model& one, const Model& other) {
   if (one.closed != other.closed) return "the limits that hold";
   out = difference_of_bodies(one.stepped(), other.stepped());
   if (out.empty()) out = difference_of_geometry(one.stepped(), other.stepped());
+  if (out.empty()) out = difference_of_loads(one.stepped(), other.stepped());
   return out.empty() ? difference_of_waves(one, other) : out;
 }
 
