@@ -80,7 +80,7 @@ class ArticulatedTree {
   void solve(bool moving, T* u_rate, const T* torque = nullptr, const T* driven = nullptr);
   /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
   /// two bodies; others keep what they have.
-  void respond(const std::vector<int>& clusters, const Push& first, const Push& second, T* u_rate);
+  void respond(const std::vector<std::size_t>& clusters, const Push& first, const Push& second, T* u_rate);
   /// At the last solve(); of the ground too.
   const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
   /// What drives the speed of a driven cluster, beside the torque on it, at the last solve(): N or N m.
@@ -120,6 +120,8 @@ class ArticulatedTree {
 
   static std::vector<char> leaves_of(const BodyTree& tree, int bodies);
 
+  template <class Places>
+  void solve(const Places& places, bool moving, T* u_rate, const T* torque, const T* driven);
   template <int speeds>
   void factor_cluster(std::size_t i);
   template <int speeds>

@@ -110,8 +110,9 @@ bool LoopClosure::factor_sparse(const RowBlock<double>* blocks, ArticulatedTree<
   ratio_ = pivots / std::max(0.0, open);
   left_out_ = static_cast<int>(sparse_->left_out().size());
   dependent_ = false;
+  if (!(ratio_ < kInaccuratePivot)) return false;
   most_left_out_ = std::max(most_left_out_, left_out_);
-  return ratio_ < kInaccuratePivot;
+  return true;
 }
 
 bool LoopClosure::misses(const RowBlock<double>* blocks, const Vec6d* acceleration) const {

@@ -34,52 +34,61 @@ int SparseLoops::trees_of(const Model& model, const BodyTree& tree) {
 SparseLoops::SparseLoops(const BodyTree& tree, int bodies, const std::vector<LoopRow>& rows,
                          const std::vector<char>& kept)
     : rows_(rows), speeds_(idx(tree.speeds)) {
+  add_nodes(kept);
   const std::vector<int> root = roots_of(tree, bodies);
-  std::map<int, std::vector<int>> clusters;
+  std::map<int, std::vector<std::size_t>> clusters;
   for (std::size_t i = 0; i < tree.clusters.size(); ++i) {
-    clusters[root[idx(tree.clusters[i].body)]].push_back(static_cast<int>(i));
-  }
-  std::map<int, int> node_of;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const LoopRow& row = rows[i];
-    const auto [at, added] = node_of.try_emplace(row.element, static_cast<int>(nodes_.size()));
-    if (added) nodes_.push_back({row.element, row.first, row.second, {}, {}, {}});
-    if (kept[i]) {
-      nodes_[idx(at->second)].rows.push_back(static_cast<int>(i));
-    } else {
-      left_out_.push_back(static_cast<int>(i));
-    }
+    clusters[root[idx(tree.clusters[i].body)]].push_back(i);
   }
   std::vector<GraphNode> graph;
-  std::map<int, std::set<int>> on;  // nodes by tree
-  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
-    Node& node = nodes_[idx(n)];
-    const std::set<int> trees = {root[idx(node.first)], root[idx(node.second)]};
-    for (const int t : trees) {
-      if (t < 0) continue;
-      node.clusters.insert(node.clusters.end(), clusters[t].begin(), clusters[t].end());
-      if (!node.rows.empty()) on[t].insert(n);
+  for (Node& node : nodes_) {
+    node.tree[0] = root[idx(node.first)];
+    node.tree[1] = root[idx(node.second)];
+    for (const int t : std::set<int>{node.tree[0], node.tree[1]}) {
+      if (t >= 0) node.clusters.insert(node.clusters.end(), clusters[t].begin(), clusters[t].end());
     }
-    std::sort(node.clusters.begin(), node.clusters.end());
-    graph.push_back({static_cast<int>(node.rows.size()), root[idx(node.first)], root[idx(node.second)]});
+    std::ranges::sort(node.clusters);
+    graph.push_back({static_cast<int>(node.rows.size()), node.tree[0], node.tree[1]});
   }
   schur_ = BlockSchur(graph, static_cast<int>(clusters.size()));
+  find_neighbours();
+  values_.assign(schur_.value_count(), 0.0);
+  right_.assign(idx(schur_.rows()), 0.0);
+}
+
+/// One for each element, with its rows that are kept.
+void SparseLoops::add_nodes(const std::vector<char>& kept) {
+  std::map<int, std::size_t> node_of;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const LoopRow& row = rows_[i];
+    const auto [at, added] = node_of.try_emplace(row.element, nodes_.size());
+    if (added) nodes_.push_back({.element = row.element, .first = row.first, .second = row.second});
+    (kept[i] ? nodes_[at->second].rows : left_out_).push_back(static_cast<int>(i));
+  }
+}
+
+/// Of each node those behind it in the elimination that share a tree with it, itself among them.
+void SparseLoops::find_neighbours() {
+  std::map<int, std::set<int>> on;  // nodes by tree
   for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+    if (nodes_[idx(n)].rows.empty()) continue;
+    for (const int t : nodes_[idx(n)].tree) on[t].insert(n);
+  }
+  on.erase(-1);
+  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+    Node& node = nodes_[idx(n)];
+    if (node.rows.empty()) continue;
+    const auto shares = [&](int t) { return t >= 0 && (t == node.tree[0] || t == node.tree[1]); };
     std::set<int> near;
-    const std::set<int> trees = {root[idx(nodes_[idx(n)].first)], root[idx(nodes_[idx(n)].second)]};
-    for (const int t : trees) {
+    for (const int t : node.tree) {
       if (t >= 0) near.insert(on[t].begin(), on[t].end());
     }
     for (const int other : near) {
-      if (nodes_[idx(n)].rows.empty() || schur_.row(other) < schur_.row(n)) continue;
-      const Node& row = nodes_[idx(other)];
-      nodes_[idx(n)].below.push_back(
-          {other, root[idx(row.first)] >= 0 && trees.count(root[idx(row.first)]) > 0,
-           root[idx(row.second)] >= 0 && trees.count(root[idx(row.second)]) > 0, schur_.place(other, n)});
+      if (schur_.row(other) < schur_.row(n)) continue;
+      const auto& trees = nodes_[idx(other)].tree;
+      node.below.push_back({other, shares(trees[0]), shares(trees[1]), schur_.place(other, n)});
     }
   }
-  values_.assign(schur_.value_count(), 0.0);
-  right_.assign(idx(schur_.rows()), 0.0);
 }
 
 /// The trees' accelerations under a force along one row.

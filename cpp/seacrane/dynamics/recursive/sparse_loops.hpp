@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "seacrane/dynamics/recursive/articulated.hpp"
@@ -40,11 +41,14 @@ class SparseLoops {
   };
   struct Node {
     int element = 0, first = 0, second = 0;
-    std::vector<int> rows;      // that are kept, among all rows
-    std::vector<int> clusters;  // of its trees, parents before children
-    std::vector<Neighbour> below;
+    std::array<int, 2> tree{};          // of both bodies; -1: the ground's
+    std::vector<int> rows{};            // that are kept, among all rows
+    std::vector<std::size_t> clusters{};  // of its trees, parents before children
+    std::vector<Neighbour> below{};
   };
 
+  void add_nodes(const std::vector<char>& kept);
+  void find_neighbours();
   void respond(const Node& column, int row, const RowBlock<double>* blocks, ArticulatedTree<double>& tree);
 
   std::vector<LoopRow> rows_;

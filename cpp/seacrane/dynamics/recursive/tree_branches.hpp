@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <ranges>
 #include <vector>
 
 #include "seacrane/dynamics/recursive/articulated.hpp"
@@ -231,40 +232,37 @@ Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) co
 
 template <class T>
 void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque, const T* driven) {
+  solve(std::views::iota(std::size_t{0}, clusters().size()), moving, u_rate, torque, driven);
+}
+
+template <class T>
+void ArticulatedTree<T>::respond(const std::vector<std::size_t>& clusters, const Push& first,
+                                 const Push& second, T* u_rate) {
+  for (const std::size_t i : clusters) {
+    for (const Member& m : this->clusters()[i].members) force_[idx(m.body)] = Wrench<T>::zero();
+  }
+  for (const Push* push : {&first, &second}) {
+    if (push->body != ground_) force_[idx(push->body)] += -push->wrench;
+  }
+  solve(clusters, false, u_rate, nullptr, nullptr);
+}
+
+/// Inwards and outwards over clusters, parents first.
+template <class T>
+template <class Places>
+void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, const T* torque, const T* driven) {
   force_[idx(ground_)] = Wrench<T>::zero();
-  for (std::size_t i = clusters().size(); i-- > 0;) {
+  for (auto at = places.end(); at != places.begin();) {
+    const std::size_t i = *--at;
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { gather_held(i, moving); })) continue;
     with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque, driven); });
   }
   acceleration_[idx(ground_)] = Twist<T>::zero();
-  for (std::size_t i = 0; i < clusters().size(); ++i) {
+  for (const std::size_t i : places) {
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, u_rate); })) continue;
     with_speeds(c, [&]<int n>() { spread<n>(i, moving, u_rate); });
-  }
-}
-
-template <class T>
-void ArticulatedTree<T>::respond(const std::vector<int>& clusters, const Push& first, const Push& second,
-                                 T* u_rate) {
-  force_[idx(ground_)] = Wrench<T>::zero();
-  for (const int i : clusters) {
-    for (const Member& m : this->clusters()[idx(i)].members) force_[idx(m.body)] = Wrench<T>::zero();
-  }
-  for (const Push* push : {&first, &second}) {
-    if (push->body != ground_) force_[idx(push->body)] += -push->wrench;
-  }
-  for (auto i = clusters.rbegin(); i != clusters.rend(); ++i) {
-    const Cluster& c = this->clusters()[idx(*i)];
-    if (with_held(c, [&]<class Branch>() { gather_held(idx(*i), false); })) continue;
-    with_speeds(c, [&]<int n>() { gather<n>(idx(*i), false, nullptr, nullptr); });
-  }
-  acceleration_[idx(ground_)] = Twist<T>::zero();
-  for (const int i : clusters) {
-    const Cluster& c = this->clusters()[idx(i)];
-    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(idx(i), false, u_rate); })) continue;
-    with_speeds(c, [&]<int n>() { spread<n>(idx(i), false, u_rate); });
   }
 }
 
