@@ -127,8 +127,8 @@ def told_of(seed: int) -> tuple[str, str]:
     except SeacraneError as error:  # alone as well
         return f"no run: {type(error).__name__}", ""
     assert advance_side_by_side(runs, 4, lambda _: None)
-    lanes, why = runs[0].lanes["lanes"], str(runs[0].lanes.get("kept_apart", ""))
-    if lanes == 1 and not why:
+    lanes, why = max(run.lanes["lanes"] for run in runs), str(runs[0].lanes.get("kept_apart", ""))
+    if any(run.lanes["lanes"] == 1 and not run.lanes.get("kept_apart") for run in runs):
         return "apart", "no reason is told"
     for run in runs:
         run.advance(T_END)

@@ -20,6 +20,7 @@
 #include "seacrane/lanes/packed_table.hpp"
 #include "seacrane/lanes/tensions_by_lane.hpp"
 #include "seacrane/math/pack.hpp"
+#include "seacrane/model/difference.hpp"
 
 namespace seacrane {
 

@@ -55,36 +55,41 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
         False when Ctrl-C stopped them.
     """
     module = module_of(lanes)
-    for group in _alike(runs) if module is not None else [runs]:
-        if not _advance_alike(group, module, lanes, look):
+    if module is None:
+        note_apart(runs, "this processor, or this build, has no lanes")
+        return True
+    for group in _alike(runs):
+        if len(group) == 1:
+            note_apart(group, _apart(group[0], next((run for run in runs if run is not group[0]), None)))
+        elif not _advance_alike(group, module, lanes, look):
             return False
     return True
 
 
 def _alike(runs: Sequence[Run]) -> list[list[Run]]:
-    """Groups of runs that can be stepped beside their first, in the order of their first; others alone."""
+    """Runs that can be stepped beside the first of their group, in the order of these."""
     groups: list[list[Run]] = []
     for run in runs:
-        beside = next((group for group in groups if not _differ(group[0], run)), None)
+        beside = next((group for group in groups if not _apart(group[0], run)), None)
         if beside is None:
             groups.append([run])
         else:
             beside.append(run)
-    # What is alone is told why it is not beside the first of all.
-    return groups if len(groups) < len(runs) else [list(runs)]
+    return groups
 
 
-def _differ(one: Run, other: Run) -> bool:
-    return one.t_end != other.t_end or bool(_core.kept_apart([one.core, other.core]))
+def _apart(one: Run, other: Run | None) -> str:
+    """Why two runs are not stepped side by side; empty: they can be."""
+    if other is None:
+        return "there is no other run beside it"
+    if one.t_end != other.t_end:
+        return "the runs end at different times"
+    return _core.kept_apart([other.core, one.core])
 
 
 def _advance_alike(
-    runs: Sequence[Run], module: ModuleType | None, lanes: int, look: Callable[[float], None]
+    runs: Sequence[Run], module: ModuleType, lanes: int, look: Callable[[float], None]
 ) -> bool:
-    why = _kept_apart(runs, module)
-    if why or module is None:
-        note_apart(runs, why)
-        return True
     for run in runs:
         run.lanes = {"lanes": lanes}
     reached = _core.advance_side_by_side([run.core for run in runs], module, runs[0].t_end, look)
@@ -99,13 +104,3 @@ def note_apart(runs: Sequence[Run], why: str) -> None:
     for run in runs:
         run.lanes = {"lanes": 1, "kept_apart": why}
 
-
-def _kept_apart(runs: Sequence[Run], module: ModuleType | None) -> str:
-    """Why runs are not stepped side by side; empty: they can be."""
-    if module is None:
-        return "this processor, or this build, has no lanes"
-    if len(runs) < 2:
-        return "there is no other run beside it"
-    if any(run.t_end != runs[0].t_end for run in runs):
-        return "the runs end at different times"
-    return _core.kept_apart([run.core for run in runs])

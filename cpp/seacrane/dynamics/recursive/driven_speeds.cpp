@@ -28,7 +28,7 @@ DrivenSpeeds::DrivenSpeeds(const Model& model, const BodyTree& tree) : model_(mo
     if (!c.is_driven()) continue;
     clusters_.push_back(i);
     if (c.kind == Cluster::floating) {
-      Body& body = bodies_.emplace_back(Body{&c, i, {}});
+      Body& body = bodies_.emplace_back(Body{&c, i, {}, std::vector(6, Twist<double>::zero())});
       for (std::size_t k = 0; k < 6; ++k) body.drivers[k] = &model.drivers[idx(c.drive.drivers[k])];
       continue;
     }
@@ -77,7 +77,7 @@ void DrivenSpeeds::follow(double t, double curve_limit, double* q, double* u, do
     view<3>(q + c.q) = now.position;
     view<6>(u + c.u) = now.twist.vector();
     view<6>(u_rate + c.u) = now.acceleration.vector();
-    one.parts = now.parts;
+    std::ranges::copy(now.parts, one.parts.begin());
   }
 }
 

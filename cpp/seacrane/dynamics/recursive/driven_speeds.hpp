@@ -42,7 +42,7 @@ class DrivenSpeeds {
     const Cluster* cluster;
     std::size_t place;
     std::array<const DriverData*, 6> drivers;
-    std::array<Twist<double>, 6> parts{};  // at the last follow()
+    std::vector<Twist<double>> parts;  // six, at the last follow()
   };
 
   DrivenMotion motion(const Coordinate& one, double t, double curve_limit, double near) const;
