@@ -43,8 +43,8 @@ def many_loads(*, seed: int) -> Scene:
     scene.add_body(name="weight", mass=3.0, inertia=(0.1, 0.2, 0.1), position=(2.0, 0.5, -1.0))
     scene.add_spring("table", first="bob", second="weight", lengths=[0.5, 1.0, 3.0], forces=[0.0, 4.0, 9.0])
     scene.add_gas_spring(
-        "gas", first="ground", second="weight", area=1e-3, force=40.0, stiffness=30.0, length=3.0, exponent=1.3,
-        damping=2.0, minimum=0.2, maximum=5.0, volume=0.1,
+        "gas", first="ground", second="weight", area=1e-3, pressure=4e4, volume=0.1, length=3.0, exponent=1.3,
+        damping=2.0, minimum=0.2, maximum=5.0,
     )  # fmt: skip
     scene.add_friction("pin", load=0.4, speed=0.02)
     scene.add_soft_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
@@ -112,20 +112,18 @@ def stopped(start: float, stiffness: float = 200.0) -> Scene:
     return scene
 
 
-def test_a_lane_that_meets_a_kink_goes_on_by_itself_and_the_others_stay() -> None:
+def test_all_lanes_end_a_step_where_one_meets_a_kink() -> None:
     """Two of four swing against their stop."""
     given: dict[str, Any] = {"t_end": 0.35, "rtol": 1e-9, "formulation": "recursive", "dt_out": 0.05}
     starts = (0.0, 3.0, 0.1, -3.5)
     runs, alone = ([Run(stopped(one), **given) for one in starts] for _ in range(2))
     assert advance_side_by_side(runs, 4, lambda _: None)
     for run, one in zip(runs, alone, strict=True):
-        run.advance(0.35)
         one.advance(0.35)
         assert np.abs(run.result()["position"] - one.result()["position"]).max() < 1e-7
-    told = [str(run.lanes.get("kept_apart", "")) for run in runs]
-    assert [bool(text) for text in told] == [False, True, False, True]
-    assert all("a load passed a kink" in text for text in told if text)
-    assert [run.core.time for run in runs] == [0.35] * 4
+    assert all("kept_apart" not in run.lanes for run in runs)
+    reached = [float(np.abs(run.result()["position"][:, 0, 2]).max()) for run in runs]
+    assert [far > 0.6 for far in reached] == [False, True, False, True]
 
 
 def test_drivers_move_all_lanes_and_strike_them() -> None:

@@ -18,19 +18,15 @@ void check_step_size(const char* name, double value) {
 }  // namespace
 
 Integrator::Integrator(const IntegratorProperties& properties, std::size_t size)
-    : state_(size),
-      previous_state_(size),
-      properties_(properties),
-      name_(properties.name),
-      event_state_(size) {
-  if (size == 0) throw std::invalid_argument(name_ + ": the system has no state");
+    : LastStep(properties.name, size), properties_(properties) {
+  if (size == 0) throw std::invalid_argument(name() + ": the system has no state");
 }
 
 void Integrator::set_state(double t, const double* y) {
-  if (!std::isfinite(t)) throw std::invalid_argument(name_ + ": the start time is not finite");
+  if (!std::isfinite(t)) throw std::invalid_argument(name() + ": the start time is not finite");
   const std::size_t bad = first_non_finite(y, state_.size());
   if (bad != IntegrationError::no_component) {
-    throw std::invalid_argument(name_ + ": component " + std::to_string(bad) +
+    throw std::invalid_argument(name() + ": component " + std::to_string(bad) +
                                 " of the start state is not finite");
   }
   time_ = previous_time_ = t;
@@ -40,7 +36,7 @@ void Integrator::set_state(double t, const double* y) {
 
 void Integrator::check_limit(double t_limit) const {
   if (std::isfinite(t_limit) && t_limit >= time_) return;
-  throw std::invalid_argument(name_ + ": t_limit is " + std::to_string(t_limit) +
+  throw std::invalid_argument(name() + ": t_limit is " + std::to_string(t_limit) +
                               " s; give a finite time not before the present " + std::to_string(time_) +
                               " s");
 }
@@ -48,53 +44,9 @@ void Integrator::check_limit(double t_limit) const {
 double Integrator::inside_last_step(double t) const {
   const double slack = 8.0 * kEpsilon * std::max(std::abs(previous_time_), std::abs(time_));
   if (t >= previous_time_ - slack && t <= time_ + slack) return std::clamp(t, previous_time_, time_);
-  throw std::invalid_argument(name_ + ": dense output asked at " + std::to_string(t) +
+  throw std::invalid_argument(name() + ": dense output asked at " + std::to_string(t) +
                               " s, outside the last step from " + std::to_string(previous_time_) + " to " +
                               std::to_string(time_) + " s");
-}
-
-std::optional<double> Integrator::locate(const EventFunction& event) {
-  double a = previous_time_;
-  double b = time_;
-  if (!(a < b)) return std::nullopt;
-  // The ends are judged on the projected states that neighbouring steps share: judged on the dense output
-  // an event within the projection's correction would fall between two steps.
-  double ga = event(a, previous_state_.data());
-  double gb = event(b, state_.data());
-  if (std::isnan(ga) || std::isnan(gb)) {
-    throw IntegrationError(name_, b, b - a, IntegrationError::no_component,
-                           "an event function is not a number");
-  }
-  if (ga == 0.0 || (gb != 0.0 && std::signbit(ga) == std::signbit(gb))) return std::nullopt;
-  int last_side = 0;
-  bool bisect = false;
-  const double resolution = 2.0 * kEpsilon * std::max(std::abs(a), std::abs(b));
-  while (b - a > resolution) {
-    // Illinois regula falsi, with a bisection whenever the bracket has not halved.
-    const double width = b - a;
-    double t = bisect ? a + 0.5 * width : b - gb * width / (gb - ga);
-    t = std::clamp(t, a + 0.5 * resolution, b - 0.5 * resolution);
-    if (!(t > a && t < b)) break;
-    interpolate(t, event_state_.data());
-    const double g = event(t, event_state_.data());
-    if (std::isnan(g)) {
-      throw IntegrationError(name_, t, b - a, IntegrationError::no_component,
-                             "an event function is not a number");
-    }
-    const bool past = g == 0.0 || std::signbit(g) != std::signbit(ga);
-    if (past) {
-      b = t;
-      gb = g;
-      if (last_side == 1) ga *= 0.5;
-    } else {
-      a = t;
-      ga = g;
-      if (last_side == -1) gb *= 0.5;
-    }
-    last_side = past ? 1 : -1;
-    bisect = b - a > 0.5 * width;
-  }
-  return b;
 }
 
 void check_step_sizes(const IntegratorOptions& options) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 
 #include "seacrane/integrate/error_norm.hpp"
 #include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/last_step.hpp"
 #include "seacrane/integrate/properties.hpp"
 
 namespace seacrane {
@@ -72,39 +72,22 @@ struct IntegratorOptions {
   Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance, lanes, tolerance_growth}; }
 };
 
-/// A quantity whose change of sign is an event.
-using EventFunction = std::function<double(double t, const double* y)>;
-
 /// Steps a System through time. One object belongs to one run.
-class Integrator {
+class Integrator : public LastStep {
  public:
   /// `properties` are those of the method's registration, which lasts.
   Integrator(const IntegratorProperties& properties, std::size_t size);
-  virtual ~Integrator() = default;
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
-  const std::string& name() const { return name_; }
   /// Order of the method; the highest one for a method of variable order.
   int order() const { return properties_.order; }
   bool is_adaptive() const { return properties_.is_adaptive(); }
-  std::size_t size() const { return state_.size(); }
 
   virtual void init(double t0, const double* y0) = 0;
   /// Takes one internal step, never beyond t_limit; a step that reaches it lands on it exactly. Does
   /// nothing when t_limit is time(). After an exception time() and state() are those before the call.
   virtual void step(double t_limit) = 0;
-
-  double time() const { return time_; }
-  /// Start of the last step; time() right after init, reset and load.
-  double previous_time() const { return previous_time_; }
-  /// State at time(), projected where the method projects.
-  const double* state() const { return state_.data(); }
-  /// State at previous_time(), projected likewise.
-  const double* previous_state() const { return previous_state_.data(); }
-
-  /// Dense output of the last step at t in [previous_time(), time()]; not projected.
-  virtual void interpolate(double t, double* y) const = 0;
 
   /// Goes on from a new state: drops what is kept of the derivative's past.
   virtual void reset(double t, const double* y) = 0;
@@ -119,11 +102,6 @@ class Integrator {
   virtual std::vector<double> save() const = 0;
   virtual void load(std::span<const double> saved) = 0;
 
-  /// Time in the last step at which `event` changes sign, to rounding, on the side where it has changed;
-  /// nothing when its sign at time() is that at previous_time(). An event that is zero at the start of the
-  /// step has been found by the step before. Of several events in one step it finds one.
-  std::optional<double> locate(const EventFunction& event);
-
  protected:
   /// Sets time and state, with an empty last step. Throws std::invalid_argument on non-finite values.
   void set_state(double t, const double* y);
@@ -132,15 +110,8 @@ class Integrator {
   /// t, moved by rounding into the last step. Throws std::invalid_argument when t lies outside.
   double inside_last_step(double t) const;
 
-  double time_ = 0.0;
-  double previous_time_ = 0.0;
-  std::vector<double> state_;
-  std::vector<double> previous_state_;
-
  private:
   const IntegratorProperties& properties_;
-  std::string name_;
-  std::vector<double> event_state_;
 };
 
 /// Throws std::invalid_argument on a step size that is negative or not finite.

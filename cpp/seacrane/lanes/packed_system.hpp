@@ -51,6 +51,7 @@ class PackedSystem final : public LaneSystem {
     positions_.assign(idx(tree_.positions), 0.0);
     for (auto* values : {&speed_, &speed_rate_, &jump_}) values->assign(idx(tree_.speeds), 0.0);
     driven_rate_ = torque_;
+    drive_response_.resize(tensions_.count());
     state_.assign(idx(work_ + 2), T(0.0));
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
@@ -90,11 +91,9 @@ class PackedSystem final : public LaneSystem {
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
     solve_acceleration();
-    if (tensions_.any()) {
-      tensions_.add(by_lane_, articulated_, rate_.data() + speeds_, sum);
-      if (driven_.any()) solve_acceleration();  // for what drives
-    }
-    driven_.for_each_power(articulated_, [&](const T& power) { sum.add_power(power); });
+    read_drives(drive_power_);
+    if (tensions_.any()) add_tensions(sum);
+    for (const T& power : drive_power_) sum.add_power(power);
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
     rate_[idx(work_)] = sum.power;
     rate_[idx(work_) + 1] = sum.absolute_power;
@@ -243,6 +242,21 @@ class PackedSystem final : public LaneSystem {
     articulated_.solve(true, rate_.data() + speeds_, torque_.data(), driven_rate_.data());
   }
 
+  void add_tensions(LoadSum<T>& sum) {
+    tensions_.add(by_lane_, articulated_, rate_.data() + speeds_, sum,
+                  [&](std::size_t line) { read_drives(drive_response_[line]); });
+    for (std::size_t line = 0; line < tensions_.count(); ++line) {
+      for (std::size_t k = 0; k < drive_power_.size(); ++k) {
+        drive_power_[k] += tensions_.tension(line) * drive_response_[line][k];
+      }
+    }
+  }
+
+  void read_drives(std::vector<T>& power) const {
+    power.clear();
+    driven_.for_each_power(articulated_, [&](const T& one) { power.push_back(one); });
+  }
+
   void strike() {
     factor();
     for (int b = 0; b < model_->body_count(); ++b) articulated_.set_load(b, Wrench<T>::zero());
@@ -377,7 +391,8 @@ class PackedSystem final : public LaneSystem {
   DrivenSpeeds driven_;
   LoadsByLane<L> by_lane_;
   TensionsByLane<L> tensions_;
-  std::vector<T> torque_, driven_rate_;
+  std::vector<T> torque_, driven_rate_, drive_power_;
+  std::vector<std::vector<T>> drive_response_;  // to 1 N of each inertial tension
   std::vector<double> positions_, speed_, speed_rate_, jump_;  // of the lane that leads drivers
   std::size_t leading_ = 0;                                    // the first that is not frozen
   int speeds_, memory_, loads_, work_;  // where they begin in the state of a lane

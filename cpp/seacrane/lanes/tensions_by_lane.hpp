@@ -42,11 +42,20 @@ class TensionsByLane {
   /// Inertial tensions of zero, as loads see them before they are known.
   const double* none() const { return zero_.data(); }
 
+  std::size_t count() const { return lines_.size(); }
+  /// Of a line, after add().
+  const T& tension(std::size_t line) const { return lines_[line].tension; }
+
   /// Right after a solution without the tensions, with `u_rate`: adds what they change to that, and to
-  /// wrenches and power.
-  void add(const LoadsByLane<L>& loads, ArticulatedTree<T>& tree, T* u_rate, LoadSum<T>& sum) {
+  /// wrenches and power. Calls responded(line) while the tree holds the response to 1 N of each.
+  template <class Responded>
+  void add(const LoadsByLane<L>& loads, ArticulatedTree<T>& tree, T* u_rate, LoadSum<T>& sum,
+           Responded&& responded) {
     ask(loads, tree);
-    for (Line& line : lines_) respond(line, tree);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      respond(lines_[i], tree);
+      responded(i);
+    }
     solve();
     for (const Line& line : lines_) {
       for (std::size_t k = 0; k < line.rates.size(); ++k) u_rate[k] += line.tension * line.rates[k];

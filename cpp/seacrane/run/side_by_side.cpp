@@ -14,6 +14,7 @@ namespace {
 
 using Stopwatch = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskBeside{20};
+constexpr const char* kStuck = "a load cannot go on as it is";
 
 LaneModels lane_models(const std::vector<Simulation*>& runs, std::size_t lanes) {
   LaneModels out;
@@ -120,6 +121,9 @@ SideBySide::SideBySide(std::vector<Simulation*> runs, const LaneModule& module)
     if (lane >= runs_.size()) system_->freeze(lane);
   }
   integrator_->init(runs_.front()->time(), all_.data());
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    steps_.emplace_back(*integrator_, lanes_, lane, states_);
+  }
 }
 
 bool SideBySide::advance(double t_end, const std::function<bool(double)>& keep_going) {
@@ -154,15 +158,19 @@ void SideBySide::count_time(std::chrono::steady_clock::time_point since) {
 void SideBySide::step(double t_end) {
   const double smooth_until = kinks_.next(all_kinks_, *integrator_, integrator_->time());
   system_->set_curve_limit(smooth_until);
+  const double stop = std::min(smooth_until, kink_at_);
   try {
-    integrator_->step(std::min(smooth_until, t_end));
+    integrator_->step(std::min(stop, t_end));
     stall_.step(integrator_->time());
   } catch (const IntegrationError& error) {
     return drop(error);
   }
-  leave_at_kinks();
+  if (retake_to_kink()) return;
   record(smooth_until);
-  if (integrator_->time() >= smooth_until) reset();
+  if (integrator_->time() < stop) return;
+  kink_at_ = std::numeric_limits<double>::infinity();
+  reset();
+  watch_kinks();
 }
 
 /// The lane that took the largest part in a failure is left, or all where it is not known or was left before.
@@ -173,20 +181,76 @@ void SideBySide::drop(const IntegrationError& error) {
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     if (!known || lane == worst) leave(lane);
   }
+  kink_at_ = std::numeric_limits<double>::infinity();
   before_ += integrator_->counters();
   std::copy_n(integrator_->state(), all_.size(), all_.data());
   integrator_->init(integrator_->time(), all_.data());
 }
 
-/// A lane in which a load passes a kink in the state goes on by itself from before the step, which is taken
-/// again there up to the kink.
-void SideBySide::leave_at_kinks() {
+void SideBySide::LaneStep::update() {
+  time_ = all_.time();
+  previous_time_ = all_.previous_time();
+  take(all_.state(), state_.data());
+  take(all_.previous_state(), previous_state_.data());
+}
+
+void SideBySide::LaneStep::interpolate(double t, double* y) const {
+  all_.interpolate(t, scratch_.data());
+  take(scratch_.data(), y);
+}
+
+void SideBySide::LaneStep::take(const double* all, double* own) const {
+  for (std::size_t i = 0; i < size(); ++i) own[i] = all[lanes_ * i + lane_];
+}
+
+/// Takes a step of all again in which a load of one passed a kink, up to the first of them. Whether it does.
+bool SideBySide::retake_to_kink() {
+  std::optional<double> first;
+  std::size_t by = 0;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-    if (has_left(lane)) continue;
-    take_lane(integrator_->state(), lane, one_.data());
-    if (!runs_[lane]->passes_kink(integrator_->time(), one_.data())) continue;
+    const std::optional<double> found = find_kink(lane);
+    if (!found || (first && *first <= *found)) continue;
+    first = found;
+    by = lane;
+  }
+  if (!first) return false;
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (lane != by && !has_left(lane) && runs_[lane]->has_switches()) runs_[lane]->take_sides_back();
+  }
+  kink_at_ = *first;
+  std::copy_n(integrator_->previous_state(), all_.size(), all_.data());
+  integrator_->reset(integrator_->previous_time(), all_.data());
+  return true;
+}
+
+/// Where the last step of a lane is to end. A lane that cannot be where the step took it goes on by itself from
+/// its start, and tells why.
+std::optional<double> SideBySide::find_kink(std::size_t lane) {
+  Simulation& run = *runs_[lane];
+  if (has_left(lane) || !run.has_switches()) return std::nullopt;
+  steps_[lane].update();
+  run.keep_sides();
+  try {
+    return run.find_kink(steps_[lane]);
+  } catch (const std::domain_error&) {
+    run.take_sides_back();
     hand_over(lane, integrator_->previous_time(), integrator_->previous_state());
-    set_aside(lane, "a load passed a kink");
+    set_aside(lane, kStuck);
+    return std::nullopt;
+  }
+}
+
+/// The sides at the start of the next step.
+void SideBySide::watch_kinks() {
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (has_left(lane) || !runs_[lane]->has_switches()) continue;
+    take_lane(integrator_->state(), lane, one_.data());
+    try {
+      runs_[lane]->watch_kinks(integrator_->time(), one_.data());
+    } catch (const std::domain_error&) {
+      hand_over(lane, integrator_->time(), integrator_->state());
+      set_aside(lane, kStuck);
+    }
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,9 @@ namespace seacrane {
 std::string kept_apart(const std::vector<Simulation*>& runs);
 
 /// Steps runs of one model in different seas side by side, in lanes, with steps that they share: an error is
-/// that of the lane where it is largest. Outputs are taken by each run. A run that fails in its lane is left
-/// where it was, and goes on by itself, which tells why. So does one whose loads pass a kink in the state,
-/// from the step before it.
+/// that of the lane where it is largest, and a step in which a load of one passes a kink in the state is taken
+/// again by all, up to the kink. Outputs are taken by each run. A run that fails in its lane is left where it
+/// was, and goes on by itself, which tells why.
 class SideBySide {
  public:
   /// As many runs as the module has lanes, or fewer, which outlive this. Throws std::invalid_argument for
@@ -36,10 +38,27 @@ class SideBySide {
     double time;
     std::vector<double> state;  // of all lanes
   };
+  /// The part of one lane in the last step.
+  class LaneStep : public LastStep {
+   public:
+    LaneStep(const Integrator& all, std::size_t lanes, std::size_t lane, std::size_t states)
+        : LastStep(all.name(), states), all_(all), lanes_(lanes), lane_(lane), scratch_(all.size()) {}
+    void update();
+    void interpolate(double t, double* y) const override;
+
+   private:
+    void take(const double* all, double* own) const;
+
+    const Integrator& all_;
+    std::size_t lanes_, lane_;
+    mutable std::vector<double> scratch_;
+  };
 
   void step(double t_end);
   void drop(const IntegrationError& error);
-  void leave_at_kinks();
+  bool retake_to_kink();
+  std::optional<double> find_kink(std::size_t lane);
+  void watch_kinks();
   void leave(std::size_t lane);
   void set_aside(std::size_t lane, const std::string& why);
   bool has_left(std::size_t lane) const { return gone_[lane]; }
@@ -59,6 +78,8 @@ class SideBySide {
   std::unique_ptr<Integrator> integrator_;
   std::vector<Kink> all_kinks_;
   KinkStops kinks_;
+  std::vector<LaneStep> steps_;                                 // by run
+  double kink_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end
   StallWatch stall_;
   Counters before_, counted_;  // of steps before the last beginning; handed over so far
   double wall_seconds_ = 0.0;

@@ -38,7 +38,10 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const State& start, R
     });
     contacts_->check(stepper(), start.time, start.values.data());
   }
-  if (Switches::any(*model_)) switches_ = std::make_unique<Switches>();
+  if (Switches::any(*model_)) {
+    switches_ = std::make_unique<Switches>();
+    kept_sides_ = std::make_unique<Switches>();
+  }
   put_on_constraints(start.time);
   end_of_smooth_stretch(start.time);
   stepper().bodies.start_histories(start.time, bodies_.data(), start.histories);
@@ -135,7 +138,7 @@ bool Simulation::retake_to_switch() {
     switches_->watch(stepper(), time(), integrator().state());
     return false;
   }
-  const std::optional<double> found = switches_->find(stepper());
+  const std::optional<double> found = switches_->find(stepper(), integrator());
   if (!found) return false;
   switch_at_ = *found;
   const double* const before = integrator().previous_state();

@@ -65,10 +65,13 @@ class Simulation {
   const RunOptions& options() const { return options_; }
   const std::vector<double>& inputs() const { return inputs_.slots(); }
   IntegratorOptions step_options() const { return integrator_options(stepper().stepped, *model_, options_); }
-  /// Whether a load passes a kink that it has in the state between here and (t, y), stepped elsewhere.
-  bool passes_kink(double t, const double* y) {
-    return switches_ != nullptr && switches_->crossed(stepper(), t, y);
-  }
+  /// As Switches for a step that was taken elsewhere: the sides where it starts, kept meanwhile, and where it
+  /// is to end.
+  bool has_switches() const { return switches_ != nullptr; }
+  void keep_sides() { *kept_sides_ = *switches_; }
+  void take_sides_back() { *switches_ = *kept_sides_; }
+  std::optional<double> find_kink(LastStep& step) { return switches_->find(stepper(), step); }
+  void watch_kinks(double t, const double* y) { switches_->watch(stepper(), t, y); }
   /// At time(), as it is stepped.
   const double* stepped_state() const { return integrator().state(); }
   /// Records the outputs due until t, at states that were stepped elsewhere; `curve_limit`: see Curve::at.
@@ -108,7 +111,7 @@ class Simulation {
   StallWatch stall_;
   OutputSampler outputs_;
   std::unique_ptr<Contacts> contacts_;                          // null: the scene has no limits
-  std::unique_ptr<Switches> switches_;                          // null: no load has a kink in the state
+  std::unique_ptr<Switches> switches_, kept_sides_;             // null: no load has a kink in the state
   double switch_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end on one
   double event_time_ = 0.0;                                     // with bodies_, of the last event
   std::vector<double> bodies_, state_;                          // of the described bodies, of what is stepped

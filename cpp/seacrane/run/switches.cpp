@@ -122,15 +122,15 @@ void Switches::shorten(double t) {
 
 /// Whether the step crossed something as it began, and its first stage, still on the old side, saw other
 /// rates than all the rest of it.
-bool Switches::began_behind(Stepper& at, double start, double margin) {
-  const Integrator& integrator = *at.integrator;
-  integrator.interpolate(start + margin, state_.data());
+bool Switches::began_behind(Stepper& at, const LastStep& step, double margin) {
+  const double start = step.previous_time();
+  step.interpolate(start + margin, state_.data());
   find_sides(at, start + margin, state_.data(), passed_);
   if (passed_ == before_) return false;
-  at.stepped.derivative(start, integrator.previous_state(), rate_.data());
+  at.stepped.derivative(start, step.previous_state(), rate_.data());
   at.stepped.derivative(start + margin, state_.data(), late_rate_.data());
-  at.stepped.derivative(integrator.time(), integrator.state(), end_rate_.data());
-  const double length = integrator.time() - start;
+  at.stepped.derivative(step.time(), step.state(), end_rate_.data());
+  const double length = step.time() - start;
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double jump = std::abs(late_rate_[i] - rate_[i]), change = std::abs(end_rate_[i] - rate_[i]);
     if (jump > kJump * change && jump * length > kRounding * scale_[i]) return true;
@@ -149,25 +149,18 @@ void Switches::pass_start(const Stepper& at, double start) {
 
 /// Whether the step was taken up to a crossing and came no nearer to it. An explicit method weighs its last
 /// stages by more than one: where these fall on the new side of a jump, the step turns back, however short.
-bool Switches::fell_short(Stepper& at) {
+bool Switches::fell_short(Stepper& at, const LastStep& step) {
   const Aim aim = std::exchange(aim_, {});
-  const Integrator& integrator = *at.integrator;
-  if (integrator.time() != aim.time || after_[aim.load] != before_[aim.load]) return false;
-  if (aim.time - integrator.previous_time() > kNear * aim.length) return false;
-  const LoadInput<double> in = read(at, integrator.time(), integrator.state());
+  if (step.time() != aim.time || after_[aim.load] != before_[aim.load]) return false;
+  if (aim.time - step.previous_time() > kNear * aim.length) return false;
+  const LoadInput<double> in = read(at, step.time(), step.state());
   const double left = across(at, in, aim.load, before_[aim.load], aim.to);
   return std::abs(left) > kShort * std::abs(aim.from_start);
 }
 
-bool Switches::crossed(Stepper& at, double t, const double* y) {
-  find_sides(at, t, y, after_);
-  return after_ != before_;
-}
-
-std::optional<double> Switches::find(Stepper& at) {
-  Integrator& integrator = *at.integrator;
-  find_sides(at, integrator.time(), integrator.state(), after_);
-  const double start = integrator.previous_time(), end = integrator.time(),
+std::optional<double> Switches::find(Stepper& at, LastStep& step) {
+  find_sides(at, step.time(), step.state(), after_);
+  const double start = step.previous_time(), end = step.time(),
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   instants_.assign(after_.size(), end);
@@ -176,13 +169,13 @@ std::optional<double> Switches::find(Stepper& at) {
     before_.swap(after_);
     return std::nullopt;
   }
-  if (fell_short(at)) {
+  if (fell_short(at, step)) {
     leads_across_ = true;
     return start + 2.0 * (end - start);
   }
   std::optional<double> first;
   if (after_ != before_ && start + margin < end) {
-    leads_across_ = began_behind(at, start, margin);
+    leads_across_ = began_behind(at, step, margin);
     if (leads_across_) return start + margin;
     pass_start(at, start);
     instants_.assign(after_.size(), end);
@@ -192,7 +185,7 @@ std::optional<double> Switches::find(Stepper& at) {
     const auto margin_at = [&](double t, const double* y) {
       return across(at, read(at, t, y), i, before_[i], after_[i]);
     };
-    const std::optional<double> found = integrator.locate(std::cref(margin_at));
+    const std::optional<double> found = step.locate(std::cref(margin_at));
     if (!found) continue;
     instants_[i] = *found;
     if (*found - start <= margin || end - *found <= margin) continue;
@@ -202,7 +195,7 @@ std::optional<double> Switches::find(Stepper& at) {
             .length = end - start,
             .load = i,
             .to = after_[i],
-            .from_start = margin_at(start, integrator.previous_state())};
+            .from_start = margin_at(start, step.previous_state())};
   }
   if (first) return first;
   note(at);

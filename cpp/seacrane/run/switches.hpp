@@ -40,13 +40,10 @@ class Switches {
   void watch(Stepper& at, double t, const double* y);
   /// Begins a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
-  /// Whether what is stepped is on other sides at (t, y) than where its step starts, or on one that it cannot
-  /// be on.
-  bool crossed(Stepper& at, double t, const double* y);
-  /// Where the last step of `at` is to end when it is taken again: at the first crossing inside it, or just
+  /// Where the last step of what `at` steps is to end when it is taken again: at the first crossing inside it, or just
   /// behind its start, where it began on the old side of a jump. Nothing where there is no crossing but at
   /// its ends: then the next step starts from the sides at its end.
-  std::optional<double> find(Stepper& at);
+  std::optional<double> find(Stepper& at, LastStep& step);
   /// Cuts the last step: only its part until t counts.
   void shorten(double t);
   /// Bounds reached so far.
@@ -67,8 +64,8 @@ class Switches {
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
-  bool fell_short(Stepper& at);
-  bool began_behind(Stepper& at, double start, double margin);
+  bool fell_short(Stepper& at, const LastStep& step);
+  bool began_behind(Stepper& at, const LastStep& step, double margin);
   void pass_start(const Stepper& at, double start);
   LoadInput<double> read(Stepper& at, double t, const double* y);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);

@@ -58,6 +58,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   speed_rate_.assign(idx(tree_.speeds), 0.0);
   position_rate_.assign(idx(tree_.positions), 0.0);
   inertial_speed_rates_ = MatXd::Zero(tree_.speeds, tensions_.count());
+  drive_response_.resize(static_cast<std::size_t>(tensions_.count()));
   layout_.speeds = tree_.positions;
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
@@ -143,9 +144,10 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   factor(t);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
+  read_drives(drive_power_);
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
-  driven_.for_each_power(articulated_, [&](double power) { terms_->add_driver_power(power); });
+  for (const double power : drive_power_) terms_->add_driver_power(power);
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
@@ -199,15 +201,27 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
     load_response(tensions_.unit(i), tensions_.response(i));
     inertial_speed_rates_.col(i) = Eigen::Map<const VecXd>(speed_rate_.data(), tree_.speeds);
+    read_drives(drive_response_[idx(static_cast<int>(i))]);
   }
   const VecXd& tension = tensions_.finish(*terms_);
-  if (loops_.rows() > 0 || driven_.any()) {  // whose forces the responses have overwritten
+  if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
     solve_acceleration(u_rate);
+    read_drives(drive_power_);
     return;
+  }
+  for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
+    const std::vector<double>& response = drive_response_[idx(static_cast<int>(i))];
+    for (std::size_t k = 0; k < drive_power_.size(); ++k) drive_power_[k] += tension[i] * response[k];
   }
   tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
   Eigen::Map<VecXd>(u_rate, tree_.speeds).noalias() += inertial_speed_rates_ * tension;
+}
+
+/// The powers of the drives at the tree's last solution.
+void RecursiveSystem::read_drives(std::vector<double>& power) const {
+  power.clear();
+  driven_.for_each_power(articulated_, [&](double one) { power.push_back(one); });
 }
 
 bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
@@ -218,7 +232,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   evaluate(t, y, jacobian_rate_.data(), false);
   if (!loops_.regular()) return false;
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
-                       acceleration_.data(), blocks_.data(), driven_},
+                       acceleration_.data(), blocks_.data(), driven_, drive_power_},
                       t, driven_.any() ? followed_.data() : y, jacobian_rate_.data(), out);
   return true;
 }

@@ -67,6 +67,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void place_as_given(const double* y);
   bool follow_drivers(double t, double* y);
   void strike(double t, double* y);
+  void read_drives(std::vector<double>& power) const;
   void evaluate(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_inertia();
@@ -98,7 +99,10 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<double> followed_;             // a state with what drivers prescribe
   std::vector<double> driven_rate_, jump_;  // of the speeds that drivers prescribe
   std::vector<double> speed_rate_, position_rate_;
-  MatXd inertial_speed_rates_;  // for 1 N of each inertial tension
+  std::vector<double> drive_power_;  // by driver of the tree
+  // For 1 N of each inertial tension:
+  std::vector<std::vector<double>> drive_response_;
+  MatXd inertial_speed_rates_;
   VecXd residual_, loop_bias_;
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;

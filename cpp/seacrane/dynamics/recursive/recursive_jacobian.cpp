@@ -42,8 +42,6 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
 void RecursiveJacobian::evaluate(const TreeEvaluation& at, double t, const double* y, const double* rate,
                                  double* out) {
   at_ = &at;
-  drive_power_.clear();
-  at.driven.for_each_power(at.tree, [&](double power) { drive_power_.push_back(power); });
   const int size = tree_.positions + tree_.speeds;
   const std::size_t n = idx(size + states_ + 2);
   std::fill_n(out, n * n, 0.0);
@@ -317,7 +315,7 @@ void RecursiveJacobian::solve(double* column, double power, double absolute_powe
 
 /// By how the drives' forces change at the last respond().
 void RecursiveJacobian::add_drive_power(double& power, double& absolute_power) const {
-  auto before = drive_power_.begin();
+  auto before = at_->drive_power.begin();
   at_->driven.for_each_power(at_->tree, [&](double change) {
     power += change;
     absolute_power += sign(*before++) * change;

@@ -21,6 +21,7 @@ struct TreeEvaluation {
   const Vec6d* acceleration;       // by body
   const RowBlock<double>* blocks;  // by element
   const DrivenSpeeds& driven;
+  const std::vector<double>& drive_power;  // by driver of the tree
 };
 
 /// Exact Jacobian of dy/dt of the recursive formulation, y = (positions q, speeds u, memory, work). With the
@@ -80,7 +81,6 @@ class RecursiveJacobian {
   int states_ = 0;                         // of the memory and of loads
   std::vector<std::pair<int, int>> rows_;  // element and its row, of the loops
   std::vector<double> multipliers_;        // by row of the model
-  std::vector<double> drive_power_;        // by driver of the tree, at the evaluation
 
   std::vector<Share> shares_;
   std::vector<RowShare> row_shares_;
