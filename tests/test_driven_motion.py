@@ -108,6 +108,7 @@ def test_what_is_driven_is_told_and_chosen() -> None:
     assert sorted(reversed_slide().compile().tree["driven"]) == ["axle.angle", "rail.displacement"]
     assert four_bar().compile().tree["driven"] == ["pin 0.angle"]
     assert simulate(lift(), 0.2).stats["formulation"] == "recursive"
+    assert "drivers whose coordinate is no unknown" in str(lift().report())
 
 
 @pytest.mark.parametrize("name", SCENES)

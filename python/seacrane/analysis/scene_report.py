@@ -136,6 +136,7 @@ def _merged(model: _core.Model) -> Rows:
     merge = model.merge
     rows: Rows = [(f"moves as one with {carrier}", names) for carrier, names in merge["bodies"].items()]
     rows.append(("drivers that hold a joint still", merge["locked_by"]))
+    rows.append(("drivers whose coordinate is no unknown (recursive form)", model.tree["driven"]))
     rows.append(("elements not stepped (reactions on output only)", merge["dropped"]))
     return [(label, names) for label, names in rows if names]
 
