@@ -52,7 +52,7 @@ def test_an_example_is_inserted_beside_what_others_added(tmp_path: Path) -> None
 def test_the_package_with_every_example_compiles_and_passes_its_tests(tmp_path: Path) -> None:
     """All in one build, which takes ten minutes: so an example also survives the additions of others."""
     copy, installed, build = (tmp_path / name for name in ("copy", "installed", "build"))
-    for folder in ("cpp", "cmake", "licenses", "python", "tests", "studies"):
+    for folder in ("cpp", "cmake", "licenses", "python", "examples", "tests", "studies"):
         shutil.copytree(ROOT / folder, copy / folder, ignore=shutil.ignore_patterns("__pycache__"))
     for file in ("CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / file, copy)
