@@ -1,5 +1,6 @@
 #include "seacrane/model/model.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -115,6 +116,7 @@ py::dict merge_of(const Model& model) {
   out["dropped"] = dropped;
   out["coordinates"] = 6 * stepped.body_count();
   out["constraints"] = stepped.rows();
+  out["left_out"] = std::ranges::count(stepped.left_out, 1);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <limits>
 
 #include "multibody_scenes.hpp"
@@ -71,6 +72,37 @@ class RandomGraph {
     const auto over = over_mass();
     schur.assemble(blocks_.data(), over.data(), values.data());
     return schur.factor(values.data());
+  }
+
+  /// Rows that repeat are left out, each with the combination that S takes to zero; what the others solve
+  /// solves all.
+  void check_chosen(int dependent) {
+    const BlockSchur schur(nodes_, bodies_);
+    std::vector<int> row;
+    for (std::size_t e = 0; e < nodes_.size(); ++e) row.push_back(schur.row(static_cast<int>(e)));
+    const MatXd d = jacobian(row), s = d * inverse_mass() * d.transpose();
+    const auto over = over_mass();
+    std::vector<double> values(schur.value_count());
+    schur.assemble(blocks_.data(), over.data(), values.data());
+    std::vector<double> again(values);
+    std::vector<char> left_out;
+    CHECK(schur.choose(values.data(), schur.diagonal(values.data()), 1e8, left_out) < 1e6);
+    CHECK(std::ranges::count(left_out, 1) == dependent);
+    VecXd combination(schur.rows());
+    for (int r = 0; r < schur.rows(); ++r) {
+      if (!left_out[static_cast<std::size_t>(r)]) continue;
+      schur.null_vector(values.data(), r, combination.data());
+      CHECK(combination[r] == 1.0);
+      CHECK((s * combination).norm() < 1e-10 * s.norm() * combination.norm());
+    }
+    schur.factor(again.data(), left_out);
+    VecXd any(schur.rows());
+    for (double& v : any) v = random_.number();
+    const VecXd right = s * any;
+    VecXd x = right;
+    schur.solve(again.data(), x.data());
+    CHECK((s * x - right).norm() < 1e-9 * right.norm());
+    for (int r = 0; r < schur.rows(); ++r) CHECK((x[r] == 0.0) == (left_out[static_cast<std::size_t>(r)] != 0));
   }
 
   void repeat_last() {
@@ -202,6 +234,22 @@ TEST_CASE("a repeated joint makes the condition measure explode") {
   CHECK(regular < 1e6);
   graph.repeat_last();
   CHECK(graph.singular_condition() > 1e11);
+}
+
+TEST_CASE("rows that depend on those before them are left out") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CAPTURE(seed);
+    RandomGraph graph(6, 300 + seed);
+    int repeated = 0;
+    for (int b = 1; b < 6; ++b) {
+      const int rows = 1 + pick(graph.random(), 4);
+      CHECK(graph.add(pick(graph.random(), b), b, rows));
+      if (b % 2 == 0) continue;
+      graph.repeat_last();
+      repeated += rows;
+    }
+    graph.check_chosen(repeated);
+  }
 }
 
 }  // namespace seacrane::test

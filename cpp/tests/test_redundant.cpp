@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 
 #include "multibody_scenes.hpp"
 #include "seacrane/dynamics/constraints.hpp"
@@ -139,6 +141,30 @@ TEST_CASE("multipliers of redundant constraints are the shortest that give these
   decomposition.setThreshold(1e-9);
   CHECK(decomposition.rank() == system.model().assembly.rank);
   CHECK((decomposition.solve(needed) - k.lambda).norm() < 1e-9 * k.lambda.norm());
+}
+
+TEST_CASE("of many rows those that the others hold are left out") {
+  MaximalSystem system(compile(parallelogram(16)));
+  const Model& m = system.model();
+  REQUIRE(system.solver().has_many_rows());
+  CHECK(m.redundant);
+  CHECK(std::ranges::count(m.left_out, 1) == m.rows() - m.assembly.rank);
+  const std::vector<double> y = moving_state(system, 29);
+  std::vector<double> rate(y.size());
+  system.derivative(0.0, y.data(), rate.data());
+  CHECK(system.solver().is_regular());
+  const DenseTerms k = dense_terms(system);
+  CHECK((k.d * k.acceleration - k.gamma).norm() < 1e-9 * (1.0 + k.gamma.norm()));
+  CHECK((k.mass * k.acceleration - k.load - k.d.transpose() * k.lambda).norm() < 1e-9 * k.load.norm());
+  Eigen::CompleteOrthogonalDecomposition<MatXd> decomposition(k.d.transpose());
+  decomposition.setThreshold(1e-9);
+  CHECK(decomposition.rank() == m.assembly.rank);
+  Eigen::FullPivLU<MatXd> transposed(k.d.transpose());
+  transposed.setThreshold(1e-9);
+  const MatXd null_space = transposed.kernel();
+  for (const ElementModel& e : m.elements) {
+    CHECK(e.unique_reaction == (null_space.middleRows(e.row, e.rows).norm() < 1e-6));
+  }
 }
 
 TEST_CASE("rank is watched beside rows that are redundant from the start") {

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is contradictory
 constexpr int kRestarts = 6;      // of the projection's own Newton iterations
-constexpr int kDenseRows = 600;   // above, rows are taken for independent unless their pivots tell otherwise
 
 double largest(const ElementModel& e, const Vec6d& phi) {
   return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
@@ -173,18 +172,12 @@ std::vector<std::pair<std::string, double>> open_elements(const Model& m, const 
   return out;
 }
 
-void mark_redundant(Model& m, const MatXd& null_space) {
+void mark_redundant(Model& m, const VecXd& shared) {
   for (auto& e : m.elements) {
     if (e.rows == 0) continue;
-    e.unique_reaction = null_space.cols() == 0 || null_space.middleRows(e.row, e.rows).norm() < 1e-7;
+    e.unique_reaction = shared.size() == 0 || shared.segment(e.row, e.rows).norm() < 1e-7;
     if (!e.unique_reaction) m.assembly.redundant.push_back(e.name);
   }
-}
-
-bool depend(const Model& m, MaximalSystem& system) {
-  std::vector<double> rate(system.size());
-  system.derivative(0.0, m.initial_state.data(), rate.data());
-  return system.condition() > kInaccuratePivot && system.rank(0.0, m.initial_state.data()).rank < m.rows();
 }
 
 }  // namespace
@@ -194,15 +187,15 @@ void assemble(Model& model) {
   AssemblyReport& report = model.assembly;
   const std::vector<double> before = model.initial_state;
   std::vector<double>& y = model.initial_state;
-  // The Newton steps are minimum-norm while the rank is unknown.
-  model.redundant = model.rows() <= kDenseRows;
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
   MaximalSystem system(view);
+  // While the rank is unknown, Newton steps are minimum-norm, or take the rows that are independent there.
+  model.redundant = !system.solver().has_many_rows();
+  system.solver().choose_rows_at_each_pose();
   Terms& terms = system.terms();
   report.residual_before = constraint_residual(terms, 0.0, y.data()).position;
   report.open = open_elements(model, terms);
   check_regular(model, terms);
-  if (!model.redundant && system.solver().solves_dependent_rows()) model.redundant = depend(model, system);
   close(model, system);
   const ConstraintResidual after = constraint_residual(terms, 0.0, y.data());
   report.residual_after = after.position;
@@ -217,14 +210,16 @@ void assemble(Model& model) {
   report.rank = found.rank;
   report.condition = found.condition;
   model.redundant = found.rank < model.rows();
-  if (model.redundant && !system.solver().solves_dependent_rows()) {
+  const bool tells = system.solver().solves_dependent_rows() || found.condition <= kInaccuratePivot;
+  if (model.redundant && !tells) {
     throw SceneError("scene '" + model.description.name +
                      "': has redundant joints (S_ii/d_i = " + to_text(found.condition) + "), " +
                      std::to_string(model.body_count()) + " bodies and " + std::to_string(model.rows()) +
                      " constraints; with more than " + std::to_string(kDenseLimit) +
                      " constraints and velocities, six a body, remove the redundant ones");
   }
-  if (model.redundant) mark_redundant(model, found.null_space);
+  if (found.condition <= kInaccuratePivot) model.left_out = found.left_out;
+  if (model.redundant) mark_redundant(model, found.shared);
 }
 
 }  // namespace seacrane

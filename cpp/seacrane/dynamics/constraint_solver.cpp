@@ -10,16 +10,20 @@ namespace seacrane {
 namespace {
 
 constexpr double kRedundantPivot = 1.0 / (kRedundantSingularValue * kRedundantSingularValue);
+constexpr double kWeakPivot = 1e4;  // rows beyond wait while a model is assembled: what is kept steps safely
+constexpr double kPart = 1e-7;      // of a combination of rows of unit size: less is rounding
 
 }  // namespace
 
-ConstraintSolver::ConstraintSolver(const Terms& terms) : terms_(terms), model_(terms.model()) {
+ConstraintSolver::ConstraintSolver(const Terms& terms)
+    : terms_(terms), model_(terms.model()), others_hold_(terms.model()) {
   const Model& m = model_;
   const auto bodies = idx(m.body_count()), elements = m.elements.size();
   over_mass_.assign(2 * elements, Mat6d::Zero());
   values_.assign(m.schur.value_count(), 0.0);
   multipliers_.assign(idx(m.rows()), 0.0);
   impulse_.assign(bodies + 1, Vec6d::Zero());
+  here_.reserve(idx(m.rows()));
   over_shape_.assign(2 * elements, Mat6d::Zero());
   dense_mass_.assign(bodies, Mat6d::Zero());
   shape_values_.assign(m.schur.value_count(), 0.0);
@@ -29,19 +33,57 @@ ConstraintSolver::ConstraintSolver(const Terms& terms) : terms_(terms), model_(t
   }
 }
 
+bool ConstraintSolver::has_many_rows() const {
+  return model_.rows() > kManyRows && !model_.paper_kinematics;
+}
+
 void ConstraintSolver::factor() {
+  const Model& m = model_;
+  if (chooses_) return choose_here(kWeakPivot);
+  assemble();
+  here_.clear();
+  const bool keeps = others_hold_.any();
+  condition_ = keeps ? m.schur.factor(values_.data(), m.left_out) : m.schur.factor(values_.data());
+  const bool accurate = condition_ <= kInaccuratePivot && !others_hold_.stand_open(terms_.blocks().data());
+  left_out_ = others_hold_.count();
+  regular_ = dense_ ? accurate && (keeps || !m.redundant) : accurate || !keeps;
+  if (!regular_) return factor_anew();
+  most_left_out_ = std::max(most_left_out_, left_out_);
+}
+
+void ConstraintSolver::factor_anew() {
+  if (dense_) {
+    factor_dense();
+  } else {
+    choose_here(kInaccuratePivot);
+  }
+}
+
+void ConstraintSolver::assemble() {
   const Model& m = model_;
   const auto& blocks = terms_.blocks();
   for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
     rows_over_mass(terms_.inertia(body), blocks[e].d[side], over_mass_[2 * e + idx(side)]);
   });
   m.schur.assemble(blocks.data(), over_mass_.data(), values_.data());
-  condition_ = m.schur.factor(values_.data());
-  regular_ = !dense_ || (!m.redundant && condition_ <= kInaccuratePivot);
-  if (!regular_) factor_dense();
 }
 
-double ConstraintSolver::shape_condition() {
+/// Leaves out rows of which geometry leaves less than one part in `most`, in the order of elimination.
+void ConstraintSolver::choose_here(double most) {
+  assemble_shape();
+  model_.schur.choose(shape_values_.data(), model_.schur.diagonal(shape_values_.data()), most, here_);
+  assemble();
+  condition_ = model_.schur.factor(values_.data(), here_);
+  left_out_ = static_cast<int>(std::ranges::count(here_, 1));
+  most_left_out_ = std::max(most_left_out_, left_out_);
+  regular_ = true;
+}
+
+bool ConstraintSolver::misses(const std::vector<Vec6d>& acceleration) const {
+  return regular_ && here_.empty() && others_hold_.are_missed(terms_.blocks().data(), acceleration.data());
+}
+
+void ConstraintSolver::assemble_shape() {
   const Model& m = model_;
   const auto& blocks = terms_.blocks();
   for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
@@ -49,16 +91,19 @@ double ConstraintSolver::shape_condition() {
                     over_shape_[2 * e + idx(side)]);
   });
   m.schur.assemble(blocks.data(), over_shape_.data(), shape_values_.data());
-  return m.schur.factor(shape_values_.data());
 }
 
 void ConstraintSolver::factor_dense() {
   const Model& m = model_;
   const RowBlock<double>* blocks = terms_.blocks().data();
-  dependent_ = shape_condition() > kDependentPivot || m.redundant;
+  regular_ = false;
+  left_out_ = 0;
+  assemble_shape();
+  dependent_ = m.schur.factor(shape_values_.data()) > kDependentPivot || m.redundant;
   if (dependent_) {
-    const int rank = row_space_->factor(m.elements, blocks, over_shape_.data(), kEnforcedSingularValue);
-    most_left_out_ = std::max(most_left_out_, m.rows() - rank);
+    left_out_ =
+        m.rows() - row_space_->factor(m.elements, blocks, over_shape_.data(), kEnforcedSingularValue);
+    most_left_out_ = std::max(most_left_out_, left_out_);
   }
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.symmetric_mass(b);
   dense_->factor(m.elements, blocks, dense_mass_.data(), dependent_ ? &*row_space_ : nullptr);
@@ -114,29 +159,52 @@ void ConstraintSolver::correct(std::vector<double>& residual, std::vector<Vec6d>
 Dependence ConstraintSolver::take_dependence() {
   const Model& m = model_;
   if (m.rows() == 0) return {};
-  const int left_out = !regular_ && dependent_ ? m.rows() - row_space_->rank() : 0;
-  redundant_ = redundant_rows(m, redundant_, left_out);
+  redundant_ = redundant_rows(m, redundant_, left_out_);
   // Where rows are redundant from the start, nothing is ever left of the worst one.
-  const bool hidden = redundant_ > 0 && redundant_ <= left_out;
+  const bool hidden = !regular_ && redundant_ > 0 && redundant_ <= left_out_;
   const double ratio = hidden ? std::pow(row_space_->singular_value(redundant_), -2) : condition_;
-  return {ratio, redundant_, left_out, std::exchange(most_left_out_, 0)};
+  return {ratio, redundant_, left_out_, std::exchange(most_left_out_, 0)};
 }
 
 ConstraintRank ConstraintSolver::rank(int skipped) {
+  if (has_many_rows()) return rank_of_many();
   factor();
   ConstraintRank out;
   out.condition = condition_;
-  const double shape = shape_condition();
+  assemble_shape();
   if (row_space_) {
     out.rank = row_space_->factor(model_.elements, terms_.blocks().data(), over_shape_.data(),
                                   kRedundantSingularValue);
-    out.null_space = row_space_->null_space();
+    out.shared = row_space_->null_space().rowwise().norm();
     out.smallest_singular_value = row_space_->singular_value(skipped);
     out.weakest = weakest_element(skipped);
   } else {
-    out.rank = model_.rows() - (shape > kRedundantPivot ? 1 : 0);
+    out.rank = model_.rows() - (model_.schur.factor(shape_values_.data()) > kRedundantPivot ? 1 : 0);
   }
   return out;
+}
+
+/// By the pivots of S: rounding leaves less than one part in kRedundantPivot of rows that others hold.
+ConstraintRank ConstraintSolver::rank_of_many() {
+  choose_here(kRedundantPivot);
+  ConstraintRank out;
+  out.condition = condition_;
+  out.rank = model_.rows() - left_out_;
+  if (left_out_ == 0) return out;
+  out.left_out = here_;
+  out.shared = shared_rows();
+  return out;
+}
+
+/// The largest part of each row in a combination that depends on others, with the geometry of choose_here().
+VecXd ConstraintSolver::shared_rows() {
+  VecXd out = VecXd::Zero(model_.rows()), combination(model_.rows());
+  for (int row = 0; row < model_.rows(); ++row) {
+    if (!here_[idx(row)]) continue;
+    model_.schur.null_vector(shape_values_.data(), row, combination.data());
+    out = out.cwiseMax(combination.cwiseAbs() / combination.norm());
+  }
+  return (out.array() > kPart).select(out, 0.0);
 }
 
 /// The element with the largest part in a combination of rows.

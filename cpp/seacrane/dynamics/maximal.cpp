@@ -52,9 +52,12 @@ void MaximalSystem::solve_acceleration() {
   }
   if (m.paper_kinematics) {
     solver_.solve_unsymmetric(terms_->loads(), gamma_, acceleration_, lambda_);
-  } else {
-    solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
+    return;
   }
+  solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
+  if (!solver_.misses(acceleration_)) return;
+  solver_.factor_anew();
+  solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
 }
 
 void MaximalSystem::add_inertial_tensions(double t, const double* memory) {

@@ -32,15 +32,21 @@ std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& node
   return out;
 }
 
-/// L D L^T of one panel, in place: columns keep u = L d, the diagonal 1 / d. Returns the largest S_ii / d_i.
-double factor_panel(double* p, int width, int height, const double* diagonal) {
+/// L D L^T of one panel, in place: columns keep u = L d, the diagonal 1 / d, and zeros where `keep` leaves a
+/// row out for its S_ii / d_i. Returns the largest of those kept.
+template <class Keep>
+double factor_panel(double* p, int width, int height, const double* diagonal, Keep&& keep) {
   double worst = 1.0;
   for (int c = 0; c < width; ++c) {
     double* column = p + c * height;
-    const double pivot = column[c];
-    if (!(pivot > 0.0)) return std::numeric_limits<double>::infinity();
-    const double inverse = 1.0 / pivot;
-    worst = std::max(worst, diagonal[c] * inverse);
+    const double inverse = 1.0 / column[c];
+    const double loss = column[c] > 0.0 ? diagonal[c] * inverse : std::numeric_limits<double>::infinity();
+    if (!keep(c, loss)) {
+      std::fill(column + c, column + height, 0.0);
+      continue;
+    }
+    if (!std::isfinite(loss)) return loss;
+    worst = std::max(worst, loss);
     column[c] = inverse;
     for (int c2 = c + 1; c2 < width; ++c2) {
       const double a = column[c2] * inverse;
@@ -217,11 +223,29 @@ void BlockSchur::keep_diagonal(double* values) const {
 }
 
 double BlockSchur::factor(double* values) const {
+  return factor_panels(values, diagonal(values), [](int, double) { return true; });
+}
+
+double BlockSchur::factor(double* values, const std::vector<char>& left_out) const {
+  return factor_panels(values, diagonal(values), [&](int row, double) { return left_out[idx(row)] == 0; });
+}
+
+double BlockSchur::choose(double* values, const double* scale, double most,
+                          std::vector<char>& left_out) const {
+  left_out.assign(idx(rows_), 0);
+  return factor_panels(values, scale, [&](int row, double loss) {
+    left_out[idx(row)] = loss <= most ? 0 : 1;
+    return loss <= most;
+  });
+}
+
+template <class Keep>
+double BlockSchur::factor_panels(double* values, const double* scale, Keep&& keep) const {
   double worst = 1.0;
-  const double* diagonal = values + value_count_ - rows_;
   for (const Panel& panel : panels_) {
     double* p = values + panel.values;
-    const double loss = factor_panel(p, panel.width, panel.height, diagonal + panel.first_row);
+    const double loss = factor_panel(p, panel.width, panel.height, scale + panel.first_row,
+                                     [&](int c, double own) { return keep(panel.first_row + c, own); });
     if (!std::isfinite(loss)) return loss;
     worst = std::max(worst, loss);
     const std::size_t* scatter = scatter_.data() + panel.scatter;
@@ -253,6 +277,16 @@ void BlockSchur::solve(const double* values, double* x) const {
   for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
     substitute_back(values + panel->values, *panel, x);
   }
+}
+
+void BlockSchur::null_vector(double* values, int row, double* x) const {
+  const int last = panel_of_row_[idx(row)];
+  const Panel& own = panels_[idx(last)];
+  double& inverse = values[own.values + idx((row - own.first_row) * (own.height + 1))];
+  std::fill_n(x, rows_, 0.0);
+  x[row] = inverse = 1.0;
+  for (int p = last; p >= 0; --p) substitute_back(values + panels_[idx(p)].values, panels_[idx(p)], x);
+  inverse = 0.0;
 }
 
 void BlockSchur::eliminate(const double* p, const Panel& panel, double* x) const {

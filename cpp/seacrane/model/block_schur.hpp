@@ -38,6 +38,15 @@ class BlockSchur {
   /// In place; returns the largest S_ii / d_i (1 for orthogonal constraints), infinity when a pivot
   /// is not positive. The ratio is invariant to the scaling of rows and estimates the lost digits.
   double factor(double* values) const;
+  /// The same without the rows left out: what is solved with them is zero there.
+  double factor(double* values, const std::vector<char>& left_out) const;
+  /// The same, and chooses: a row is left out where `scale`_i / d_i, what it has over what the rows before it
+  /// leave of it, is above `most`.
+  double choose(double* values, const double* scale, double most, std::vector<char>& left_out) const;
+  /// S_ii, of values that are assembled.
+  const double* diagonal(const double* values) const { return values + value_count_ - rows_; }
+  /// The combination of a row left out and those kept before it that S takes to zero, from the factors.
+  void null_vector(double* values, int row, double* x) const;
   /// x := S^-1 x.
   void solve(const double* values, double* x) const;
 
@@ -59,6 +68,8 @@ class BlockSchur {
                                       const std::vector<std::vector<int>>& adjacency);
   void lay_out(const std::vector<GraphNode>& nodes, std::vector<std::vector<int>> below);
   void collect_terms(const std::vector<GraphNode>& nodes, int body_count);
+  template <class Keep>
+  double factor_panels(double* values, const double* scale, Keep&& keep) const;
   std::size_t entry(int row, int column) const;
   void eliminate(const double* p, const Panel& panel, double* x) const;
   void substitute_back(const double* p, const Panel& panel, double* x) const;

@@ -102,7 +102,8 @@ struct Model {
   std::vector<double> initial_state;
   std::vector<LineBounce> line_bounces;
   AssemblyReport assembly;
-  bool redundant = false;  // rank of D below its rows
+  bool redundant = false;      // rank of D below its rows
+  std::vector<char> left_out;  // of many rows, those that the others hold at assembled poses; empty: none
   bool paper_kinematics = false;
   MergePlan merge;
   std::vector<RigidLink> locked_loops;  // between described bodies, whatever limits hold

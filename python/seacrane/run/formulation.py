@@ -85,10 +85,11 @@ def recursive_pays(model: _core.Model) -> bool:
 
     Dense: constraints that depend on each other, or masses so different that the sparse factors lose their
     digits. One such joint makes all of the scene dense, so a chain pays for a door on two hinges beside it;
-    the recursive form keeps its tree and solves the rows of its loops alone.
+    the recursive form keeps its tree and solves the rows of its loops alone. Many rows are never dense: those
+    that the others hold are left out.
     """
     dependent = model.assembly["rank"] < model.constraints
-    if not dependent and not model.assembly["condition"] > LOST_DIGITS:
+    if model.merge["left_out"] or not (dependent or model.assembly["condition"] > LOST_DIGITS):
         return False
     bodies, rows = model.merge["coordinates"] / 6.0, float(model.merge["constraints"])
     loops = float(model.tree["loop_rows"])

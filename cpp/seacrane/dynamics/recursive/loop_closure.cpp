@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/kept_rows.hpp"
 
 namespace seacrane {
 namespace {
 
 constexpr std::size_t kFewRows = 12;  // up to these, G is decomposed densely
-constexpr double kOpen = 1e-6;        // m or rad by which a row that is left out may stand open
-constexpr double kMissed = 1e-4;      // of the accelerations along it: what its drift makes of them is less
 
 /// Compliance of a free body per unit force and per unit moment, at most.
 Eigen::Vector2d free_compliance(const Model& model, int body) {
@@ -98,7 +97,7 @@ void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
 bool LoopClosure::factor_sparse(const RowBlock<double>* blocks, ArticulatedTree<double>& tree) {
   for (const int i : sparse_->left_out()) {
     const Row& row = rows_[idx(i)];
-    if (std::abs(blocks[row.element].phi[row.row]) > kOpen) return false;
+    if (stands_open(blocks[row.element], row.row)) return false;
   }
   free_.setConstant(std::numeric_limits<double>::infinity());
   const double pivots = sparse_->factor(blocks, tree, free_.data());
@@ -119,13 +118,7 @@ bool LoopClosure::misses(const RowBlock<double>* blocks, const Vec6d* accelerati
   if (!is_sparse_) return false;
   return std::ranges::any_of(sparse_->left_out(), [&](int i) {
     const Row& row = rows_[idx(i)];
-    const RowBlock<double>& block = blocks[row.element];
-    const Vec6d &first = acceleration[row.first], &second = acceleration[row.second];
-    const double left =
-        block.gamma[row.row] - block.d[0].row(row.row).dot(first) - block.d[1].row(row.row).dot(second);
-    const double size = std::abs(block.gamma[row.row]) + block.d[0].row(row.row).norm() * first.norm() +
-                        block.d[1].row(row.row).norm() * second.norm();
-    return std::abs(left) > kMissed * size;
+    return is_missed(blocks[row.element], row.row, acceleration[row.first], acceleration[row.second]);
   });
 }
 
@@ -133,28 +126,11 @@ void LoopClosure::choose_rows(const RowBlock<double>* blocks, const BodyKinemati
                               ArticulatedTree<double>& tree) {
   const std::vector<LoopRow> rows(rows_.begin(), rows_.end());
   if (rows_.size() <= kFewRows || SparseLoops::trees_of(model_, tree_) < 2) return;
-  gather_shape(blocks, bodies, tree);
-  std::vector<char> kept(rows.size(), 0);
-  VecXd left = scaled_.diagonal();
-  MatXd factor = MatXd::Zero(scaled_.rows(), scaled_.cols());  // of a pivoted Cholesky decomposition
-  Eigen::Index count = 0;
-  for (const bool driver : {true, false}) {
-    for (;;) {
-      Eigen::Index best = -1;
-      for (Eigen::Index i = 0; i < left.size(); ++i) {
-        const bool open =
-            !kept[static_cast<std::size_t>(i)] && rows[static_cast<std::size_t>(i)].driver == driver;
-        if (open && (best < 0 || left[i] > left[best])) best = i;
-      }
-      if (best < 0 || !(left[best] > kEnforcedEigenvalue)) break;
-      auto column = factor.col(count);
-      column = scaled_.col(best) - factor.leftCols(count) * factor.row(best).head(count).transpose();
-      column /= std::sqrt(left[best]);
-      left -= column.cwiseAbs2();
-      kept[static_cast<std::size_t>(best)] = 1;
-      ++count;
-    }
-  }
+  factor_shape(bodies, tree);
+  std::vector<double> loose;
+  for (const Row& row : rows_) loose.push_back(loose_shape(row, blocks, bodies));
+  SparseLoops all(tree_, model_.body_count(), rows, std::vector<char>(rows.size(), 1));
+  const std::vector<char> kept = all.choose(blocks, tree, loose, 1.0 / kEnforcedEigenvalue);
   sparse_.emplace(tree_, model_.body_count(), rows, kept);
 }
 
@@ -209,27 +185,37 @@ bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* ma
   return false;
 }
 
-/// `shape_` is G with every mass one, `scaled_` the same over what both bodies of a row give without joints.
-void LoopClosure::gather_shape(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
-                               ArticulatedTree<double>& tree) {
+/// The tree with every mass one.
+void LoopClosure::factor_shape(const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
   for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
     shape_mass_[b] = shape_mass_matrix(model_.bodies[b], bodies[b].rotation);
   }
   tree.factor(shape_mass_.data());
+}
+
+/// What both bodies of a row give along it without joints, every mass one.
+double LoopClosure::loose_shape(const Row& row, const RowBlock<double>* blocks,
+                                const BodyKinematics<double>* bodies) const {
+  double loose = 0.0;
+  for (const int side : {0, 1}) {
+    const int body = side == 0 ? row.first : row.second;
+    if (body == model_.body_count()) continue;
+    const Mat6d& d = blocks[row.element].d[side];
+    Mat6d over;
+    rows_over_shape(model_.bodies[idx(body)], bodies[body], d, over);
+    loose += over.row(row.row).dot(d.row(row.row));
+  }
+  return loose;
+}
+
+/// `shape_` is G with every mass one, `scaled_` the same over what both bodies of a row give without joints.
+void LoopClosure::gather_shape(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
+                               ArticulatedTree<double>& tree) {
+  factor_shape(bodies, tree);
   gather(blocks, tree, shape_);
   const Eigen::Index n = shape_.rows();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    double loose = 0.0;
-    for (const int side : {0, 1}) {
-      const int body = side == 0 ? row.first : row.second;
-      if (body == model_.body_count()) continue;
-      const Mat6d& d = blocks[row.element].d[side];
-      Mat6d over;
-      rows_over_shape(model_.bodies[idx(body)], bodies[body], d, over);
-      loose += over.row(row.row).dot(d.row(row.row));
-    }
-    scale_[i] = 1.0 / std::sqrt(loose);
+    scale_[i] = 1.0 / std::sqrt(loose_shape(rows_[static_cast<std::size_t>(i)], blocks, bodies));
   }
   scaled_.noalias() = scale_.asDiagonal() * shape_;
   scaled_.array().rowwise() *= scale_.transpose().array();

@@ -22,7 +22,7 @@ class LoopClosure {
   LoopClosure(const Model& model, const BodyTree& tree);
 
   int rows() const { return static_cast<int>(rows_.size()); }
-  /// Chooses the rows that are enforced, at assembled poses, with the drivers among them, where G is sparse.
+  /// Chooses the rows that are enforced, at assembled poses, where G is sparse.
   /// The tree is left with inertias of geometry.
   void choose_rows(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
                    ArticulatedTree<double>& tree);
@@ -64,6 +64,9 @@ class LoopClosure {
   double decompose(const MatXd& g);
   void gather_shape(const RowBlock<double>* blocks, const BodyKinematics<double>* bodies,
                     ArticulatedTree<double>& tree);
+  void factor_shape(const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree);
+  double loose_shape(const Row& row, const RowBlock<double>* blocks,
+                     const BodyKinematics<double>* bodies) const;
   double loose(const Row& row, const RowBlock<double>* blocks) const;
   bool factor_sparse(const RowBlock<double>* blocks, ArticulatedTree<double>& tree);
   bool is_independent(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,

@@ -101,6 +101,34 @@ void SparseLoops::respond(const Node& column, int row, const RowBlock<double>* b
 }
 
 double SparseLoops::factor(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal) {
+  gather(blocks, tree, diagonal);
+  schur_.keep_diagonal(values_.data());
+  return schur_.factor(values_.data());
+}
+
+std::vector<char> SparseLoops::choose(const RowBlock<double>* blocks, ArticulatedTree<double>& tree,
+                                      const std::vector<double>& loose, double most) {
+  std::vector<double> diagonal(rows_.size());
+  gather(blocks, tree, diagonal.data());
+  for (std::size_t n = 0; n < nodes_.size(); ++n) copy(n, loose.data(), right_.data());
+  std::vector<char> left_out, kept(rows_.size());
+  schur_.choose(values_.data(), right_.data(), most, left_out);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const int at = schur_.row(static_cast<int>(n));
+    const std::vector<int>& rows = nodes_[n].rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) kept[idx(rows[r])] = left_out[idx(at) + r] ? 0 : 1;
+  }
+  return kept;
+}
+
+/// Values of a node's rows, in the order of elimination.
+void SparseLoops::copy(std::size_t node, const double* of_rows, double* out) const {
+  const std::vector<int>& rows = nodes_[node].rows;
+  out += schur_.row(static_cast<int>(node));
+  for (std::size_t r = 0; r < rows.size(); ++r) out[r] = of_rows[rows[r]];
+}
+
+void SparseLoops::gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal) {
   std::ranges::fill(values_, 0.0);
   for (const Node& column : nodes_) {
     for (std::size_t c = 0; c < column.rows.size(); ++c) {
@@ -120,16 +148,10 @@ double SparseLoops::factor(const RowBlock<double>* blocks, ArticulatedTree<doubl
       }
     }
   }
-  schur_.keep_diagonal(values_.data());
-  return schur_.factor(values_.data());
 }
 
 void SparseLoops::solve(const VecXd& right, VecXd& multipliers) {
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const int at = schur_.row(static_cast<int>(n));
-    const std::vector<int>& rows = nodes_[n].rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) right_[idx(at) + r] = right[rows[r]];
-  }
+  for (std::size_t n = 0; n < nodes_.size(); ++n) copy(n, right.data(), right_.data());
   schur_.solve(values_.data(), right_.data());
   multipliers.setZero();
   for (std::size_t n = 0; n < nodes_.size(); ++n) {

@@ -29,6 +29,10 @@ class SparseLoops {
   /// G at the tree's last factor(mass), factored. Returns the largest G_ii / d_i; `diagonal[i]` is G_ii of
   /// row i that is kept.
   double factor(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal);
+  /// Which rows are kept: those of which the rows before them, in the order of elimination, leave more than
+  /// one part in `most` of what their bodies give along them without joints.
+  std::vector<char> choose(const RowBlock<double>* blocks, ArticulatedTree<double>& tree,
+                           const std::vector<double>& loose, double most);
   /// Multipliers of all rows for their right side; zero for those left out.
   void solve(const VecXd& right, VecXd& multipliers);
   const std::vector<int>& left_out() const { return left_out_; }
@@ -49,6 +53,8 @@ class SparseLoops {
 
   void add_nodes(const std::vector<char>& kept);
   void find_neighbours();
+  void copy(std::size_t node, const double* of_rows, double* out) const;
+  void gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal);
   void respond(const Node& column, int row, const RowBlock<double>* blocks, ArticulatedTree<double>& tree);
 
   std::vector<LoopRow> rows_;
