@@ -159,6 +159,10 @@ TEST_CASE("of many rows those that the others hold are left out") {
   Eigen::CompleteOrthogonalDecomposition<MatXd> decomposition(k.d.transpose());
   decomposition.setThreshold(1e-9);
   CHECK(decomposition.rank() == m.assembly.rank);
+  system.shorten_multipliers();
+  const VecXd shortest = decomposition.solve(k.mass * k.acceleration - k.load);
+  CHECK((shortest - Eigen::Map<const VecXd>(system.multipliers().data(), m.rows())).norm() <
+        1e-9 * shortest.norm());
   Eigen::FullPivLU<MatXd> transposed(k.d.transpose());
   transposed.setThreshold(1e-9);
   const MatXd null_space = transposed.kernel();

@@ -1,5 +1,6 @@
 #include "seacrane/dynamics/constraint_solver.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,7 +35,7 @@ ConstraintSolver::ConstraintSolver(const Terms& terms)
 }
 
 bool ConstraintSolver::has_many_rows() const {
-  return model_.rows() > kManyRows && !model_.paper_kinematics;
+  return !model_.paper_kinematics && (!dense_ || model_.rows() > kManyRows);
 }
 
 void ConstraintSolver::factor() {
@@ -46,17 +47,14 @@ void ConstraintSolver::factor() {
   condition_ = keeps ? m.schur.factor(values_.data(), m.left_out) : m.schur.factor(values_.data());
   const bool accurate = condition_ <= kInaccuratePivot && !others_hold_.stand_open(terms_.blocks().data());
   left_out_ = others_hold_.count();
-  regular_ = dense_ ? accurate && (keeps || !m.redundant) : accurate || !keeps;
+  regular_ = accurate && (keeps || !m.redundant);
   if (!regular_) return factor_anew();
   most_left_out_ = std::max(most_left_out_, left_out_);
 }
 
 void ConstraintSolver::factor_anew() {
-  if (dense_) {
-    factor_dense();
-  } else {
-    choose_here(kInaccuratePivot);
-  }
+  if (has_many_rows()) choose_here(kDependentPivot);
+  if (dense_ && !(regular_ && condition_ <= kDependentPivot)) factor_dense();
 }
 
 void ConstraintSolver::assemble() {
@@ -198,13 +196,26 @@ ConstraintRank ConstraintSolver::rank_of_many() {
 
 /// The largest part of each row in a combination that depends on others, with the geometry of choose_here().
 VecXd ConstraintSolver::shared_rows() {
-  VecXd out = VecXd::Zero(model_.rows()), combination(model_.rows());
-  for (int row = 0; row < model_.rows(); ++row) {
-    if (!here_[idx(row)]) continue;
-    model_.schur.null_vector(shape_values_.data(), row, combination.data());
-    out = out.cwiseMax(combination.cwiseAbs() / combination.norm());
-  }
+  const MatXd& combinations = null_space(shape_values_.data(), here_);
+  const VecXd out = combinations.colwise().normalized().cwiseAbs().rowwise().maxCoeff();
   return (out.array() > kPart).select(out, 0.0);
+}
+
+/// A basis of ker(D^T), a column for each row left out.
+const MatXd& ConstraintSolver::null_space(double* factored, const std::vector<char>& left_out) {
+  null_space_.resize(model_.rows(), std::ranges::count(left_out, 1));
+  Eigen::Index column = 0;
+  for (int row = 0; row < model_.rows(); ++row) {
+    if (left_out[idx(row)]) model_.schur.null_vector(factored, row, null_space_.col(column++).data());
+  }
+  return null_space_;
+}
+
+void ConstraintSolver::shorten(std::vector<double>& lambda) {
+  if (!regular_ || left_out_ == 0) return;
+  const MatXd& n = null_space(values_.data(), here_.empty() ? model_.left_out : here_);
+  Eigen::Map<VecXd> multipliers(lambda.data(), model_.rows());
+  multipliers -= n * Eigen::LDLT<MatXd>(n.transpose() * n).solve(n.transpose() * multipliers);
 }
 
 /// The element with the largest part in a combination of rows.

@@ -14,7 +14,7 @@ namespace seacrane {
 /// Unknowns, six a body and one a row, above which the dense fall-back would not be affordable.
 constexpr int kDenseLimit = 1500;
 /// Rows above which those that depend on others are told by the pivots of S alone, which is sparse.
-constexpr int kManyRows = 120;
+constexpr int kManyRows = 64;
 
 /// Rank of D at one state and the largest S_ii / d_i of the rows that are kept. The smallest singular value
 /// over the largest that is asked for, by geometry alone, with the element that takes the largest part in
@@ -57,6 +57,9 @@ class ConstraintSolver {
   bool is_regular() const { return regular_; }
   /// Whether all rows are enforced there.
   bool enforces_all() const { return regular_ || !dependent_; }
+  /// Takes from multipliers, at the pose of the last factor(), what loads no body: of many rows, those left
+  /// out have none of their own.
+  void shorten(std::vector<double>& lambda);
   /// Whether rows that were left out of S do not hold under accelerations by body, ground last.
   bool misses(const std::vector<Vec6d>& acceleration) const;
   /// With rows told anew at this pose, after misses().
@@ -74,6 +77,7 @@ class ConstraintSolver {
   void choose_here(double most);
   ConstraintRank rank_of_many();
   VecXd shared_rows();
+  const MatXd& null_space(double* factored, const std::vector<char>& left_out);
   int weakest_element(int combination) const;
 
   const Terms& terms_;
@@ -85,6 +89,7 @@ class ConstraintSolver {
   std::optional<RowSpace> row_space_;
   std::vector<Mat6d> over_shape_, dense_mass_;
   std::vector<double> shape_values_;
+  MatXd null_space_;
   LeftOutRows others_hold_;
   std::vector<char> here_;  // rows left out, where they were told at the pose of the last factor()
   bool chooses_ = false;

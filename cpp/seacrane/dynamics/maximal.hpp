@@ -52,6 +52,8 @@ class MaximalSystem final : public Formulation {
   const Model& model() const { return model_; }
   /// The multipliers of the last derivative(), by row.
   const std::vector<double>& multipliers() const { return lambda_; }
+  /// Makes them the shortest that load the bodies alike, where rows depend on others.
+  void shorten_multipliers() { solver_.shorten(lambda_); }
   /// With the factors of the last evaluation.
   ConstraintSolver& solver() { return solver_; }
   InertialTensions& tensions() { return tensions_; }

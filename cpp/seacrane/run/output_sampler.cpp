@@ -89,6 +89,7 @@ ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& n
   at.write_bodies(t, state_.data(), bodies_.data());
   if (needs.solution) {
     at.system.derivative(t, bodies_.data(), rate_.data());
+    if (needs.reactions) at.system.shorten_multipliers();
     // The tree factors no constraints of its own joints.
     if (&at.stepped != &at.system) watch_rank(at, t);
   } else if (needs.loads || needs.energy) {

@@ -20,6 +20,7 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
     needs_.loads |= channel->needs.loads;
     needs_.energy |= channel->needs.energy;
     needs_.solution |= channel->needs.solution;
+    needs_.reactions |= channel->needs.reactions;
     needs_.coordinates |= channel->needs.coordinates;
   }
   row_.assign(width, 0.0);

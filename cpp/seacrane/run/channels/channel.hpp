@@ -30,7 +30,8 @@ struct Needs {
   bool residual = false;  // of the constraints, beyond that they are closed
   bool loads = false;
   bool energy = false;
-  bool solution = false;  // accelerations and multipliers
+  bool solution = false;   // accelerations and multipliers
+  bool reactions = false;  // the shortest multipliers, where those of joints are not unique
   bool coordinates = false;
 };
 
