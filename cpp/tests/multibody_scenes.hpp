@@ -181,8 +181,7 @@ inline SceneDescription driven_strut_scene(Random& random, bool universal_at_bas
   const auto swing = [](double amplitude, double omega) {
     return Curve::harmonic(0.0, 0.0, amplitude, omega, -0.5 * M_PI);
   };
-  scene.drivers.push_back(
-      {"stroke", {"barrel-rod", "displacement"}, swing(0.05, 2.0)});
+  scene.drivers.push_back({"stroke", {"barrel-rod", "displacement"}, swing(0.05, 2.0)});
   if (!base) return scene;
   join(scene, "free", "motion", kGround, "base", random.vector(), random.rotation());
   double omega = 1.0;

@@ -272,8 +272,7 @@ TEST_CASE("driven strokes and bodies: the recursive form, without unknowns for t
   int told = 0;
   for (int trial = 0; trial < 8; ++trial) {
     CAPTURE(trial);
-    const SceneDescription scene =
-        driven_strut_scene(random, trial % 2 == 0, trial % 4 < 2, trial > 3);
+    const SceneDescription scene = driven_strut_scene(random, trial % 2 == 0, trial % 4 < 2, trial > 3);
     const BodyTree tree = build_tree(*compile(scene));
     if (tree.struts.empty()) continue;  // its ends come nearer than they lie off the slide's line
     ++told;

@@ -99,8 +99,7 @@ void ConstraintSolver::factor_dense() {
   assemble_shape();
   dependent_ = m.schur.factor(shape_values_.data()) > kDependentPivot || m.redundant;
   if (dependent_) {
-    left_out_ =
-        m.rows() - row_space_->factor(m.elements, blocks, over_shape_.data(), kEnforcedSingularValue);
+    left_out_ = m.rows() - row_space_->factor(m.elements, blocks, over_shape_.data(), kEnforcedSingularValue);
     most_left_out_ = std::max(most_left_out_, left_out_);
   }
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.symmetric_mass(b);

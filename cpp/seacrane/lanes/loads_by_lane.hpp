@@ -21,8 +21,8 @@ class LoadsByLane {
   /// Loads of one kind, those of each lane.
   using Lists = std::array<const LoadList*, L>;
 
-  /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces others
-  /// ask for.
+  /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces
+  /// others ask for.
   LoadsByLane(std::vector<Lists> lists, const std::vector<Lists>& read, int bodies, std::size_t states)
       : lists_(std::move(lists)), wrench_(idx(bodies) + 1), total_(idx(bodies) + 1), rates_(states, 0.0) {
     for (const Lists& list : lists_) {

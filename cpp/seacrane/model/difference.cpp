@@ -88,7 +88,8 @@ std::string difference_of_loads(const Model& one, const Model& other) {
     if (&here.kind != &there.kind || here.names != there.names) return "the loads that act";
     for (std::size_t i = 0; i < here.size(); ++i) {
       const CoordinateData *const a = here.coordinate(i), *const b = there.coordinate(i);
-      const bool along = a != nullptr && b != nullptr && (a->joint.element != b->joint.element || a->kind != b->kind);
+      const bool along =
+          a != nullptr && b != nullptr && (a->joint.element != b->joint.element || a->kind != b->kind);
       if (here.bodies[i] != there.bodies[i] || (a == nullptr) != (b == nullptr) || along) {
         return std::string("what ") + here.kind.name + " '" + here.names[i] + "' acts on";
       }
@@ -102,7 +103,8 @@ std::string difference_of_geometry(const Model& one, const Model& other) {
   for (std::size_t kind = 0; kind < one.joints.size(); ++kind) {
     for (std::size_t i = 0; i < std::min(one.joints[kind].size(), other.joints[kind].size()); ++i) {
       const JointData &here = one.joints[kind][i], &there = other.joints[kind][i];
-      const std::string what = "where joint '" + one.elements[idx(here.element)].name + "' stands on its bodies";
+      const std::string what =
+          "where joint '" + one.elements[idx(here.element)].name + "' stands on its bodies";
       if (here.first != there.first || here.second != there.second || here.first_point != there.first_point ||
           here.second_point != there.second_point || here.first_axes != there.first_axes ||
           here.second_axes != there.second_axes) {

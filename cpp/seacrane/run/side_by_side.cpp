@@ -67,8 +67,7 @@ std::string kept_apart(const Simulation& run) {
 
 bool by_one_method(const Simulation& one, const Simulation& other) {
   const RunOptions &a = one.options(), &b = other.options();
-  return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance &&
-         a.max_step == b.max_step;
+  return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance && a.max_step == b.max_step;
 }
 
 std::string kept_apart(const Simulation& first, const Simulation& run) {
@@ -223,8 +222,8 @@ bool SideBySide::retake_to_kink() {
   return true;
 }
 
-/// Where the last step of a lane is to end. A lane that cannot be where the step took it goes on by itself from
-/// its start, and tells why.
+/// Where the last step of a lane is to end. A lane that cannot be where the step took it goes on by itself
+/// from its start, and tells why.
 std::optional<double> SideBySide::find_kink(std::size_t lane) {
   Simulation& run = *runs_[lane];
   if (has_left(lane) || !run.has_switches()) return std::nullopt;
@@ -312,8 +311,7 @@ void SideBySide::hand_over(std::size_t lane, double t, const double* all) {
   take_lane(all, lane, one_.data());
   Counters taken = counters();
   taken -= counted_;
-  runs_[lane]->go_on_from(t, one_.data(), taken,
-                          wall_seconds_ / static_cast<double>(runs_.size()));
+  runs_[lane]->go_on_from(t, one_.data(), taken, wall_seconds_ / static_cast<double>(runs_.size()));
 }
 
 }  // namespace seacrane

@@ -40,9 +40,9 @@ class Switches {
   void watch(Stepper& at, double t, const double* y);
   /// Begins a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
-  /// Where the last step of what `at` steps is to end when it is taken again: at the first crossing inside it, or just
-  /// behind its start, where it began on the old side of a jump. Nothing where there is no crossing but at
-  /// its ends: then the next step starts from the sides at its end.
+  /// Where the last step of what `at` steps is to end when it is taken again: at the first crossing inside
+  /// it, or just behind its start, where it began on the old side of a jump. Nothing where there is no
+  /// crossing but at its ends: then the next step starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
   /// Cuts the last step: only its part until t counts.
   void shorten(double t);

@@ -76,7 +76,8 @@ class ArticulatedTree {
   void set_load(int body, const Wrench<T>& load) { force_[idx(body)] = -load; }
   /// Accelerations of the bodies and of the speeds under the loads of all bodies, and `torque` on every speed
   /// (null: none; of joints with a direction held, none). Driven speeds have the rates `driven` (null: zero).
-  /// Without `moving` velocities count as zero: the response to an impulse. Loads are used up: set them again.
+  /// Without `moving` velocities count as zero: the response to an impulse. Loads are used up: set them
+  /// again.
   void solve(bool moving, T* u_rate, const T* torque = nullptr, const T* driven = nullptr);
   /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
   /// two bodies; others keep what they have.
@@ -162,10 +163,11 @@ class ArticulatedTree {
   std::vector<Wrench<T>> force_;            // articulated, minus the load
   // (S^T I S)^-1 per cluster; of one that is driven S^T I S; of a leaf that is held, of its 3 x 3.
   std::vector<Mat6<T>> inverse_;
-  std::vector<SpdFactor<6, T>> free_;       // of I, of clusters that float or are held
-  // (S^T I S)^-1 (-S^T p) per cluster; of one that is driven its rate and -S^T p; of one that is held, I^-1 p.
+  std::vector<SpdFactor<6, T>> free_;  // of I, of clusters that float or are held
+  // (S^T I S)^-1 (-S^T p) per cluster; of one that is driven its rate and -S^T p; of one that is held, I^-1
+  // p.
   std::vector<Vec6<T>> torque_;
-  std::vector<Held> held_;                  // per cluster
+  std::vector<Held> held_;  // per cluster
   std::vector<Twist<T>> acceleration_;
 };
 

@@ -351,7 +351,8 @@ class TreeBuilder {
       for (const JointData& joint : model_.joints[kind_of("free")]) {
         if (joint.first != ground_ || joint.second != c.body || c.is_driven()) continue;
         std::vector<int> drivers = drivers_of(joint);
-        if (std::ranges::none_of(drivers, [](int d) { return d < 0; })) lead(c, {std::move(drivers), -1, 1.0});
+        if (std::ranges::none_of(drivers, [](int d) { return d < 0; }))
+          lead(c, {std::move(drivers), -1, 1.0});
       }
     }
   }

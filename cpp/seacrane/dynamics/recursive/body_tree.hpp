@@ -16,8 +16,8 @@ struct Member {
   bool leaf = false;  // compact, and carries no cluster: a mass and an inertia about its centre of mass
 };
 
-/// The drivers that prescribe all coordinates of a cluster: one that of its joint, or the stroke of one of its
-/// struts; or six those of a floating body over the ground, x, y, z, roll, pitch, yaw.
+/// The drivers that prescribe all coordinates of a cluster: one that of its joint, or the stroke of one of
+/// its struts; or six those of a floating body over the ground, x, y, z, roll, pitch, yaw.
 struct Drive {
   std::vector<int> drivers;  // of the model; none: the cluster is free
   int strut = -1;

@@ -49,8 +49,8 @@ struct DrivenBody {
     }
     twist = Twist<double>::zero();
     for (const Twist<double>& part : parts) twist += part;
-    acceleration = Twist<double>(
-        moving + turning_rate.cross(lever) + turning.cross(turning.cross(lever)), turning_rate);
+    acceleration =
+        Twist<double>(moving + turning_rate.cross(lever) + turning.cross(turning.cross(lever)), turning_rate);
   }
 };
 

@@ -86,7 +86,8 @@ bool DrivenSpeeds::jump(double t, double curve_limit, const double* q, const dou
   for (const Coordinate& one : coordinates_) {
     const Cluster& c = *one.cluster;
     const double before = motion(one, t, t, q[c.q]).u, by = motion(one, t, curve_limit, q[c.q]).u - before;
-    const bool jumps = std::abs(by) > projection::kRateTolerance && std::abs(u[c.u] - before) < 0.5 * std::abs(by);
+    const bool jumps =
+        std::abs(by) > projection::kRateTolerance && std::abs(u[c.u] - before) < 0.5 * std::abs(by);
     jump[c.u] = jumps ? by : 0.0;
     any |= jumps;
   }

@@ -20,8 +20,8 @@ class DrivenSpeeds {
   /// Clusters, by their place in the tree.
   const std::vector<std::size_t>& clusters() const { return clusters_; }
 
-  /// Sets positions, speeds and rates of speeds. Throws std::domain_error where a stroke is out of its hinge's
-  /// reach.
+  /// Sets positions, speeds and rates of speeds. Throws std::domain_error where a stroke is out of its
+  /// hinge's reach.
   void follow(double t, double curve_limit, double* q, double* u, double* u_rate);
   /// How speeds jump at t, from the left limit to that of `curve_limit`, where u are those before; elsewhere
   /// zero. Whether any does.

@@ -95,8 +95,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<Wrench<double>> along_;
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
-  std::vector<double> torque_;               // of actuators, on the speeds
-  std::vector<double> followed_;             // a state with what drivers prescribe
+  std::vector<double> torque_;              // of actuators, on the speeds
+  std::vector<double> followed_;            // a state with what drivers prescribe
   std::vector<double> driven_rate_, jump_;  // of the speeds that drivers prescribe
   std::vector<double> speed_rate_, position_rate_;
   std::vector<double> drive_power_;  // by driver of the tree

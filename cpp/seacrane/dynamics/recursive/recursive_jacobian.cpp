@@ -99,7 +99,8 @@ void RecursiveJacobian::differentiate_tree(int first, const double* y, const dou
   for (const std::size_t i : at_->driven.clusters()) {  // functions of time
     const Cluster& c = tree_.clusters[i];
     for (int k = c.q; k < c.q + c.positions; ++k) state_[idx(k)] = Scalar(y[k]);
-    for (int k = tree_.positions + c.u; k < tree_.positions + c.u + c.speeds; ++k) state_[idx(k)] = Scalar(y[k]);
+    for (int k = tree_.positions + c.u; k < tree_.positions + c.u + c.speeds; ++k)
+      state_[idx(k)] = Scalar(y[k]);
   }
   const Scalar* u = state_.data() + tree_.positions;
   kinematics_.place(state_.data(), u, bodies_.data());

@@ -45,8 +45,8 @@ class SparseLoops {
   };
   struct Node {
     int element = 0, first = 0, second = 0;
-    std::array<int, 2> tree{};          // of both bodies; -1: the ground's
-    std::vector<int> rows{};            // that are kept, among all rows
+    std::array<int, 2> tree{};            // of both bodies; -1: the ground's
+    std::vector<int> rows{};              // that are kept, among all rows
     std::vector<std::size_t> clusters{};  // of its trees, parents before children
     std::vector<Neighbour> below{};
   };

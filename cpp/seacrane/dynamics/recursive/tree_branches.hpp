@@ -250,7 +250,8 @@ void ArticulatedTree<T>::respond(const std::vector<std::size_t>& clusters, const
 /// Inwards and outwards over clusters, parents first.
 template <class T>
 template <class Places>
-void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, const T* torque, const T* driven) {
+void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, const T* torque,
+                               const T* driven) {
   force_[idx(ground_)] = Wrench<T>::zero();
   for (auto at = places.end(); at != places.begin();) {
     const std::size_t i = *--at;
