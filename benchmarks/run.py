@@ -26,6 +26,7 @@ from measure import (
     hydraulic_cost,
     integrators,
     lanes,
+    lifts,
     line_methods,
     linear,
     memory_by_motion,
@@ -114,6 +115,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
         members=8 if quick else 64, t_end=100.0 if quick else 10_800.0, repeats=1 if quick else 3
     )
     yield lanes.lanes(repeats=repeats)
+    yield lifts.lifts(repeats=min(repeats, 3))
     yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)

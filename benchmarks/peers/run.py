@@ -19,6 +19,7 @@ import documents
 import numpy as np
 from batches import batches
 from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
+from loops import loops_section
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
 
@@ -187,7 +188,8 @@ def main() -> int:
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
     together = batches(drivers, options.peers, repeats=min(options.repeats, 3))
-    shown, last = (ratios(points), together), table(points, uncertainty)
+    in_a_row = loops_section(options.peers, repeats=min(options.repeats, 3))
+    shown, last = (ratios(points), together, in_a_row), table(points, uncertainty)
     for section in (*shown, last):
         section.save(folder / "results")
     sections = (*(section.marked() for section in shown), last.marked(shown=False))

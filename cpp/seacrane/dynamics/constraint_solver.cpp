@@ -195,8 +195,10 @@ ConstraintRank ConstraintSolver::rank_of_many() {
 
 /// The largest part of each row in a combination that depends on others, with the geometry of choose_here().
 VecXd ConstraintSolver::shared_rows() {
-  const MatXd& combinations = null_space(shape_values_.data(), here_);
-  const VecXd out = combinations.colwise().normalized().cwiseAbs().rowwise().maxCoeff();
+  VecXd out = VecXd::Zero(model_.rows());
+  for (const auto& combination : null_space(shape_values_.data(), here_).colwise()) {
+    out = out.cwiseMax(combination.cwiseAbs() / combination.norm());
+  }
   return (out.array() > kPart).select(out, 0.0);
 }
 
