@@ -62,7 +62,7 @@ KILLED_AT = 0.4  # of the packs
 
 
 def study_scene(wire: str = "rigid") -> Scene:
-    """Case 2 with its payload 25 m below the tip, on a rigid link or a wire that stretches, and guide lines."""
+    """Case 2 with its payload 25 m below the tip, on a rigid link or a wire, and guide lines."""
     scene = cases.case2(payload=Payload(mass=MASS, link_length=LINK))
     body, tip = scene.roles[""].tip
     if wire != "rigid":
