@@ -211,7 +211,7 @@ def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
     scene.add_driver("knuckle_cylinder", curve=0.0)
     scene.ranges.clear()
     with pytest.raises(
-        SeacraneError, match="driver 'main_cylinder.*asks for a stroke of .* its hinge allows"
+        SeacraneError, match=r"driver 'main_cylinder.*asks for a stroke of .* its hinge allows"
     ):
         simulate(scene, 9.0, integrator="rk4", dt=0.05)
 

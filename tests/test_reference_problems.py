@@ -16,7 +16,6 @@ from reference_problems import andrews, andrews_equations, bricard, four_bars, p
 from reference_problems.planar import angles
 from reference_problems.problems import MECHANISMS, four_bar_row, run, squeezer
 
-
 BOTH = ("redundant", "recursive")
 # Problem: settings and the largest difference allowed, in the unit of what is compared (m or rad).
 LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
