@@ -14,6 +14,7 @@ from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
+from seacrane.description.once import once
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -52,12 +53,13 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     return made_of
 
 
-def derived_coords(scene: Description) -> dict[str, list[str]]:
+@once
+def derived_coords(scene: Description) -> Mapping[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
-        "suspension": names_of_suspensions(scene),
+        "suspension": list(names_of_suspensions(scene)),
         "weighed": weighed_suspensions(scene),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
@@ -95,6 +97,7 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
     }
 
 
+@once
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
     """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
     known = model.channel_names(defaults_only=False)

@@ -8,6 +8,7 @@ import numpy as np
 
 from seacrane.description.given import floating_bodies
 from seacrane.description.loads import named
+from seacrane.description.once import once
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from seacrane.description.suspension import Suspension
 
 
+@once
 def warn_of_capsize(scene: Description) -> None:
     """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
 
@@ -48,7 +50,8 @@ def warn_of_capsize(scene: Description) -> None:
             )
 
 
-def carried_by(scene: Description, vessel: str) -> set[str]:
+@once
+def carried_by(scene: Description, vessel: str) -> frozenset[str]:
     """Bodies whose weight comes to a vessel; none where another support shares it."""
     stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
     driven = {driver.joint for driver in scene.drivers.values()}
@@ -66,7 +69,7 @@ def carried_by(scene: Description, vessel: str) -> set[str]:
         open_ += new
     floating = floating_bodies(scene)
     alone = found <= set(scene.bodies) and found & floating == {vessel}
-    return found if alone else set()
+    return frozenset(found if alone else ())
 
 
 def _height(

@@ -1,0 +1,92 @@
+"""What follows from a description alone is worked out once for its content, however often it is asked for.
+
+Elements are immutable, so that a description holds what it held where it holds the same objects under the same
+names: a look at them finds every change, whichever way it was made. What was worked out lies with the scene,
+and copies share it for as long as they hold the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from functools import wraps
+from operator import is_
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+
+from seacrane.description.description import ANSWERS, KINDS
+from seacrane.inputs.caller import Said, recorded, say_again
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
+
+P = ParamSpec("P")
+T = TypeVar("T")
+Scenes = TypeVar("Scenes", bound="Description")
+PLAIN = ("name", "gravity", "orientation", "baumgarte", "length_scale", "waves")
+MOST_HELD = 4  # answers of one function, as for the last runs from other times
+
+
+class Answers:
+    """What was worked out of one content: by function and arguments, with the warnings given on the way."""
+
+    def __init__(self, content: list[Any]) -> None:
+        self.content = content
+        self.known: dict[Any, dict[Hashable, tuple[Any, list[Said]]]] = {}
+
+
+def content_of(scene: Description) -> list[Any]:
+    """All that a description holds but its notes, which nothing reads, to be compared by identity."""
+    held = vars(scene)
+    content = [held[name] for name in PLAIN]
+    for kind in KINDS:
+        table = held[kind]
+        if table:
+            content.append(kind)
+            content += table
+            content += table.values()
+    return content
+
+
+def answers_of(scene: Description) -> Answers:
+    """What is known of a scene as it is now."""
+    content = content_of(scene)
+    held = vars(scene).get(ANSWERS)
+    if held is None or len(held.content) != len(content) or not all(map(is_, held.content, content)):
+        held = vars(scene)[ANSWERS] = Answers(content)
+    return held  # type: ignore[no-any-return]
+
+
+def once(work: Callable[Concatenate[Scenes, P], T]) -> Callable[Concatenate[Scenes, P], T]:
+    """The function of a description, and of arguments that do not change, which works once for a content.
+
+    Whoever asks gets the same object and is not to change it. Its warnings are given at each call. An error
+    is not kept: what raised it is tried again.
+    """
+
+    @wraps(work)
+    def answered(scene: Scenes, *args: P.args, **given: P.kwargs) -> T:
+        held = answers_of(scene).known.setdefault(work, {})
+        key = (args, tuple(given.items()))
+        found = held.get(key)
+        if found is not None:
+            say_again(found[1])
+            return found[0]  # type: ignore[no-any-return]
+        with recorded() as said:
+            value = work(scene, *args, **given)
+        for old in list(held)[: len(held) + 1 - MOST_HELD]:
+            held.pop(old, None)
+        held[key] = (value, said)
+        return value
+
+    return answered
+
+
+def sharing(scene: Scenes, other: Description) -> Scenes:
+    """The scene, which holds what another one holds, with what is known of that."""
+    vars(scene)[ANSWERS] = answers_of(other)
+    return scene
+
+
+def forgetting(scene: Scenes) -> Scenes:
+    """The scene without what is known of it: what is kept for long holds no compiled model."""
+    vars(scene).pop(ANSWERS, None)
+    return scene
