@@ -1,15 +1,16 @@
-"""What follows from a description alone is worked out once for its content, however often it is asked for.
+"""What follows from a description alone: worked out once for its content, however often it is asked for.
 
-Elements are immutable, so that a description holds what it held where it holds the same objects under the same
-names: a look at them finds every change, whichever way it was made. What was worked out lies with the scene,
-and copies share it for as long as they hold the same.
+Elements are immutable, so that a description holds what it held where it holds the same objects under the
+same names: a look at them finds every change, whichever way it was made. What was worked out lies with the
+scene, and copies share it for as long as they hold the same.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from functools import wraps
-from operator import is_
+from itertools import chain
+from operator import is_, itemgetter, methodcaller
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from seacrane.description.description import ANSWERS, KINDS
@@ -21,7 +22,8 @@ if TYPE_CHECKING:
 P = ParamSpec("P")
 T = TypeVar("T")
 Scenes = TypeVar("Scenes", bound="Description")
-PLAIN = ("name", "gravity", "orientation", "baumgarte", "length_scale", "waves")
+_plain = itemgetter("name", "gravity", "orientation", "baumgarte", "length_scale", "waves")
+_tables, _values = itemgetter(*KINDS), methodcaller("values")
 MOST_HELD = 4  # answers of one function, as for the last runs from other times
 
 
@@ -36,14 +38,9 @@ class Answers:
 def content_of(scene: Description) -> list[Any]:
     """All that a description holds but its notes, which nothing reads, to be compared by identity."""
     held = vars(scene)
-    content = [held[name] for name in PLAIN]
-    for kind in KINDS:
-        table = held[kind]
-        if table:
-            content.append(kind)
-            content += table
-            content += table.values()
-    return content
+    tables = _tables(held)
+    elements = chain.from_iterable(map(_values, tables))
+    return [*_plain(held), *map(len, tables), *chain.from_iterable(tables), *elements]
 
 
 def answers_of(scene: Description) -> Answers:
@@ -52,7 +49,7 @@ def answers_of(scene: Description) -> Answers:
     held = vars(scene).get(ANSWERS)
     if held is None or len(held.content) != len(content) or not all(map(is_, held.content, content)):
         held = vars(scene)[ANSWERS] = Answers(content)
-    return held  # type: ignore[no-any-return]
+    return held
 
 
 def once(work: Callable[Concatenate[Scenes, P], T]) -> Callable[Concatenate[Scenes, P], T]:
@@ -63,7 +60,7 @@ def once(work: Callable[Concatenate[Scenes, P], T]) -> Callable[Concatenate[Scen
     """
 
     @wraps(work)
-    def answered(scene: Scenes, *args: P.args, **given: P.kwargs) -> T:
+    def answered(scene: Scenes, /, *args: P.args, **given: P.kwargs) -> T:
         held = answers_of(scene).known.setdefault(work, {})
         key = (args, tuple(given.items()))
         found = held.get(key)

@@ -77,6 +77,15 @@ def checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
 
 
 def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
+    """Plain strings, integers and floats, none missing that every result states; what is None is left out."""
+    plain = plain_stats(stats)
+    missing = [name for name in ALWAYS_STATED if name not in plain]
+    if missing:
+        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
+    return plain
+
+
+def plain_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     """Plain strings, integers and floats; what is None is left out."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
@@ -96,7 +105,4 @@ def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
         if isinstance(value, float) and math.isnan(value):
             raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
-    missing = [name for name in ALWAYS_STATED if name not in plain]
-    if missing:
-        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
     return plain

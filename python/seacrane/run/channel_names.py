@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.body_motion import position_of
-from seacrane.description.channels import CHANNELS, DERIVED, FIXED
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
@@ -71,6 +71,20 @@ def derived_coords(scene: Description) -> Mapping[str, list[str]]:
     }
 
 
+@once
+def all_names(scene: Description, model: _core.Model) -> Mapping[str, list[str]]:
+    """Names along the dimensions of all channels but those that every scene has."""
+    return {**model.axes, **derived_coords(scene)}
+
+
+@once
+def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, ...] | None) -> Set[str]:
+    """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
+    usual = [*model.channel_names(), *(state.channel for state in scene.limit_states.values()), OWN]
+    wanted = with_sources(scene, usual if asked is None else asked)
+    return core_channels(wanted, model.channel_names(defaults_only=False))
+
+
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
@@ -101,7 +115,7 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
     """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
     known = model.channel_names(defaults_only=False)
-    axes = {**model.axes, **derived_coords(scene), **FIXED}
+    axes = {**all_names(scene, model), **FIXED}
     require_own(scene, axes)
     for name, state in scene.limit_states.items():
         try:

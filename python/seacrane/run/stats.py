@@ -62,6 +62,12 @@ def about_of(scene: Scene) -> About:
 
 
 @once
+def require_plain(scene: Scene) -> None:
+    """ValueError or TypeError where a file could not hold what is noted of a scene."""
+    about_of(scene).to_attributes()
+
+
+@once
 def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> Mapping[str, Any]:
     """What `Result.stats` say of a run before it begins, whatever its sea; what is missing stands as None."""
     recursive = formulation == "recursive"
@@ -82,19 +88,9 @@ def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Me
     }
 
 
-def stats_of(
-    lasting: Mapping[str, Any],
-    waves: Waves | None,
-    core: _core.Simulation,
-    start: float,
-) -> dict[str, Any]:
-    """`Result.stats` of a run so far, from its lasting ones; `start` is its start time, s."""
-    return {
-        **lasting,
-        "simulated_s": core.time - start,
-        **core.statistics(),
-        **({} if waves is None else waves.provenance.stats()),
-    }
+def stats_of(lasting: Mapping[str, Any], waves: Waves | None, counted: Mapping[str, Any]) -> dict[str, Any]:
+    """`Result.stats` of a run so far, from its lasting ones and what was counted in it."""
+    return {**lasting, **counted, **({} if waves is None else waves.provenance.stats())}
 
 
 @once

@@ -137,7 +137,7 @@ def _warn_of_ballast(scene: Description) -> None:
         _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
 
 
-def _holds(scene: Description, load: Any, carried: set[str]) -> bool:
+def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
     """Whether a load pushes what a vessel carries from outside, with a force that is not known here."""
     ends = set(bodies_of(load, scene.joints))
     known = kind_of(load) == "point force" or kind_of(load) in WITHOUT_WEIGHT

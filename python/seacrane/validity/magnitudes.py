@@ -57,8 +57,13 @@ class _Looks:
     frames: tuple[str, ...]
 
 
+def _looks_at(element: Any) -> _Looks:
+    kind: Any = type(element)
+    return _looks_at_kind(kind)
+
+
 @cache
-def _looks_at(kind: Any) -> _Looks:
+def _looks_at_kind(kind: Any) -> _Looks:
     fields = []
     for field in kind.FIELDS:
         most = TURN if field.unit == "rad" and field.type == "number" else field.most
@@ -70,13 +75,13 @@ def _looks_at(kind: Any) -> _Looks:
 
 def _stands_for_a_direction(element: Any) -> bool:
     """Springs of moorings have ends beyond the horizon."""
-    points = [getattr(element, key) for key in _looks_at(type(element)).points if key in POINTS[1:3]]
+    points = [getattr(element, key) for key in _looks_at(element).points if key in POINTS[1:3]]
     return any(np.abs(np.asarray(point)).max() >= BEYOND for point in points)
 
 
 def _unusual(element: Any, times: Array) -> Iterator[str]:
     """Values beyond the usual magnitudes of their fields."""
-    for field, least, most, default in _looks_at(type(element)).fields:
+    for field, least, most, default in _looks_at(element).fields:
         value = getattr(element, field.name)
         if isinstance(value, float) and (value == default or _is_usual(abs(value), least, most)):
             continue
@@ -97,7 +102,7 @@ def _unusual(element: Any, times: Array) -> Iterator[str]:
 
 
 def _is_usual(size: float, least: float, most: float) -> bool:
-    return not (0.0 < size and size * SLACK < least) and not size > most * SLACK > 0.0
+    return not (size > 0.0 and size * SLACK < least) and not size > most * SLACK > 0.0
 
 
 def magnitudes(value: Any, times: Array) -> Array:
@@ -109,7 +114,7 @@ def magnitudes(value: Any, times: Array) -> Array:
 
 def _far_points(element: Any) -> Iterator[str]:
     """Points of bodies that no body reaches."""
-    looks = _looks_at(type(element))
+    looks = _looks_at(element)
     given = {key: getattr(element, key) for key in looks.points}
     given |= {key: getattr(element, key).point for key in looks.frames}
     for key, value in given.items():

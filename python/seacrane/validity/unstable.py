@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,7 +74,7 @@ def carried_by(scene: Description, vessel: str) -> frozenset[str]:
 
 
 def _height(
-    scene: Description, hung: list[tuple[Suspension, list[str]]], body: _core.Body, hull: _core.Body
+    scene: Description, hung: Sequence[tuple[Suspension, Sequence[str]]], body: _core.Body, hull: _core.Body
 ) -> float:
     """Above a hull's origin at which a body's weight acts, m: that of the point from which it hangs."""
     for one, below in hung:
