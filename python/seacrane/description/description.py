@@ -116,8 +116,9 @@ class Description:
     notes: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        held = vars(self)
         for key, kind in KINDS.items():  # a table belongs to one scene
-            setattr(self, key, Table(kind, getattr(self, key)))
+            held[key] = Table(kind, held[key])
         self.notes = deepcopy(dict(self.notes))
         self.warned: dict[str, None] = dict(
             self.__dict__.get("warned", ())

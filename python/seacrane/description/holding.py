@@ -9,7 +9,7 @@ from seacrane import _core
 from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_driver
 from seacrane.description.loads import named, springs_of
-from seacrane.description.once import once, sharing
+from seacrane.description.once import once, once_in_any_sea, sharing
 from seacrane.description.roles import CraneRoles
 
 Drive = tuple[str, str, str]  # label, joint and coordinate
@@ -49,7 +49,7 @@ def _acted_on(scene: Description, joint: str) -> bool:
     )
 
 
-@once
+@once_in_any_sea
 def held_drives(scene: Description) -> Mapping[str, list[Drive]]:
     """What is held because nothing acts on it, by the prefix of its crane."""
     found = {prefix: free_drives(scene, roles) for prefix, roles in scene.roles.items() if roles.held}

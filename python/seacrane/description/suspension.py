@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from seacrane.description.given import floating_bodies
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
-from seacrane.description.once import once
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import RIGID, WITH_MASS
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Hung:
         return self.crane.tip
 
 
-@once
+@once_in_any_sea
 def suspensions(scene: Description) -> tuple[Suspension, ...]:
     """Rods and wires, then lines, in the order of the scene."""
     wires = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "wire"}
@@ -100,7 +100,7 @@ def suspensions(scene: Description) -> tuple[Suspension, ...]:
     return (*rods, *(_of_lines(name, segments, taken) for name, segments in whole.items()))
 
 
-@once
+@once_in_any_sea
 def names_of_suspensions(scene: Description) -> Sequence[str]:
     """Along `suspension`: rods, wires, then lines; a line with the name of a joint is "<name> line"."""
     joints = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
@@ -117,7 +117,7 @@ def lower_ends(scene: Description) -> list[Place]:
     return ends
 
 
-@once
+@once_in_any_sea
 def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
     """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
     ties, found = _ties_of(scene), {}
@@ -129,7 +129,7 @@ def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
     return found
 
 
-@once
+@once_in_any_sea
 def line_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
     """`weights_on` the lines without mass that stretch, by the name of the line."""
     ties, found = _ties_of(scene), {}
@@ -140,7 +140,7 @@ def line_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
     return found
 
 
-@once
+@once_in_any_sea
 def bodies_below(scene: Description) -> Sequence[tuple[Suspension, Sequence[str]]]:
     """What hangs on each suspension and on nothing else, its own masses too; the uppermost one first."""
     ties, found = _ties_of(scene), []
@@ -151,7 +151,7 @@ def bodies_below(scene: Description) -> Sequence[tuple[Suspension, Sequence[str]
     return sorted(found, key=lambda pair: -len(pair[1]))
 
 
-@once
+@once_in_any_sea
 def hung_loads(scene: Description) -> tuple[Hung, ...]:
     """What hangs on the cranes, then what hangs by itself on something else."""
     every, ties = suspensions(scene), _ties_of(scene)
@@ -263,7 +263,7 @@ class _Ties:
         return found
 
 
-_ties_of = once(_Ties)
+_ties_of = once_in_any_sea(_Ties)
 
 
 def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:

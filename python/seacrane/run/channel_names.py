@@ -14,7 +14,7 @@ from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
-from seacrane.description.once import once
+from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -53,7 +53,7 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     return made_of
 
 
-@once
+@once_in_any_sea
 def derived_coords(scene: Description) -> Mapping[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {

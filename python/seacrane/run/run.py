@@ -18,6 +18,7 @@ from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
+from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
@@ -416,7 +417,7 @@ class Run:
                 about=self.about,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,
-                scene=scene.copy(notes={}),
+                scene=forgetting(scene.copy(notes={})),
             )
         return result, found
 

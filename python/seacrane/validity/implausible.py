@@ -13,7 +13,7 @@ from seacrane.description.given import floating_bodies
 from seacrane.description.holding import free_drives
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import bodies_of, kind_of
-from seacrane.description.once import once
+from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
@@ -90,7 +90,7 @@ def _still(wind: _core.FlowForce) -> bool:
     return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
 
 
-@once
+@once_in_any_sea
 def _warn_of_masses(scene: Description) -> None:
     for name, body in scene.bodies.items():
         radius = math.sqrt(float(np.trace(body.inertia)) / 2.0 / body.mass)
@@ -112,7 +112,7 @@ def _warn_of_masses(scene: Description) -> None:
             )
 
 
-@once
+@once_in_any_sea
 def _warn_of_ballast(scene: Description) -> None:
     """Weights on a vessel against forces on it, by its restoring; not where other loads hold it."""
     for vessel in (one for one in scene.vessels.values() if one.floats):

@@ -86,11 +86,13 @@ def _unusual(element: Any, times: Array) -> Iterator[str]:
         if isinstance(value, float) and (value == default or _is_usual(abs(value), least, most)):
             continue
         size = magnitudes(value, times)
-        low = size.size and size.max() > 0.0 and np.min(size[size > 0.0]) * SLACK < least
-        high = size.size and size.max() > most * SLACK > 0.0
-        if not (low or high):
+        largest = float(size.max(initial=0.0))
+        if not largest > 0.0 or (least == 0.0 and largest <= most * SLACK):
             continue
-        worst = size.max() if high else np.min(size[size > 0.0])
+        smallest, high = float(size[size > 0.0].min()), largest > most * SLACK > 0.0
+        if not (smallest * SLACK < least or high):
+            continue
+        worst = largest if high else smallest
         unit = f" {field.unit}" if field.unit else ""
         bounds = f"{least:.6g} to {most:.6g}" if most else f"{least:.6g} and more"
         yield (

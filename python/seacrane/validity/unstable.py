@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane.description.given import floating_bodies
 from seacrane.description.loads import named
-from seacrane.description.once import once
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from seacrane.description.suspension import Suspension
 
 
-@once
+@once_in_any_sea
 def warn_of_capsize(scene: Description) -> None:
     """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
 
@@ -51,7 +51,7 @@ def warn_of_capsize(scene: Description) -> None:
             )
 
 
-@once
+@once_in_any_sea
 def carried_by(scene: Description, vessel: str) -> frozenset[str]:
     """Bodies whose weight comes to a vessel; none where another support shares it."""
     stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
