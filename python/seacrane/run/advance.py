@@ -163,7 +163,7 @@ def slow_findings(run: Run) -> list[Finding]:
     Of a run made by `Run.in_sea` they are found only where the modes at the common start, found once for all
     such runs, come near a limit.
     """
-    many = getattr(run.core, "steps", FEWEST_STEPS) >= FEWEST_STEPS
+    many = run.core.steps >= FEWEST_STEPS
     if run.start_modes is not None and not (many and _found(run, run.start_modes, near=NEAR)):
         return []
     last = run.last_state()
