@@ -9,7 +9,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import nullcontext
 from typing import Any
 
-from seacrane import Kept, Run, Scene, cases, ensemble
+from seacrane import Kept, Run, Scene, cases, ensemble, simulate
 from seacrane.ensembles.other_sea import with_sea
 
 from .section import Section
@@ -17,6 +17,7 @@ from .timing import best_seconds
 
 TRACK = {"track": Kept(channel="position", names={"body": "payload"}, interval=1.0)}
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0}
+SHORT = 0.1  # s
 
 
 def one_member(*, repeats: int) -> Section:
@@ -33,9 +34,13 @@ def one_member(*, repeats: int) -> Section:
     assert waves is not None
     describing = best_seconds(cases.case2, repeats=repeats)
     sea = best_seconds(lambda: with_sea(scene, {"seed": 2}), repeats=repeats)
-    preparing = best_seconds(lambda: _run(scene), repeats=repeats)
+    once_more = best_seconds(lambda: _run(scene), repeats=repeats)
+    fresh = iter([cases.case2() for _ in range(2 * repeats)])
+    preparing = best_seconds(lambda: _run(next(fresh)), repeats=repeats)
+    first = best_seconds(lambda: simulate(next(fresh), SHORT), repeats=repeats)
+    short = best_seconds(lambda: simulate(scene, SHORT), repeats=repeats)
     again = best_seconds(lambda: done.in_sea(waves), repeats=repeats)
-    loop = best_seconds(stepped, repeats=repeats) - preparing
+    loop = best_seconds(stepped, repeats=repeats) - once_more
     result = best_seconds(done.result, repeats=repeats)
     return Section(
         title="One member of an ensemble",
@@ -43,16 +48,21 @@ def one_member(*, repeats: int) -> Section:
             "CPU time in ms of the parts of one member: case 2, 100 s, default method at rtol 1e-2, payload "
             "every second. A function describes the whole lift, and its run is checked and compiled. Of a "
             "scene only the sea is made again and compiled. To end is to look for what is out of range and "
-            f"to make the result. Best of {repeats}."
+            f"to make the result. Two rows are of `simulate` to {SHORT:g} s with all usual channels, whose "
+            "loop is next to nothing: of a scene that nobody looked at before, and of one that was run "
+            f"before. Best of {repeats}."
         ),
         head=["part", "ms"],
         rows=[
             ["describe the lift (function)", 1e3 * describing],
             ["prepare the run (function)", 1e3 * preparing],
+            ["prepare the run (scene that was run before)", 1e3 * once_more],
             ["make the sea again (scene)", 1e3 * sea],
             ["prepare the run in it (scene)", 1e3 * again],
             ["step", 1e3 * loop],
             ["end", 1e3 * result],
+            ["all of a short run (function)", 1e3 * first],
+            ["all of a short run (scene that was run before)", 1e3 * short],
         ],
     )
 

@@ -323,6 +323,8 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("time", alone([](Simulation& s) { return s.time(); }))
       .def_property_readonly("set_aside", alone([](Simulation& s) { return s.set_aside(); }),
                              "Why it was not stepped on beside others; empty: it was.")
+      .def_property_readonly("steps", alone([](Simulation& s) { return s.steps(); }),
+                             "Steps so far; `statistics` tells more, and takes longer.")
       .def_property_readonly("order", alone([](Simulation& s) { return s.order(); }),
                              "Order of the method, the highest where it varies.")
       .def_property_readonly("adaptive", alone([](Simulation& s) { return s.is_adaptive(); }),

@@ -2967,6 +2967,11 @@ class Simulation:
         copy
         """
     @property
+    def steps(self) -> int:
+        """
+        Steps so far; `statistics` tells more, and takes longer.
+        """
+    @property
     def time(self) -> float:
         ...
 class LaneEvaluator:

@@ -47,6 +47,8 @@ class Simulation {
   /// Drops the first `count` rows recorded.
   void drop_rows(std::size_t count) { outputs_.drop_rows(count); }
   RunStatistics statistics() const;
+  /// Steps so far, which `statistics` tells too, at the cost of the rank of all constraints.
+  long steps() const { return steppers_.counters().steps + beside_.steps; }
   /// Sets the inputs from the present time on and restarts the derivative's history.
   void set_inputs(const std::vector<double>& slots);
   int state_size() const { return static_cast<int>(stepper().stepped.size()); }

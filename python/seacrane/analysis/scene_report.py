@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -103,7 +104,7 @@ def elements_of(scene: Description) -> Rows:
     return [(label, names) for label, names in rows if names]
 
 
-def _held(found: dict[str, list[Drive]]) -> Rows:
+def _held(found: Mapping[str, list[Drive]]) -> Rows:
     """Drives of cranes on which nothing acts, and which stand where they are described."""
     held = [f"{prefix}{label} ({joint})" for prefix, drives in found.items() for label, joint, _ in drives]
     return [("held where described, as nothing acts on them", held)] if held else []

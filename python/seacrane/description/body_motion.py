@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.frames import cross, rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -30,7 +30,7 @@ def velocity_of(scene: Description, arrays: Mapping[str, Array], body: str, poin
     if body not in scene.bodies:
         return np.zeros((len(arrays["position"]), 3))
     place = place_in(scene, body)
-    turning = np.cross(arrays["angular_velocity"][:, place], _lever(scene, arrays, body, point))
+    turning = cross(arrays["angular_velocity"][:, place], _lever(scene, arrays, body, point))
     return np.asarray(arrays["velocity"][:, place] + turning)
 
 
@@ -45,7 +45,7 @@ def relative_motion(
         fast, slow = (velocity_of(scene, arrays, one.body, one.point) for one in ends)
         rate = fast - slow
         if axes in scene.bodies:
-            rate -= np.cross(arrays["angular_velocity"][:, place_in(scene, axes)], told)
+            rate -= cross(arrays["angular_velocity"][:, place_in(scene, axes)], told)
         told = rate
     if axes not in scene.bodies:
         return np.asarray(told)
@@ -61,6 +61,7 @@ def place_in(scene: Description, body: str) -> int:
 def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
     """From the centre of mass of a body to a point of it, inertial frame, m."""
     in_body = np.asarray(point, float) - np.asarray(scene.bodies[body].center_of_mass)
-    w, axis = (part for part in np.split(arrays["quaternion"][:, place_in(scene, body)], [1], axis=1))
-    across = np.cross(axis, in_body)
-    return np.asarray(in_body + 2.0 * (w * across + np.cross(axis, across)))
+    turn = arrays["quaternion"][:, place_in(scene, body)]
+    w, axis = turn[:, :1], turn[:, 1:]
+    across = cross(axis, in_body)
+    return np.asarray(in_body + 2.0 * (w * across + cross(axis, across)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,13 @@ from seacrane.description.assembled import warn_of_moves
 from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_heavy_winch
+from seacrane.description.once import forgetting, once
 from seacrane.description.rungs import compiled_loads
 from seacrane.description.wave_grid import grid_of
 from seacrane.description.wave_selection import without_negligible
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
 
 EVALUATIONS = ("table", "exact", "fft")
@@ -28,6 +28,11 @@ Complex = NDArray[np.complex128]
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     """What `Scene.compile` does, without its look at what capsizes; its docstring says what is raised."""
+    whole_period = scene.waves is not None and scene.waves.evaluation == "fft"  # tables of many megabytes
+    return _compiled(scene, merge) if whole_period else _compiled_once(scene, merge)
+
+
+def _compiled(scene: Description, merge: bool) -> _core.Model:
     scene = with_holds(scene)
     for line in lines_of(scene.loads).values():
         if line.winch:
@@ -56,8 +61,11 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
             "reactions are not: the minimum-norm ones are given",
             UserWarning,
         )
-    model.compiled_from = (scene.copy(), merge)
+    model.compiled_from = (forgetting(scene.copy()), merge)
     return model
+
+
+_compiled_once = once(_compiled)
 
 
 def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
@@ -76,8 +84,7 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
 
 def compiled(scene: Description, merge: bool) -> _core.Model:
     """The model of a scene: how a pickled model comes back."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # given when it was compiled first
+    with silently():  # given when it was compiled first
         return compile_scene(scene, merge=merge)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane.description.description import Description
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.frames import cross, rotation_matrix
 
 Array = NDArray[np.float64]
 
@@ -45,4 +45,4 @@ def tip_radius(scene: Description, roles: CraneRoles, position: Array, quaternio
     foot, turn = placed(scene, joint.first, joint.first_frame.point, position, quaternion)
     tip, _ = placed(scene, tip_body, tip_point, position, quaternion)
     upward = turn @ np.asarray(joint.first_frame.axes)[:, 2]
-    return np.asarray(np.linalg.norm(np.cross(upward, tip - foot), axis=-1))
+    return np.asarray(np.linalg.norm(cross(upward, tip - foot), axis=-1))

@@ -49,6 +49,7 @@ KINDS: Mapping[str, str] = {
 }
 ELEMENTS = tuple(COMPILED)
 LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
+ANSWERS = "_answers"  # attribute: what was worked out of a scene, see `once`
 Element = TypeVar("Element")
 
 
@@ -115,8 +116,9 @@ class Description:
     notes: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        held = vars(self)
         for key, kind in KINDS.items():  # a table belongs to one scene
-            setattr(self, key, Table(kind, getattr(self, key)))
+            held[key] = Table(kind, held[key])
         self.notes = deepcopy(dict(self.notes))
         self.warned: dict[str, None] = dict(
             self.__dict__.get("warned", ())
@@ -128,6 +130,9 @@ class Description:
         ]
         sea = ["waves"] if self.waves is not None else []
         return f"<{type(self).__name__} {self.name!r}: {', '.join([*held, *sea]) or 'empty'}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != ANSWERS}
 
     def __copy__(self: Some) -> Some:
         return self.copy()

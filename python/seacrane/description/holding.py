@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from seacrane import _core
 from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_driver
 from seacrane.description.loads import named, springs_of
+from seacrane.description.once import once, once_in_any_sea, sharing
 from seacrane.description.roles import CraneRoles
 
 Drive = tuple[str, str, str]  # label, joint and coordinate
@@ -48,7 +49,8 @@ def _acted_on(scene: Description, joint: str) -> bool:
     )
 
 
-def held_drives(scene: Description) -> dict[str, list[Drive]]:
+@once_in_any_sea
+def held_drives(scene: Description) -> Mapping[str, list[Drive]]:
     """What is held because nothing acts on it, by the prefix of its crane."""
     found = {prefix: free_drives(scene, roles) for prefix, roles in scene.roles.items() if roles.held}
     return {prefix: drives for prefix, drives in found.items() if drives}
@@ -56,7 +58,10 @@ def held_drives(scene: Description) -> dict[str, list[Drive]]:
 
 def with_holds(scene: Some) -> Some:
     """The scene as it is compiled: with a driver for each drive that is held; itself where there is none."""
-    return decided(scene) if held_drives(scene) else scene
+    if not held_drives(scene):
+        return scene
+    held = _decided_once(scene)
+    return sharing(scene.copy(roles=held.roles, drivers=held.drivers), held)
 
 
 def decided(scene: Some) -> Some:
@@ -66,6 +71,9 @@ def decided(scene: Some) -> Some:
         for _, joint, coordinate in drives:
             add_driver(out, joint=joint, coordinate=coordinate, curve=0.0)
     return out
+
+
+_decided_once = once(decided)
 
 
 def let_go(scene: Some) -> Some:

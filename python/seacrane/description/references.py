@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.given import given_vessels, require_described
 from seacrane.description.joint_coordinates import ANGLES, coordinate_at, start_pose, wrapped
+from seacrane.description.once import once
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import DriverImpulseWarning
@@ -49,6 +50,7 @@ def references(scene: Description) -> Iterator[Reference]:
             yield Reference(f"actuator {name!r}", actuator.joint, actuator.coordinate, actuator.reference)
 
 
+@once
 def check_references(
     scene: Description, model: _core.Model, *, start: float, end: float, described: bool
 ) -> None:

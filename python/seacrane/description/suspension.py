@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Any
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from seacrane.description.given import floating_bodies
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import RIGID, WITH_MASS
 
 if TYPE_CHECKING:
@@ -83,7 +84,8 @@ class Hung:
         return self.crane.tip
 
 
-def suspensions(scene: Description) -> list[Suspension]:
+@once_in_any_sea
+def suspensions(scene: Description) -> tuple[Suspension, ...]:
     """Rods and wires, then lines, in the order of the scene."""
     wires = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "wire"}
     rods = [
@@ -95,10 +97,11 @@ def suspensions(scene: Description) -> list[Suspension]:
     for name, line in lines_of(scene.loads).items():
         whole.setdefault(whole_of(name, line), {})[name] = line
     taken = {one.name for one in rods}
-    return [*rods, *(_of_lines(name, segments, taken) for name, segments in whole.items())]
+    return (*rods, *(_of_lines(name, segments, taken) for name, segments in whole.items()))
 
 
-def names_of_suspensions(scene: Description) -> list[str]:
+@once_in_any_sea
+def names_of_suspensions(scene: Description) -> Sequence[str]:
     """Along `suspension`: rods, wires, then lines; a line with the name of a joint is "<name> line"."""
     joints = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     return [*joints, *(_beside(name, joints) for name in lines_of(scene.loads))]
@@ -114,9 +117,10 @@ def lower_ends(scene: Description) -> list[Place]:
     return ends
 
 
-def weights_on(scene: Description) -> dict[str, tuple[float, int]]:
+@once_in_any_sea
+def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
     """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
-    ties, found = _Ties(scene), {}
+    ties, found = _ties_of(scene), {}
     for one in suspensions(scene):
         weight = ties.weight(one)
         if weight is not None:
@@ -125,9 +129,10 @@ def weights_on(scene: Description) -> dict[str, tuple[float, int]]:
     return found
 
 
-def line_weights(scene: Description) -> dict[str, tuple[float, int]]:
+@once_in_any_sea
+def line_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
     """`weights_on` the lines without mass that stretch, by the name of the line."""
-    ties, found = _Ties(scene), {}
+    ties, found = _ties_of(scene), {}
     for one in suspensions(scene):
         weight = None if one.rung in (ROD, RIGID, WITH_MASS) else ties.weight(one)
         if weight is not None:
@@ -135,9 +140,10 @@ def line_weights(scene: Description) -> dict[str, tuple[float, int]]:
     return found
 
 
-def bodies_below(scene: Description) -> list[tuple[Suspension, list[str]]]:
+@once_in_any_sea
+def bodies_below(scene: Description) -> Sequence[tuple[Suspension, Sequence[str]]]:
     """What hangs on each suspension and on nothing else, its own masses too; the uppermost one first."""
-    ties, found = _Ties(scene), []
+    ties, found = _ties_of(scene), []
     for one in suspensions(scene):
         below = ties.below(one)
         if below:
@@ -145,9 +151,10 @@ def bodies_below(scene: Description) -> list[tuple[Suspension, list[str]]]:
     return sorted(found, key=lambda pair: -len(pair[1]))
 
 
-def hung_loads(scene: Description) -> list[Hung]:
+@once_in_any_sea
+def hung_loads(scene: Description) -> tuple[Hung, ...]:
     """What hangs on the cranes, then what hangs by itself on something else."""
-    every, ties = suspensions(scene), _Ties(scene)
+    every, ties = suspensions(scene), _ties_of(scene)
     found = [_on_crane(scene, roles, every, ties) for roles in scene.roles.values()]
     on_cranes = [one for one in found if one is not None]
     carried = {body for one in on_cranes for body in (one.load, *ties.below(one.suspension))}
@@ -158,7 +165,7 @@ def hung_loads(scene: Description) -> list[Hung]:
             load = _lowest(scene, one, every, ties.below(one))
             carried |= {load, *ties.below(one)}
             others.append(_hung(scene, one.name, None, one, load, every, weight))
-    return [*on_cranes, *others]
+    return (*on_cranes, *others)
 
 
 def hooked_body(line: Any) -> str:
@@ -218,9 +225,10 @@ class _Ties:
     """Which bodies hold together by what carries weight: a graph of bodies, and its elements by name."""
 
     def __init__(self, scene: Description) -> None:
-        self._scene = scene
+        self._bodies, self._gravity = dict(scene.bodies), scene.gravity
         self._held = floating_bodies(scene)
         self._ties = list(_ties(scene))
+        self._below: dict[Suspension, list[str]] = {}
 
     def weight(self, suspension: Suspension) -> float | None:
         """Weight of what hangs on it, N; None where that hangs on something else too."""
@@ -228,11 +236,16 @@ class _Ties:
 
     def weight_of(self, bodies: Iterable[str]) -> float:
         """N; of what feels no gravity nothing."""
-        heavy = [self._scene.bodies[body] for body in bodies if self._scene.bodies[body].gravity]
-        return sum(body.mass for body in heavy) * self._scene.gravity
+        heavy = [self._bodies[body] for body in bodies if self._bodies[body].gravity]
+        return sum(body.mass for body in heavy) * self._gravity
 
-    def below(self, suspension: Suspension) -> list[str]:
+    def below(self, suspension: Suspension) -> Sequence[str]:
         """The bodies that it carries, that at its end first; none where something else carries them too."""
+        if suspension not in self._below:
+            self._below[suspension] = self._reached(suspension)
+        return self._below[suspension]
+
+    def _reached(self, suspension: Suspension) -> list[str]:
         neighbours: dict[str, list[str]] = {}
         for name, first, second in self._ties:
             if name not in suspension.parts:
@@ -242,12 +255,15 @@ class _Ties:
         ends = {suspension.upper[0], suspension.first[0], *self._held}
         while ahead:
             body = ahead.pop()
-            if body in ends or body not in self._scene.bodies:
+            if body in ends or body not in self._bodies:
                 return []
             if body not in found:
                 found.append(body)
                 ahead += neighbours.get(body, [])
         return found
+
+
+_ties_of = once_in_any_sea(_Ties)
 
 
 def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
@@ -265,7 +281,7 @@ def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
         yield name, cylinder.first, cylinder.second
 
 
-def _on_crane(scene: Description, roles: CraneRoles, every: list[Suspension], ties: _Ties) -> Hung | None:
+def _on_crane(scene: Description, roles: CraneRoles, every: Sequence[Suspension], ties: _Ties) -> Hung | None:
     """What hangs on a crane, by its role, or from its tip."""
     named = {one.name: one for one in every}
     one = named.get(roles.link or roles.line or "")
@@ -280,7 +296,7 @@ def _on_crane(scene: Description, roles: CraneRoles, every: list[Suspension], ti
     return _hung(scene, f"{roles.prefix}hook", roles, one, str(load), every, ties.weight(one))
 
 
-def _lowest(scene: Description, one: Suspension, every: list[Suspension], below: list[str]) -> str:
+def _lowest(scene: Description, one: Suspension, every: Sequence[Suspension], below: Sequence[str]) -> str:
     """Among the bodies on a suspension, the heaviest that carries none of the others."""
     carrying = {other.upper[0] for other in every if other.name != one.name}
     lowest = [body for body in below if body not in carrying] or below or [one.lower[0]]
@@ -293,7 +309,7 @@ def _hung(
     crane: CraneRoles | None,
     one: Suspension,
     load: str,
-    every: list[Suspension],
+    every: Sequence[Suspension],
     weight: float | None,
 ) -> Hung:
     """With the middle of the points by which the load is held."""
@@ -302,7 +318,7 @@ def _hung(
     return Hung(label=label, crane=crane, suspension=one, load=load, point=_point(middle), weight=weight)
 
 
-def _held_at(scene: Description, load: str, every: list[Suspension]) -> Iterator[Point]:
+def _held_at(scene: Description, load: str, every: Sequence[Suspension]) -> Iterator[Point]:
     """Points of a body, in its coordinates, m, by which slings and hooks hold it."""
     for one in every:
         if one.lower[0] == load:

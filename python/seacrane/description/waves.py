@@ -22,8 +22,23 @@ from seacrane.warnings import RepeatingSeaWarning
 Array = NDArray[np.float64]
 
 
+class _ReadOnly:
+    """What holds arrays that nobody writes into: copies of those that somebody could, also after a pickle."""
+
+    def _close(self) -> None:
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray) and value.flags.writeable:
+                closed = value.copy()
+                closed.setflags(write=False)
+                vars(self)[name] = closed
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._close()
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ByHeading:
+class ByHeading(_ReadOnly):
     """Loads of every wave component over its heading relative to the vessel.
 
     Attributes
@@ -40,9 +55,12 @@ class ByHeading:
 
     __repr__ = brief
 
+    def __post_init__(self) -> None:
+        self._close()
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class HullLoads:
+class HullLoads(_ReadOnly):
     """Loads of every component of a sea on one vessel.
 
     Attributes
@@ -93,10 +111,11 @@ class HullLoads:
             table = getattr(self, name)
             if table is not None and not isinstance(table, ByHeading):
                 raise SceneError(f"waves: {name} is {shown(table)}; give a seacrane.scene.ByHeading")
+        self._close()
 
 
 @dataclass(frozen=True, kw_only=True)
-class Waves:
+class Waves(_ReadOnly):
     """One sea and its loads on the vessels in it, as plain arrays.
 
     Attributes
@@ -139,6 +158,7 @@ class Waves:
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
             )
+        self._close()
 
     def __repr__(self) -> str:
         on = ", ".join(map(repr, self.hulls)) or "no vessel"

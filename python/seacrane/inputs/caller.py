@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
@@ -13,15 +13,23 @@ from multiprocessing import parent_process
 from typing import Any
 
 PACKAGE = __name__.partition(".")[0]
+Said = tuple[str, type[Warning], bool]  # a message, its category, and whether it was no silent one
 _TOLD: set[str] = set()
 _TELLING: ContextVar[bool] = ContextVar("telling", default=True)
 _LISTENING: ContextVar[tuple[dict[str, None], ...]] = ContextVar("listening", default=())
+_SILENCES: ContextVar[int] = ContextVar("silences", default=0)  # blocks of `silently` that are open
+_RECORDING: ContextVar[tuple[tuple[list[Said], int], ...]] = ContextVar("recording", default=())
 
 
 def warn_caller(message: str, category: type[Warning]) -> None:
     """Warn at the nearest line outside this package; Python then repeats it once per line, not per call."""
+    silences = _SILENCES.get()
+    for said, before in _RECORDING.get():
+        said.append((message, category, silences == before))
     for told in _LISTENING.get():
         told[message] = None
+    if silences:
+        return
     level, frame = 1, inspect.currentframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == PACKAGE:
         level, frame = level + 1, frame.f_back
@@ -53,6 +61,37 @@ def keeping(told: dict[str, None]) -> Iterator[None]:
         yield
     finally:
         _LISTENING.reset(before)
+
+
+@contextmanager
+def silently() -> Iterator[None]:
+    """Inside, warnings are not shown: they were given before. Who listens hears them."""
+    before = _SILENCES.set(_SILENCES.get() + 1)
+    try:
+        yield
+    finally:
+        _SILENCES.reset(before)
+
+
+@contextmanager
+def recorded() -> Iterator[list[Said]]:
+    """The warnings that are given inside, to be given again by `say_again`."""
+    said: list[Said] = []
+    before = _RECORDING.set((*_RECORDING.get(), (said, _SILENCES.get())))
+    try:
+        yield said
+    finally:
+        _RECORDING.reset(before)
+
+
+def say_again(said: Iterable[Said]) -> None:
+    """Give recorded warnings once more, as if what gave them were done once more."""
+    for message, category, aloud in said:
+        if aloud:
+            warn_caller(message, category)
+        else:
+            with silently():
+                warn_caller(message, category)
 
 
 def heard(method: Callable[..., Any]) -> Callable[..., Any]:

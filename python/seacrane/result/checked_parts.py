@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.inputs.finite import is_finite
 from seacrane.result.about import NAMES
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ def checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) ->
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
-    if not gaps and not _is_finite(array):
+    if not gaps and not is_finite(array):
         first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
         raise ValueError(
             f"channel {name!r} is not finite at output {first} of a finished run; "
@@ -55,13 +56,6 @@ def checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) ->
         )
     array.setflags(write=False)
     return array
-
-
-def _is_finite(array: Array) -> bool:
-    """A finite sum has finite terms; one that is not may be too large."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        whole = array.sum()
-    return bool(np.isfinite(whole) or np.isfinite(array).all())
 
 
 def checked_time(values: Any) -> Array:
@@ -83,6 +77,15 @@ def checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
 
 
 def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
+    """Plain strings, integers and floats, none missing that every result states; what is None is left out."""
+    plain = plain_stats(stats)
+    missing = [name for name in ALWAYS_STATED if name not in plain]
+    if missing:
+        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
+    return plain
+
+
+def plain_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     """Plain strings, integers and floats; what is None is left out."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
@@ -102,7 +105,4 @@ def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
         if isinstance(value, float) and math.isnan(value):
             raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
-    missing = [name for name in ALWAYS_STATED if name not in plain]
-    if missing:
-        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
     return plain

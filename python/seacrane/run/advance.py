@@ -12,7 +12,7 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import LineSlackError, SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
-from seacrane.run.growth import growing
+from seacrane.run.growth import FEWEST_STEPS, growing
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.modes import Modes
 from seacrane.run.run import Run
@@ -163,11 +163,12 @@ def slow_findings(run: Run) -> list[Finding]:
     Of a run made by `Run.in_sea` they are found only where the modes at the common start, found once for all
     such runs, come near a limit.
     """
-    if run.start_modes is not None and not _found(run, run.start_modes, near=NEAR):
+    many = run.core.steps >= FEWEST_STEPS
+    if run.start_modes is not None and not (many and _found(run, run.start_modes, near=NEAR)):
         return []
     last = run.last_state()
     states = [run.start] if last is None else [run.start, last]
-    found = _found(run, Modes(run.model, list(run.scene.bodies), states))
+    found = _found(run, Modes(run.model, list(run.scene.bodies), states)) if many else []
     return found + unsteady_oil(run.scene, run.model, states)
 
 

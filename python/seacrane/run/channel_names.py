@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.body_motion import position_of
-from seacrane.description.channels import CHANNELS, DERIVED, FIXED
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
+from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -52,12 +53,13 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     return made_of
 
 
-def derived_coords(scene: Description) -> dict[str, list[str]]:
+@once_in_any_sea
+def derived_coords(scene: Description) -> Mapping[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
-        "suspension": names_of_suspensions(scene),
+        "suspension": list(names_of_suspensions(scene)),
         "weighed": weighed_suspensions(scene),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
@@ -67,6 +69,20 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
         "hook": [one.label for one in on_cranes(scene)],
         "tip": list(tips(scene)),
     }
+
+
+@once
+def all_names(scene: Description, model: _core.Model) -> Mapping[str, list[str]]:
+    """Names along the dimensions of all channels but those that every scene has."""
+    return {**model.axes, **derived_coords(scene)}
+
+
+@once
+def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, ...] | None) -> Set[str]:
+    """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
+    usual = [*model.channel_names(), *(state.channel for state in scene.limit_states.values()), OWN]
+    wanted = with_sources(scene, usual if asked is None else asked)
+    return core_channels(wanted, model.channel_names(defaults_only=False))
 
 
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
@@ -95,10 +111,11 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
     }
 
 
+@once
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
     """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
     known = model.channel_names(defaults_only=False)
-    axes = {**model.axes, **derived_coords(scene), **FIXED}
+    axes = {**all_names(scene, model), **FIXED}
     require_own(scene, axes)
     for name, state in scene.limit_states.items():
         try:

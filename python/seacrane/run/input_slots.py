@@ -51,7 +51,10 @@ def _check_turn(scene: Scene, name: str, jump: float) -> None:
 
 def steered(scene: Scene, model: _core.Model, inputs: Array) -> set[str]:
     """Actuators whose inputs are not zero."""
-    values, places = np.asarray(inputs), slots_of(model)
+    values = np.asarray(inputs)
+    if not values.any():
+        return set()
+    places = slots_of(model)
     return {
         name
         for name in scene.actuators

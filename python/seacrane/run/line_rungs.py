@@ -16,6 +16,7 @@ from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
+from seacrane.description.once import once
 from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -76,6 +77,15 @@ def line_rungs(
         return {}
     if start is not None and start.time > 0.0:
         return {name: _kept(name, start) for name in lines}
+    if start is not None:
+        return _chosen(scene, known, end, start, in_memory, controlled)
+    return dict(_chosen_from_described(scene, known, end, None, in_memory, controlled))
+
+
+def _chosen(
+    scene: Scene, known: Integrator, end: float, start: _core.State | None, in_memory: bool, controlled: bool
+) -> dict[str, LineRung]:
+    lines = automatic(scene)
     reason = _why_elastic(scene, known, in_memory=in_memory, controlled=controlled)
     if reason:
         return all_elastic(lines, reason)
@@ -86,6 +96,9 @@ def line_rungs(
     except SceneError as error:
         return all_elastic(lines, f"the core says of quasi-static: {error}")
     return found
+
+
+_chosen_from_described = once(_chosen)
 
 
 def as_told(rungs: Mapping[str, LineRung]) -> str:
@@ -258,6 +271,7 @@ def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.
     return np.asarray(np.abs(settled * x**2 / (elastic * (follows - x**2))))
 
 
+@once
 def warn_of_quasi_static(scene: Scene, model: _core.Model, *, end: float) -> None:
     """Warn of lines that are given as quasi-static where what moves the scene is too near their frequency."""
     lines = {name: line for name, line in lines_of(scene.loads).items() if line.rung == QUASI_STATIC}

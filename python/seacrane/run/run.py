@@ -18,6 +18,7 @@ from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
+from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
@@ -26,15 +27,15 @@ from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import About
-from seacrane.result.checked_parts import checked_stats
+from seacrane.result.checked_parts import plain_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.boiling import boiled
 from seacrane.run.carried_state import carried
 from seacrane.run.channel_names import (
-    core_channels,
-    derived_coords,
+    all_names,
     named_channels,
+    recorded_channels,
     require_limited_channels,
     require_names,
 )
@@ -55,7 +56,14 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.own import own_values, with_sources
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.start import Start, start_state
-from seacrane.run.stats import about_of, lasting_stats, settings_in_sea, settings_of, stats_of
+from seacrane.run.stats import (
+    about_of,
+    lasting_stats,
+    require_plain,
+    settings_in_sea,
+    settings_of,
+    stats_of,
+)
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
@@ -310,8 +318,8 @@ class Run:
         scene, known = self.scene, {name: values for name, values in arrays.items() if name != "time"}
         wanted = None if asked is None else with_sources(scene, asked)
         out = named_channels(scene, known, wanted)
-        if asked is None or OWN in asked:
-            names = {**self.model.axes, **derived_coords(scene), **FIXED}
+        if scene.channels and (asked is None or OWN in asked):
+            names = {**all_names(scene, self.model), **FIXED}
             own = own_values(scene, out, names, len(arrays["time"]))
             out |= {} if own is None else {OWN: own}
         return out
@@ -355,11 +363,12 @@ class Run:
 
     def stats(self) -> dict[str, Any]:
         """Version, method, counters so far, and warnings of the description: `Result.stats`."""
+        return self._stats({"simulated_s": self.core.time - self.start.time, **self.core.statistics()})
+
+    def _stats(self, counted: Mapping[str, Any]) -> dict[str, Any]:
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
-        waves = self.scene.waves
-        counted = stats_of(self._lasting.stats, waves, self.core, self.start.time)
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
-        return told | counted | warned | self.lanes
+        return told | stats_of(self._lasting.stats, self.scene.waves, counted) | warned | self.lanes
 
     @property
     def about(self) -> About:
@@ -408,7 +417,7 @@ class Run:
                 about=self.about,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,
-                scene=scene.copy(notes={}),
+                scene=forgetting(scene.copy(notes={})),
             )
         return result, found
 
@@ -419,8 +428,9 @@ class Run:
     def _require_plain_stats(self) -> None:
         """What a result could not hold is refused now, not when the run is over."""
         try:
-            checked_stats(self.stats())
-            self.about.to_attributes()
+            plain_stats(self._stats({}))
+            require_plain(self.scene)
+            About(settings=self.settings).to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
@@ -449,7 +459,7 @@ class _Lasting:
         scene, model = run.scene, run.model
         return cls(
             options=_options(run),
-            coords={**model.axes, **derived_coords(scene)},
+            coords=all_names(scene, model),
             steered=frozenset(steered(scene, model, run.start.inputs)),
             stats=lasting_stats(scene, model, run.formulation, run.method),
             about=about_of(scene),
@@ -459,9 +469,8 @@ class _Lasting:
 def _options(run: Run) -> _core.RunOptions:
     """How the core steps a run, and what it records."""
     model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
-    usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
-    asked = [*usual, OWN] if outputs.channels is None else list(outputs.channels)
-    channels = core_channels(with_sources(run.scene, asked), model.channel_names(defaults_only=False))
+    asked = None if outputs.channels is None else tuple(outputs.channels)
+    channels = recorded_channels(run.scene, model, asked)
     times = output_times(
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,

@@ -8,6 +8,7 @@ from typing import Any
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.file_origin import roles_to_data
+from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, weights_on
@@ -47,6 +48,7 @@ def settings_in_sea(settings: Mapping[str, Any], scene: Scene) -> dict[str, Any]
     return others | sea_settings(scene)
 
 
+@once
 def about_of(scene: Scene) -> About:
     """What a result notes of a scene; of its settings nothing."""
     return About(
@@ -59,7 +61,14 @@ def about_of(scene: Scene) -> About:
     )
 
 
-def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> dict[str, Any]:
+@once
+def require_plain(scene: Scene) -> None:
+    """ValueError or TypeError where a file could not hold what is noted of a scene."""
+    about_of(scene).to_attributes()
+
+
+@once
+def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> Mapping[str, Any]:
     """What `Result.stats` say of a run before it begins, whatever its sea; what is missing stands as None."""
     recursive = formulation == "recursive"
     return {
@@ -79,22 +88,13 @@ def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Me
     }
 
 
-def stats_of(
-    lasting: Mapping[str, Any],
-    waves: Waves | None,
-    core: _core.Simulation,
-    start: float,
-) -> dict[str, Any]:
-    """`Result.stats` of a run so far, from its lasting ones; `start` is its start time, s."""
-    return {
-        **lasting,
-        "simulated_s": core.time - start,
-        **core.statistics(),
-        **({} if waves is None else waves.provenance.stats()),
-    }
+def stats_of(lasting: Mapping[str, Any], waves: Waves | None, counted: Mapping[str, Any]) -> dict[str, Any]:
+    """`Result.stats` of a run so far, from its lasting ones and what was counted in it."""
+    return {**lasting, **counted, **({} if waves is None else waves.provenance.stats())}
 
 
-def origin_settings(scene: Description) -> dict[str, Any]:
+@once
+def origin_settings(scene: Description) -> Mapping[str, Any]:
     """Settings of vessels and sea, by the names of a result's settings; by body where several vessels differ.
 
     Raises SceneError for a value that is not plain data.

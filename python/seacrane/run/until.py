@@ -13,7 +13,7 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.renamed import refusing
-from seacrane.run.channel_names import derived_coords
+from seacrane.run.channel_names import all_names
 from seacrane.run.run import Run
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ Condition = Level | Contact
 
 def names_along(run: Run) -> dict[str, tuple[str, ...]]:
     """Names along every dimension of the channels of a run but time."""
-    known = {**run.model.axes, **derived_coords(run.scene), **FIXED}
+    known = {**all_names(run.scene, run.model), **FIXED}
     return {dim: tuple(names) for dim, names in known.items()}
 
 

@@ -8,6 +8,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from seacrane.errors import SimulationError
+from seacrane.inputs.finite import is_finite
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 Finding = tuple[type[Warning], str]
@@ -43,9 +44,8 @@ def not_finite(arrays: Mapping[str, Any]) -> dict[str, Finding]:
     out: dict[str, Finding] = {}
     for name, values in arrays.items():
         array = np.asarray(values)
-        with np.errstate(over="ignore", invalid="ignore"):
-            if np.isfinite(array.sum()) or np.isfinite(array).all():  # a finite sum has finite terms
-                continue
+        if is_finite(array):
+            continue
         first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
         out[name] = (
             NotFiniteWarning,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.validity.energy import Finding
-from seacrane.validity.hull_range import LARGEST_SHIFT, Peak
+from seacrane.validity.hull_range import LARGEST_SHIFT, peak_of
 from seacrane.warnings import CurrentInWavesWarning
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
             continue
         speed = float(np.abs(load.speed.evaluate(time)[:, 0]).max())
         flow = speed * np.array([[np.cos(load.direction), np.sin(load.direction)]])
-        peak = Peak.of(waves)
+        peak = peak_of(scene)
         shift = float(peak.phase(flow)[0]) / peak.omega
         if shift > LARGEST_SHIFT:
             found.append((CurrentInWavesWarning, _told(name, load.body, speed, shift)))

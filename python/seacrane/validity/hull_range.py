@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.given import given_vessels
+from seacrane.description.once import once
 from seacrane.inputs.frames import heading_of, rotation_about_z
 from seacrane.warnings import (
     ForwardSpeedWarning,
@@ -67,7 +68,7 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
             found.append((NoWaveLoadsWarning, _unloaded(vessel.name, waves)))
             continue
         hull = waves.hulls[vessel.body]
-        peak = peak or Peak.of(waves)
+        peak = peak or peak_of(scene)
         if hull.force_by_heading is None:
             found += _posed(scene.bodies[vessel.body], vessel.name, hull, peak, time, motion)
         found += _under_way(peak, vessel.name, time, motion)
@@ -102,6 +103,13 @@ class Peak:
     def phase(self, place: Array) -> Array:
         """Phase of waves at the peak, over displacements (n, 2), m: root mean square over directions, rad."""
         return np.asarray(self.wavenumber * np.sqrt(np.sum((place @ self.spread) * place, axis=1)))
+
+
+@once
+def peak_of(scene: Description) -> Peak:
+    """The peak of the sea of a scene that has one."""
+    assert scene.waves is not None
+    return Peak.of(scene.waves)
 
 
 def peak_frequency(waves: Waves) -> float:

@@ -13,6 +13,7 @@ from seacrane.description.given import floating_bodies
 from seacrane.description.holding import free_drives
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import bodies_of, kind_of
+from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
@@ -39,6 +40,7 @@ LARGEST_SINKAGE = 2.0  # m
 WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or the next wave turns it
 
 
+@once
 def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:
     """All that a scene tells by itself, from `start` to `end` (s); `described`: from its described pose."""
     _warn_of_angles(scene, start, end)
@@ -88,6 +90,7 @@ def _still(wind: _core.FlowForce) -> bool:
     return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
 
 
+@once_in_any_sea
 def _warn_of_masses(scene: Description) -> None:
     for name, body in scene.bodies.items():
         radius = math.sqrt(float(np.trace(body.inertia)) / 2.0 / body.mass)
@@ -109,6 +112,7 @@ def _warn_of_masses(scene: Description) -> None:
             )
 
 
+@once_in_any_sea
 def _warn_of_ballast(scene: Description) -> None:
     """Weights on a vessel against forces on it, by its restoring; not where other loads hold it."""
     for vessel in (one for one in scene.vessels.values() if one.floats):
@@ -133,7 +137,7 @@ def _warn_of_ballast(scene: Description) -> None:
         _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
 
 
-def _holds(scene: Description, load: Any, carried: set[str]) -> bool:
+def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
     """Whether a load pushes what a vessel carries from outside, with a force that is not known here."""
     ends = set(bodies_of(load, scene.joints))
     known = kind_of(load) == "point force" or kind_of(load) in WITHOUT_WEIGHT

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.capacity import allowed_at
 from seacrane.description.crane_reach import placed, tip_radius
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.outline import box_edges, ship_size
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import hung_loads, suspensions, weights_on
@@ -97,6 +98,7 @@ def _rated(scene: Description, roles: CraneRoles) -> bool:
     return bool(roles.capacity) and joined and roles.tip is not None and roles.tip[0] in scene.bodies
 
 
+@once_in_any_sea
 def warn_of_loads_in_hulls(scene: Description) -> None:
     """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel."""
     for one in hung_loads(scene):

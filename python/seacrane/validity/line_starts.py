@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.suspension import line_weights
 from seacrane.inputs.caller import warn_caller
 from seacrane.validity.line_checks import STRONGEST
@@ -23,6 +24,7 @@ Array = NDArray[np.float64]
 LARGEST_LIFT = 1.5  # of a body's weight, by its lines
 
 
+@once_in_any_sea
 def warn_of_line_starts(scene: Description) -> None:
     """Warn of the lines of a scene that starts as it is described."""
     lines = lines_of(scene.loads)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from seacrane.description.given import floating_bodies
 from seacrane.description.loads import named
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from seacrane.description.suspension import Suspension
 
 
+@once_in_any_sea
 def warn_of_capsize(scene: Description) -> None:
     """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
 
@@ -48,7 +51,8 @@ def warn_of_capsize(scene: Description) -> None:
             )
 
 
-def carried_by(scene: Description, vessel: str) -> set[str]:
+@once_in_any_sea
+def carried_by(scene: Description, vessel: str) -> frozenset[str]:
     """Bodies whose weight comes to a vessel; none where another support shares it."""
     stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
     driven = {driver.joint for driver in scene.drivers.values()}
@@ -66,11 +70,11 @@ def carried_by(scene: Description, vessel: str) -> set[str]:
         open_ += new
     floating = floating_bodies(scene)
     alone = found <= set(scene.bodies) and found & floating == {vessel}
-    return found if alone else set()
+    return frozenset(found if alone else ())
 
 
 def _height(
-    scene: Description, hung: list[tuple[Suspension, list[str]]], body: _core.Body, hull: _core.Body
+    scene: Description, hung: Sequence[tuple[Suspension, Sequence[str]]], body: _core.Body, hull: _core.Body
 ) -> float:
     """Above a hull's origin at which a body's weight acts, m: that of the point from which it hangs."""
     for one, below in hung:
