@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 from typing import Any
 
+from seacrane.ensembles.beside import remark
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.outcome import Outcome
@@ -64,20 +66,19 @@ class Progress:
 
     def __init__(self, bar: Any) -> None:
         self._bar = bar
-        self._told = False
+        self._told = Counter[str]()
 
     def add(self, count: int) -> None:
         """So many members more are done."""
         if self._bar is not None:
             self._bar.update(count)
 
-    def tell(self, outcome: Outcome, lanes: int) -> None:
-        """How the first member went: beside how many, or why by itself."""
-        if self._bar is None or lanes == 1 or self._told:
+    def tell(self, kept_apart: str, lanes: int) -> None:
+        """How a member went: in how many lanes, or why by itself; the bar says so of all until now."""
+        if self._bar is None:
             return
-        self._told = True
-        why = outcome.kept_apart
-        self._bar.set_postfix_str(f"one by one: {why}" if why else f"{lanes} side by side")
+        self._told[kept_apart] += 1
+        self._bar.set_postfix_str(remark(lanes, self._told), refresh=False)
 
     def left(self, count: int) -> None:
         """So many members are still expected."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from threading import Lock
 from typing import Any, TypeVar
@@ -20,6 +20,7 @@ from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
+from seacrane.run.lifts_in_lanes import LiftsInLanes
 from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
@@ -64,43 +65,54 @@ class Job:
             raise WorkerVersionError(
                 f"a worker has seacrane {__version__}, and the ensemble is of {version}; install the same"
             )
-        return [outcome for members in self._groups(pack) for outcome in self._together(members)]
-
-    def _groups(self, pack: Pack) -> list[Pack]:
-        """Members that are stepped side by side, by their numbers; without lanes, a few at a time."""
-        lanes = self.study.lanes
-        if lanes == 1:
-            return [pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER)]
-        beside: dict[int, list[tuple[int, Mapping[str, Value]]]] = {}
-        for index, values in pack:
-            beside.setdefault(index // lanes, []).append((index, values))
-        return [tuple(members) for members in beside.values()]
+        count = TOGETHER if self.study.lanes == 1 else self.study.lanes
+        groups = [pack[first : first + count] for first in range(0, len(pack), count)]
+        return [outcome for members in groups for outcome in self._together(members)]
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
         runs = self._begun(members)
         if self.study.lanes > 1:
-            failed = self._beside([run for run in runs if isinstance(run, Run)])
-            if failed:
-                runs = self._begun(members)
-                note_apart([run for run in runs if isinstance(run, Run)], failed)
+            runs = self._beside(members, runs)
         runs = [run if isinstance(run, str) else _tried(partial(stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
     def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
         return [_tried(interrupts_kept()(partial(self._prepared.run, values))) for _, values in members]
 
-    def _beside(self, runs: Sequence[Run]) -> str:
-        """Advance runs side by side; why that failed and left them nowhere, or nothing."""
+    def _beside(self, members: Pack, begun: list[Run | StagedRun | str]) -> list[Run | StagedRun | str]:
+        """The runs as far as they go side by side; where that fails altogether, begun anew."""
+        runs = list(begun)
         with Interrupts() as interrupts:
             try:
-                reached = advance_side_by_side(runs, self.study.lanes, lambda _: interrupts.take())
+                reached = self._advance(runs, interrupts)
             except (MemoryError, SeacraneError, ValueError) as error:
-                return f"stepping it beside others failed: {type(error).__name__}: {error}"
+                reached, runs = True, self._begun(members)
+                why = f"stepping it beside others failed: {type(error).__name__}: {error}"
+                note_apart([run for run in runs if isinstance(run, Run)], why)
         interrupts.take()
         if not reached:
             raise KeyboardInterrupt
-        return ""
+        return runs
+
+    def _advance(self, runs: list[Run | StagedRun | str], interrupts: Interrupts) -> bool:
+        lanes = self.study.lanes
+        if not self.study.stages:
+            plain = [run for run in runs if isinstance(run, Run)]
+            return advance_side_by_side(plain, lanes, lambda _: interrupts.take())
+
+        def stepped_in_lanes(place: int, lift: StagedRun) -> Iterator[Run]:
+            try:
+                yield from lift.runs(interrupts)
+            except MemoryError:
+                raise
+            except Exception as error:
+                runs[place] = _told(error)
+
+        lifts = [
+            stepped_in_lanes(place, lift) for place, lift in enumerate(runs) if isinstance(lift, StagedRun)
+        ]
+        return LiftsInLanes(lifts, lanes, lambda _: interrupts.take()).advance()
 
     def _outcome(self, index: int, run: Run | StagedRun | str) -> Outcome:
         """The outcome of a run at its end, or of why there is none."""
@@ -121,7 +133,11 @@ def _tried(work: Callable[[], Some]) -> Some | str:
     except MemoryError:
         raise
     except Exception as error:
-        return f"{type(error).__name__}: {error}"
+        return _told(error)
+
+
+def _told(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"
 
 
 @lru_cache(maxsize=4)

@@ -14,6 +14,7 @@ from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED
 from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
+from seacrane.run.lifts_in_lanes import joined_lanes
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
@@ -204,6 +205,8 @@ def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
         key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
     }
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    out.pop("kept_apart", None)
+    out |= joined_lanes(every)
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
     for key, first in (("described", ""), ("validity", before)):

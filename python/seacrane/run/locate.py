@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,14 +84,20 @@ class Course:
         return run
 
 
-def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
+def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Run, None, str]:
     """Run a stage from a state; returns what ended it, "" for an interruption.
+
+    Its runs are told before they are stepped: whoever asks may step them beside others, as far as that goes.
 
     Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
         course.calls.begin(replayed=False)
-        run = course.taken(start, start.time + stage.duration)
+        run = course.run(start, start.time + stage.duration)
+        course.began(run)
+        yield run
+        drive(run, course.calls, course.interrupts)
+        course.done(run)
         return "" if run.interrupted else "duration"
     assert stage.maximum_duration is not None
     end, state = start.time + stage.maximum_duration, start
@@ -101,6 +107,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
         course.began(run)
+        yield run
         looks = _Looks(run, stage.conditions)
         drive(run, course.calls, course.interrupts, halt=looks.any if course.calls.controllers else None)
         found = looks.hits()

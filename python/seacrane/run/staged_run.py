@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -142,30 +142,57 @@ class StagedRun:
             As `simulate`, and for a stage that is not over within its `maximum_duration`. Either has
             as its `result` what was recorded until then.
         """
-        if self.interrupted or len(self._spans) == len(self.stages):
-            return False
+        with Interrupts() as interrupts:
+            for _ in self.carry_out(interrupts):
+                pass
+        return not self._over
+
+    @property
+    def _over(self) -> bool:
+        return self.interrupted or len(self._spans) == len(self.stages)
+
+    def runs(self, interrupts: Interrupts) -> Iterator[Run]:
+        """Carry out all stages that are left, as `advance` does.
+
+        Each run is told before it is stepped, so that it can be stepped beside those of other lifts.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            Where Ctrl-C stopped it.
+        """
+        while not self._over:
+            yield from self.carry_out(interrupts)
+        if self.interrupted:
+            raise KeyboardInterrupt
+
+    def carry_out(self, interrupts: Interrupts) -> Iterator[Run]:
+        """The runs of the next stage, each before it is stepped; none where none is left."""
+        if self._over:
+            return
         stage = self.stages[len(self._spans)]
         begin = self._state.time
         gone = self._absent - waiting(self.stages[len(self._spans) :])
         self.begun[stage.name] = Begin(without(self._whole, gone), self._state)
-        with Interrupts() as interrupts:
-            try:
-                self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
-                self._connect(stage)
-                self._command(stage)
-                course, start = self._course(stage, interrupts), self._checked_start(stage)
-                ended = to_its_end(course, stage, start)
-                if not self._pieces:  # met at once, or stopped before anything was stepped
-                    course.stand(self._state)
-            except BaseException as error:
-                self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
-                self.interrupted = True
-                with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
-                    error.result = self._result_of_an_error()  # type: ignore[attr-defined]
-                raise
+        try:
+            self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
+            self._connect(stage)
+            self._command(stage)
+            course, start = self._course(stage, interrupts), self._checked_start(stage)
+            ended = yield from to_its_end(course, stage, start)
+            if not self._pieces:  # met at once, or stopped before anything was stepped
+                course.stand(self._state)
+        except GeneratorExit:  # nobody asks for the rest
+            self.interrupted = True
+            raise
+        except BaseException as error:
+            self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
+            self.interrupted = True
+            with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
+                error.result = self._result_of_an_error()  # type: ignore[attr-defined]
+            raise
         self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
         self.interrupted = not ended
-        return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
         """All that has been recorded so far; `interrupted` until the last stage is over.
