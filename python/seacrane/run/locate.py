@@ -48,18 +48,19 @@ class Course:
     calls: Calls
     began: Callable[[Run], None]
     done: Callable[[Run], None]
-    warned: bool = False
+    first_run: Run | None = None
 
     def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the stage, not advanced yet; what its description warns of is told once."""
         with warnings.catch_warnings():
-            if self.warned:
+            if self.first_run is not None:
                 warnings.simplefilter("ignore")
-            self.warned = True
-            return Run(
+                return self.first_run.from_there(start, t_end, capacity)
+            self.first_run = Run(
                 self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
                 outputs_from=self.first, model=self.model, capacity=capacity,
             )  # fmt: skip
+            return self.first_run
 
     def taken(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and part of the result."""

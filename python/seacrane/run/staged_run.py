@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -23,12 +23,13 @@ from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
+from seacrane.run.formulation import stepped
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.joined import Piece, counters, joined
+from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import checked_stages, planned_scene, waiting
-from seacrane.run.run import Run
+from seacrane.run.run import Run, core_options
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stage import Stage
@@ -119,6 +120,7 @@ class StagedRun:
         self._open: tuple[Run, dict[str, Any]] | None = None
         self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
+        self._known: dict[frozenset[str], set[str]] = {}  # channels, by what is absent
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
@@ -228,9 +230,11 @@ class StagedRun:
         record = self._state.record
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the stage's own run tells them
-            now = counters(self._still(self._scene, self._model, self._state))
+        _, model, formulation = stepped(self._scene, self._model, self.method)
+        start = with_present_inputs(self._state, model)
+        options = core_options(self.method, formulation, channels=set(), times=[])
+        core = _core.Simulation(model=model, start=start, options=options)
+        now = counted(self._scene, model, core.snapshot())
         known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
         return {name: now.get(name, value) for name, value in known.items()}
 
@@ -324,8 +328,12 @@ class StagedRun:
         """Channels that were asked for, as far as this stage has them."""
         if self.outputs.channels is None:
             return None
-        still = self._still(self._scene, self._model, self._state)
-        there = {*still.named(still.core.snapshot()), OWN, *still.model.channel_names(defaults_only=False)}
+        absent = frozenset(self._absent)
+        if absent not in self._known:
+            still = self._still(self._scene, self._model, self._state)
+            names = still.model.channel_names(defaults_only=False)
+            self._known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
+        there = self._known[absent]
         return [name for name in self.outputs.channels if name in there]
 
     def _began(self, run: Run) -> None:
