@@ -12,7 +12,7 @@ from seacrane.errors import SceneError
 from seacrane.run.lanes import lanes_of
 
 SIDE_BY_SIDE = "side_by_side"  # attribute of a dataset
-SINCE = re.compile(r"from t = \S+ s on: ")
+PARTLY = re.compile(r"from t = \S+ s on: |in part: ")
 MOST_REASONS = 3
 
 
@@ -45,7 +45,7 @@ def remark(lanes: int, told: Mapping[str, int]) -> str:
         return f"{count} one by one"
     reasons = Counter[str]()
     for why, several in told.items():
-        reasons[SINCE.sub("in part, ", why)] += several
+        reasons[PARTLY.sub("in part, ", why)] += several
     beside = reasons.pop("", 0)
     if not reasons:
         return f"{beside} in {lanes} lanes"

@@ -1,7 +1,7 @@
 """The order in which members are packed, so that those that can be stepped side by side are neighbours.
 
-It follows from the members alone, and not from the order in which their parameters are named: what is resumed,
-or run by other workers, has the same neighbours.
+It follows from the members alone, and not from the order in which their parameters are named: what is
+resumed, or run by other workers, has the same neighbours.
 """
 
 from __future__ import annotations

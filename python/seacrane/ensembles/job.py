@@ -13,11 +13,13 @@ from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.carried import Carried, stepped
 from seacrane.ensembles.members import Value
+from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study, Values
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
+from seacrane.run.alike_stages import AlikeStages
 from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.lifts_in_lanes import LiftsInLanes
@@ -154,6 +156,7 @@ class Prepared:
     def __init__(self, study: Study) -> None:
         self._study = study
         self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
+        self._alike: OrderedDict[str, AlikeStages] = OrderedDict()
         self._carried: OrderedDict[str, Carried] = OrderedDict()
         self._lock = Lock()
 
@@ -181,8 +184,19 @@ class Prepared:
             carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
             start, before = carrier.at(time), carrier.found(time)
         return StagedRun(
-            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs
-        )
+            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
+            alike=self._alike_with(scene, values),
+        )  # fmt: skip
+
+    def _alike_with(self, scene: Scene, values: Values) -> AlikeStages | None:
+        """What is known of the lift of a scene in other seas; None where stages may differ in more."""
+        study = self._study
+        if not isinstance(study.source, Scene) or callable(study.stages) or given_vessels(scene):
+            return None
+        key = repr([(name, value) for name, value in values.items() if name not in WORDS])
+        with self._lock:
+            self._alike.setdefault(key, AlikeStages())
+            return _kept_of_late(self._alike, key, MOST_HELD)
 
     def _carrier(
         self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values

@@ -6,17 +6,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from seacrane import _core
-from seacrane.run.lanes import module_of, note_apart
+from seacrane.run.lanes import ALONE, module_of, note_apart
 from seacrane.run.run import Run
 
+SINCE = "from t = "
 NOBODY = "no other lift is alike at that time"
 
 
 class LiftsInLanes:
     """Brings lifts to their ends, always those forward that are furthest behind in time.
 
-    Lifts whose runs share what lanes share, at one time, go side by side: to where a run of one of them is over,
-    or to where another one joins. What comes of it depends on these lifts alone.
+    Lifts whose runs share what lanes share, at one time, go side by side: to where a run of one of them is
+    over, or to where another one joins. What comes of it depends on these lifts alone.
 
     Parameters
     ----------
@@ -52,7 +53,7 @@ class LiftsInLanes:
         return True
 
     def _ask(self, lift: int) -> None:
-        """The next run of a lift that has something to be stepped in lanes; others are stepped as they come."""
+        """The next run of a lift that lanes can take; others are stepped as they come."""
         self._runs.pop(lift, None)
         for run in self._lifts[lift]:
             why = self._kept_out(run)
@@ -78,7 +79,9 @@ class LiftsInLanes:
         for run in here.values():
             run.lanes = {"lanes": self._lanes}
         assert self._module is not None
-        if not _core.advance_side_by_side([run.core for run in here.values()], self._module, stop, self._look):
+        if not _core.advance_side_by_side(
+            [run.core for run in here.values()], self._module, stop, self._look
+        ):
             return False
         for lift, run in here.items():
             left = run.core.time < stop
@@ -89,9 +92,9 @@ class LiftsInLanes:
         return True
 
     def _alone(self, lift: int, run: Run, stop: float) -> bool:
-        """Up to where another may join, or to where another kind of run is over, after which it may be alike."""
+        """Up to where another may join: where it is, or where one of another kind is over."""
         now = run.core.time
-        _note_alone(run, NOBODY)
+        _note_alone(run, NOBODY if len(self._lifts) > 1 else ALONE)
         stop = min([stop, *(other.t_end for other in self._runs.values() if other.t_end > now)])
         if stop >= run.t_end:
             self._ask(lift)
@@ -105,7 +108,7 @@ class LiftsInLanes:
 
 def _note_alone(run: Run, why: str) -> None:
     now, lanes = run.core.time, run.lanes.get("lanes", 1)
-    begun = "" if now <= run.start.time else f"from t = {now:.6g} s on: "
+    begun = "" if now <= run.start.time else f"{SINCE}{now:.6g} s on: "
     run.lanes = {"lanes": lanes, "kept_apart": f"{begun}{why}"}
 
 
@@ -117,6 +120,6 @@ def joined_lanes(pieces: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     reasons = list(dict.fromkeys(str(one.get("kept_apart", "")) for one in told))
     out: dict[str, Any] = {"lanes": max(int(one["lanes"]) for one in told)}
     if reasons != [""]:
-        whole = len(reasons) == 1
-        out["kept_apart"] = reasons[0] if whole else "in part: " + next(why for why in reasons if why)
+        why = next(why for why in reasons if why)
+        out["kept_apart"] = why if len(reasons) == 1 or why.startswith(SINCE) else f"in part: {why}"
     return out

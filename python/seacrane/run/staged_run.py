@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.description.channels import COUNTED_ON, OWN
+from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
@@ -18,6 +19,7 @@ from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
+from seacrane.run.alike_stages import AlikeStages, Key
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
@@ -74,6 +76,8 @@ class StagedRun:
         As of `Run`: time from which output times are counted, s; default: the start.
     before : sequence of (warning, str)
         What was out of range before the start; it is told with what is in the stages.
+    alike : AlikeStages, optional
+        Of lifts that differ in their seas alone: what one of them found is not looked for again.
 
     Attributes
     ----------
@@ -94,6 +98,7 @@ class StagedRun:
         first: str | None = None,
         outputs_from: float | None = None,
         before: Sequence[Finding] = (),
+        alike: AlikeStages | None = None,
         method: Method | None = None,
         outputs: Outputs | None = None,
         controllers: Sequence[SampledController] = (),
@@ -105,7 +110,9 @@ class StagedRun:
         self.stages, self._whole, time = planned_scene(scene, every, first)
         self._given, self._absent = scene, waiting(self.stages)
         self._scene = without(self._whole, self._absent)
-        self._model = self._scene.compile()
+        self._alike = AlikeStages() if alike is None else alike
+        self._shares = alike is not None and scene.waves is not None
+        self._model = self._first_model()
         from_rest = start is None and first is not None
         begin = start_state(self._scene, REST if from_rest else start, time=time)
         self._state = _core.initial_state(self._model) if begin is None else begin
@@ -120,7 +127,8 @@ class StagedRun:
         self._open: tuple[Run, dict[str, Any]] | None = None
         self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
-        self._known: dict[frozenset[str], set[str]] = {}  # channels, by what is absent
+        self._redescribed = False
+        self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
@@ -247,6 +255,7 @@ class StagedRun:
         for name in stage.connect:
             self._absent.discard(name)
             if name in self._whole.joints:
+                self._redescribed = True
                 self._absent |= lifted_seats(self._scene, self._state)
                 self._whole = redescribed(self._whole, self._measured(), self._state)
             self._change(stage, name, "connection")
@@ -296,7 +305,8 @@ class StagedRun:
             return
         self._whole = commanded(self._whole, stage.title, stage.commands, self._state.time)
         self._scene = without(self._whole, self._absent)
-        self._model = compiled_there(self._scene)
+        like = self._like(stage)
+        self._model = compiled_there(self._scene) if like is None else like.model
 
     def _checked_start(self, stage: Stage) -> _core.State:
         check_limits(stage, self._scene)
@@ -314,10 +324,34 @@ class StagedRun:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
         outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
-        return Course(
+        course = Course(
             scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
+            first_run=self._like(stage),
         )  # fmt: skip
+        if self._shares and course.first_run is None and not self._redescribed:
+            longest = stage.duration or stage.maximum_duration or 0.0
+            known = course.run(self._state, self._state.time + longest, capacity=1)
+            if not known.rungs:
+                self._alike.runs[self._key(stage)] = known
+        return course
+
+    def _first_model(self) -> _core.Model:
+        if self._shares and self._alike.model is not None:
+            return compiled_in_sea(self._scene, self._alike.model)
+        self._alike.model = self._scene.compile()
+        return self._alike.model
+
+    def _key(self, stage: Stage) -> Key:
+        return stage.name, self._state.time, frozenset(self._absent)
+
+    def _like(self, stage: Stage) -> Run | None:
+        """The run of the same stage of an alike lift that began at the same time, in this sea."""
+        if self._seen is None or self._seen[0] != stage.name:
+            known = self._alike.runs.get(self._key(stage)) if self._shares and not self._redescribed else None
+            assert known is None or self._scene.waves is not None
+            self._seen = (stage.name, None if known is None else known.in_sea(self._scene.waves))
+        return self._seen[1]
 
     def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Inputs without those of elements that are absent in this stage."""
@@ -328,12 +362,12 @@ class StagedRun:
         """Channels that were asked for, as far as this stage has them."""
         if self.outputs.channels is None:
             return None
-        absent = frozenset(self._absent)
-        if absent not in self._known:
+        absent, known = frozenset(self._absent), self._alike.channels
+        if absent not in known:
             still = self._still(self._scene, self._model, self._state)
             names = still.model.channel_names(defaults_only=False)
-            self._known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
-        there = self._known[absent]
+            known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
+        there = known[absent]
         return [name for name in self.outputs.channels if name in there]
 
     def _began(self, run: Run) -> None:
