@@ -184,7 +184,10 @@ def reason(source: Any, over: Any, **given: Any) -> str:
     [
         ({"source": pendulum, "over": {"start": [1.0, 2.0]}}, f"{MORE} joint 'pin' (second_frame)"),
         ({"source": pendulum, "over": {"start": [1.0]}}, "no other run beside it"),
-        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "semi-implicit-euler"}, "steps nothing"),
+        (
+            {"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "semi-implicit-euler"},
+            "steps nothing",
+        ),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "rosenbrock"}, "steps nothing"),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "dopri5-stiff"}, "steps nothing"),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "formulation": "redundant"}, "recursive one"),

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ensemble_studies import cart
 from stage_scenes import on_deck
 
 from seacrane import Kept, Move, Scene, Stage, Until, ensemble, shipped_database
@@ -84,24 +85,6 @@ def test_members_whose_stages_end_at_their_own_times_meet_again() -> None:
     told = sorted(beside.kept_apart.to_numpy().tolist())
     assert told[:3] == [""] * 3 and told[3].startswith("from t = ") and "no other lift is alike" in told[3]
     assert beside.attrs["side_by_side"].endswith("1 (in part, no other lift is alike at that time)")
-
-
-def cart(*, seed: int, mass: float, kind: str = "prismatic") -> Scene:
-    """A cart that a spring holds and a driver pulls by another; the seed is its speed at the start."""
-    scene = Scene(name="cart")
-    scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1.0, 0.0, 0.0))
-    scene.add_driver("rail", curve=0.0)
-    scene.add_body(
-        name="cart",
-        mass=mass,
-        size=(1.0, 1.0, 1.0),
-        position=(3.0, 0.0, 0.0),
-        velocity=(0.1 * seed, 0.0, 0.0),
-    )
-    scene.add_joint("track", kind=kind, first="ground", second="cart", axis=(1.0, 0.0, 0.0))
-    scene.add_spring("tow", first="tug", second="cart", stiffness=40.0, damping=1.0, natural_length=3.0)
-    return scene
 
 
 PULL = [
