@@ -171,3 +171,15 @@ def test_fixed_steps_run_side_by_side_as_alone(integrator: str) -> None:
     alone, beside = in_both(lift(), **study)
     assert (beside.kept_apart == "").all()
     assert np.abs(beside.hook - alone.hook).max() < 1e-9 * np.abs(alone.hook).max()
+
+
+def test_one_remark_says_how_members_are_stepped(capfd: pytest.CaptureFixture[str]) -> None:
+    given: dict[str, Any] = {"keep": CART, "t_end": 0.5, "dt_out": 0.1}
+    told = ensemble(cart, over=[{"seed": 1, "mass": 4.0}] * 5, lanes=4, progress=True, **given)
+    why = "4 in 4 lanes, by themselves 1 (there is no other run beside it)"
+    assert told.dataset.attrs["side_by_side"] == why and why in capfd.readouterr().err
+    one = ensemble(cart, over={"mass": [4.0, 5.0], "kind": ["prismatic"], "seed": [1]}, lanes=1, **given)
+    assert one.dataset.attrs["side_by_side"] == "2 one by one: lanes is 1"
+    scene = cart(seed=1, mass=4.0)
+    alone = ensemble(scene, over={"gravity": [9.8, 9.81]}, **given).dataset.attrs["side_by_side"]
+    assert alone == "2 one by one: lanes is 1, as it is by default where no word of the sea varies"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.stage_values import START_TIME
 from seacrane.errors import SceneError
 from seacrane.run.lanes import lanes_of
 
@@ -32,17 +33,18 @@ def lanes_for(lanes: int | None, pack: int | None, members: Members, *, starts: 
     return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
 
 
-def remark(lanes: int, told: Mapping[str, int]) -> str:
+def remark(lanes: int, told: Mapping[str, int], names: Collection[str]) -> str:
     """One line on how members are stepped.
 
     Parameters
     ----------
     lanes : Runs side by side.
     told : How many members were kept apart for each reason; none for the empty reason.
+    names : What varies.
     """
     count = sum(told.values())
     if lanes == 1:
-        return f"{count} one by one"
+        return f"{count} one by one: {_why_one_by_one(names)}"
     reasons = Counter[str]()
     for why, several in told.items():
         reasons[PARTLY.sub("in part, ", why)] += several
@@ -52,3 +54,11 @@ def remark(lanes: int, told: Mapping[str, int]) -> str:
     first = [f"{several} ({why})" for why, several in reasons.most_common(MOST_REASONS)]
     more = ", ..." if len(reasons) > MOST_REASONS else ""
     return f"{beside} in {lanes} lanes, by themselves {', '.join(first)}{more}"
+
+
+def _why_one_by_one(names: Collection[str]) -> str:
+    if START_TIME in names:
+        return "they begin at several times of one sea"
+    if not any(name in WORDS for name in names):
+        return "lanes is 1, as it is by default where no word of the sea varies"
+    return "lanes is 1"

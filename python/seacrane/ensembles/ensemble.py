@@ -327,7 +327,7 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
     apart = dataset.kept_apart.to_numpy().ravel()[told == ""]
-    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)))
+    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)), members.axes)
     return Ensemble(members=members, dataset=dataset, failures=failures)
 
 
@@ -416,10 +416,10 @@ def _run(
     coming = ((number, tuple((index, members.values(index)) for index in every[number])) for number in wanted)
     count = len(members)
     left = sum(len(every[number]) for number in wanted)
-    with progress_bar(count, count - left, progress) as bar:
+    with progress_bar(count, count - left, progress, lanes=study.lanes, names=members.axes) as bar:
 
         def look(outcome: Outcome) -> None:
-            bar.tell(outcome.kept_apart, study.lanes)
+            bar.tell(outcome.kept_apart)
             check(outcome)
 
         fill(store, Job(study), coming, executor, done=bar.add, check=look)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections import Counter
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Collection, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 from typing import Any
@@ -64,8 +64,8 @@ def require_success(members: Members) -> Callable[[Outcome], None]:
 class Progress:
     """A bar with the time left, where one is wanted; else nothing that looks like it."""
 
-    def __init__(self, bar: Any) -> None:
-        self._bar = bar
+    def __init__(self, bar: Any, lanes: int, names: Collection[str]) -> None:
+        self._bar, self._lanes, self._names = bar, lanes, names
         self._told = Counter[str]()
 
     def add(self, count: int) -> None:
@@ -73,12 +73,12 @@ class Progress:
         if self._bar is not None:
             self._bar.update(count)
 
-    def tell(self, kept_apart: str, lanes: int) -> None:
+    def tell(self, kept_apart: str) -> None:
         """How a member went: in how many lanes, or why by itself; the bar says so of all until now."""
         if self._bar is None:
             return
         self._told[kept_apart] += 1
-        self._bar.set_postfix_str(remark(lanes, self._told), refresh=False)
+        self._bar.set_postfix_str(remark(self._lanes, self._told, self._names), refresh=False)
 
     def left(self, count: int) -> None:
         """So many members are still expected."""
@@ -88,15 +88,17 @@ class Progress:
 
 
 @contextlib.contextmanager
-def progress_bar(total: int, done: int, wanted: bool) -> Iterator[Progress]:
-    """A bar over so many members, some of which are done."""
+def progress_bar(
+    total: int, done: int, wanted: bool, *, lanes: int, names: Collection[str]
+) -> Iterator[Progress]:
+    """A bar over so many members, some of which are done, with a remark on how they are stepped."""
     if not wanted:
-        yield Progress(None)
+        yield Progress(None, lanes, names)
         return
     from tqdm.auto import tqdm
 
     with tqdm(total=total, initial=done, unit="member", desc="ensemble") as bar:
-        yield Progress(bar)
+        yield Progress(bar, lanes, names)
 
 
 def gathered(
