@@ -224,8 +224,8 @@ bool SideBySide::retake_to_kink() {
   return true;
 }
 
-/// Where the last step of a lane is to end. A lane that cannot be where the step took it goes on by itself from
-/// its start, and tells why.
+/// Where the last step of a lane is to end. A lane that cannot be where the step took it goes on by itself
+/// from its start, and tells why.
 std::optional<double> SideBySide::find_kink(std::size_t lane) {
   Simulation& run = *runs_[lane];
   if (has_left(lane) || !run.has_switches()) return std::nullopt;
@@ -327,8 +327,7 @@ void SideBySide::hand_over(std::size_t lane, double t, const double* all) {
   take_lane(all, lane, one_.data());
   Counters taken = counters();
   taken -= counted_;
-  runs_[lane]->go_on_from(t, one_.data(), taken,
-                          wall_seconds_ / static_cast<double>(runs_.size()));
+  runs_[lane]->go_on_from(t, one_.data(), taken, wall_seconds_ / static_cast<double>(runs_.size()));
 }
 
 }  // namespace seacrane

@@ -19,9 +19,9 @@ namespace seacrane {
 std::string kept_apart(const std::vector<Simulation*>& runs);
 
 /// Steps runs of one model in different seas side by side, in lanes, with steps that they share: an error is
-/// that of the lane where it is largest, and a step in which a load of one passes a kink in the state is taken
-/// again by all, up to the kink. Outputs are taken by each run. A run that fails in its lane is left where it
-/// was, and goes on by itself, which tells why.
+/// that of the lane where it is largest, and a step in which a load of one passes a kink in the state is
+/// taken again by all, up to the kink. Outputs are taken by each run. A run that fails in its lane is left
+/// where it was, and goes on by itself, which tells why.
 class SideBySide {
  public:
   /// As many runs as the module has lanes, or fewer, which outlive this. Throws std::invalid_argument for
@@ -80,7 +80,7 @@ class SideBySide {
   std::unique_ptr<Integrator> integrator_;
   std::vector<Kink> all_kinks_;
   KinkStops kinks_;
-  std::vector<LaneStep> steps_;                                 // by run
+  std::vector<LaneStep> steps_;                               // by run
   double kink_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end
   StallWatch stall_;
   Counters before_, counted_;  // of steps before the last beginning; handed over so far
