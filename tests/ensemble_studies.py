@@ -99,3 +99,21 @@ def storm_that_kills(*, seed: int, mark: str) -> Scene:
         Path(mark).touch()
         os._exit(1)
     return storm(seed=seed)
+
+
+def cart(*, seed: int, mass: float, kind: str = "prismatic", stiffness: float = 40.0) -> Scene:
+    """A cart that a spring holds and a driver pulls by another; the seed is its speed at the start."""
+    scene = Scene(name="cart")
+    scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1.0, 0.0, 0.0))
+    scene.add_driver("rail", curve=0.0)
+    scene.add_body(
+        name="cart",
+        mass=mass,
+        size=(1.0, 1.0, 1.0),
+        position=(3.0, 0.0, 0.0),
+        velocity=(0.1 * seed, 0.0, 0.0),
+    )
+    scene.add_joint("track", kind=kind, first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    scene.add_spring("tow", first="tug", second="cart", stiffness=stiffness, damping=1.0, natural_length=3.0)
+    return scene

@@ -11,14 +11,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ensemble_studies import cart
 from limit_scenes import limited
 from random_scenes import KINDS, Shape, build
 
-from seacrane import Result, Run, Scene, SceneError, SeacraneError, cases
+from seacrane import Kept, Result, Run, Scene, SceneError, SeacraneError, Stage, Until, cases, ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import _paths, with_values
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, module_of
+from seacrane.run.lifts_in_lanes import LiftsInLanes
+from seacrane.run.staged_run import StagedRun
 
 pytestmark = [
     pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
@@ -29,6 +33,8 @@ METHODS: list[dict[str, Any]] = [
     *({"rtol": 1e-9, "integrator": name} for name in ("dopri5", "tsit5", "dop853", "dopri5-stiff")),
     {"rtol": 1e-9, "integrator": "dopri5", "maximum_step": 0.05},
     {"integrator": "rk4", "dt": 0.01},
+    {"integrator": "rk-low-storage", "dt": 0.01},
+    {"integrator": "semi-implicit-euler", "dt": 0.01},
 ]
 MEMORIES = ("per-pair", "per-pair", "by-motion", "convolution")
 
@@ -115,6 +121,51 @@ def off(result: Result, alone: Result) -> float:
     return max(float(np.abs(result[name] - alone[name]).max()) for name in ("position", "quaternion"))
 
 
+def staged(scenes: list[Scene], rng: np.random.Generator) -> list[Stage]:
+    """Stages that end at times, or where a body of each is at a place; what acts on it may be let go."""
+    loads = [name for name in scenes[0].loads if all(name in scene.loads for scene in scenes)]
+    out = [Stage(name="first", duration=float(rng.uniform(0.2, 1.0)))]
+    release = [str(rng.choice(loads))] if loads and rng.random() < 0.4 else []
+    if rng.random() < 0.4:
+        body, axis = str(rng.choice(list(scenes[0].bodies))), str(rng.choice(["x", "y", "z"]))
+        place = scenes[0].bodies[body].position["xyz".index(axis)] + rng.uniform(-0.1, 0.1)
+        until = [Until.channel("position", body=body, axis=axis, minimum=place),
+                 Until.channel("position", body=body, axis=axis, maximum=place - 0.05)]  # fmt: skip
+        out.append(Stage(name="until", until=until, maximum_duration=5.0, release=release))
+    else:
+        out.append(Stage(name="second", duration=float(rng.uniform(0.2, 1.0)), release=release))
+    return [*out, Stage(name="last", duration=float(rng.uniform(0.2, 1.0)))]
+
+
+def staged_told_of(seed: int) -> tuple[str, str]:
+    """As `told_of`, of lifts in stages."""
+    rng = np.random.default_rng(10**6 + seed)
+    scenes, method = members(rng), METHODS[int(rng.integers(len(METHODS)))]
+    settings = {"dt_out": 0.25, "channels": ["position", "quaternion"], "formulation": "recursive", **method}
+    try:
+        stages = staged(scenes, rng)
+        lifts, alone = ([StagedRun(scene, stages, **settings) for scene in scenes] for _ in range(2))
+        for lift in alone:
+            while lift.advance():
+                pass
+    except SeacraneError as error:  # alone as well
+        return f"no run: {type(error).__name__}", ""
+    with Interrupts() as interrupts:
+        assert LiftsInLanes([lift.runs(interrupts) for lift in lifts], 4, lambda _: None).advance()
+    results, singles = ([lift.result() for lift in several] for several in (lifts, alone))
+    lanes = max(int(one.stats["lanes"]) for one in results)
+    if any(one.stats["lanes"] == 1 and not one.stats.get("kept_apart") for one in results):
+        return "apart", "no reason is told"
+    pairs = list(zip(results, singles, strict=True))
+    apart = [off(one, single) for one, single in pairs]
+    ends = [
+        abs(a.end - b.end) for one, single in pairs for a, b in zip(one.stages, single.stages, strict=True)
+    ]
+    bound = 1e-6 if lanes > 1 else 0.0
+    wrong = "" if max(*apart, *ends) <= bound else f"{method}: {apart}, {ends} from alone, in {lanes} lanes"
+    return "in lanes" if lanes > 1 else "apart", wrong
+
+
 def told_of(seed: int) -> tuple[str, str]:
     """How the runs of a seed went, and what was wrong with it."""
     rng = np.random.default_rng(seed)
@@ -138,7 +189,9 @@ def told_of(seed: int) -> tuple[str, str]:
     return "in lanes" if lanes > 1 else "apart", wrong
 
 
-def judged(seeds: range) -> tuple[Counter[str], dict[int, str]]:
+def judged(
+    seeds: range, told_of: Callable[[int], tuple[str, str]] = told_of
+) -> tuple[Counter[str], dict[int, str]]:
     how, wrong = Counter[str](), {}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -154,6 +207,41 @@ def test_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
     how, wrong = judged(range(20))
     assert wrong == {}
     assert how["in lanes"] >= 3 and how["apart"] >= 3, how
+
+
+def test_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
+    how, wrong = judged(range(10), staged_told_of)
+    assert wrong == {}
+    assert how["in lanes"] >= 3 and how["apart"] >= 2, how
+
+
+def test_orders_of_names_change_neither_numbers_nor_neighbours() -> None:
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        axes: dict[str, list[Any]] = {
+            "seed": list(range(1, int(rng.integers(2, 7)))), "stiffness": rng.uniform(20.0, 60.0, 2).tolist(),
+            "kind": ["prismatic", "cylindrical"][: int(rng.integers(1, 3))],
+            "mass": rng.uniform(3.0, 9.0, int(rng.integers(1, 4))).tolist(),
+        }  # fmt: skip
+        found = []
+        for _ in range(3):
+            names = rng.permutation(sorted(axes)).tolist()
+            keep = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"})}
+            told = ensemble(
+                cart, over={name: axes[name] for name in names}, keep=keep, lanes=4, t_end=0.5, dt_out=0.25
+            ).dataset
+            found.append(told.transpose(*sorted(axes), ...))
+        for other in found[1:]:
+            assert np.array_equal(other.x, found[0].x)
+            assert (other.kept_apart == found[0].kept_apart).all()
+            assert other.attrs["side_by_side"] == found[0].attrs["side_by_side"]
+
+
+@pytest.mark.nightly
+def test_many_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
+    how, wrong = judged(range(1000, 1200), staged_told_of)
+    assert wrong == {}
+    assert how["in lanes"] >= 30 and how["apart"] >= 30, how
 
 
 @pytest.mark.nightly

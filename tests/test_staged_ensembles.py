@@ -215,8 +215,8 @@ def test_what_contradicts_is_refused_by_name() -> None:
     given: dict[str, Any] = {"over": {"seed": [1]}, "keep": KEEP}
     with pytest.raises(SceneError, match=r"t_end is 10\.0, and stages tell their end"):
         ensemble(feeder(), stages=STAGES, t_end=10.0, **given)
-    with pytest.raises(SceneError, match="lanes is 4, and stages are run one by one"):
-        ensemble(feeder(), stages=STAGES, lanes=4, **given)
+    with pytest.raises(SceneError, match="lanes is 4, and lifts with start_time are run one by one"):
+        ensemble(feeder(), stages=STAGES, lanes=4, over={"seed": [1], "start_time": [1.0]}, keep=KEEP)
     with pytest.raises(SceneError, match="stages is 'lift'; give a list of Stage"):
         ensemble(feeder(), stages="lift", **given)  # type: ignore[arg-type]
     with pytest.raises(

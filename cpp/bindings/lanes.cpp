@@ -155,6 +155,10 @@ void bind_lanes(py::module_& m) {
       "kept_apart",
       [](const std::vector<SharedSimulation*>& runs) { return kept_apart(simulations_of(runs)); },
       py::arg("runs"), "Why runs cannot be stepped side by side; empty: they can.");
+  m.def(
+      "lanes_differ", [](const Model& one, const Model& other) { return difference(one, other); },
+      py::arg("one"), py::arg("other"),
+      "What two models differ in of what runs side by side share; empty: nothing.");
   m.def("advance_side_by_side", &advance_side_by_side, py::arg("runs"), py::arg("module"), py::arg("t_end"),
         py::arg("progress") = py::none(),
         "Steps runs, whose models differ in their seas alone, to t_end (s) in the lanes of a module, as far "

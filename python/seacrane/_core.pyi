@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -3065,6 +3065,10 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
 def kept_apart(runs: collections.abc.Sequence[Simulation]) -> str:
     """
     Why runs cannot be stepped side by side; empty: they can.
+    """
+def lanes_differ(one: Model, other: Model) -> str:
+    """
+    What two models differ in of what runs side by side share; empty: nothing.
     """
 def lanes_of(module: types.ModuleType) -> int:
     """

@@ -68,8 +68,9 @@ void check(const IntegratorProperties& method, const Problem& problem, const Int
                                 " has no spectral radius to choose; leave it out, or choose " + having);
   }
   if (options.lanes > 1 && !method.lanes) {
-    throw std::invalid_argument(quoted(method) +
-                                " does not step systems side by side; choose an explicit pair");
+    throw std::invalid_argument(
+        quoted(method) +
+        " does not step systems side by side; choose an explicit pair, rk4 or rk-low-storage");
   }
   if (method.residual_form && problem.residual == nullptr) {
     throw std::invalid_argument(quoted(method) + " needs the residual form of the system");

@@ -20,6 +20,7 @@ class ClassicalRungeKutta final : public FixedStep {
       .dense_order = 4,
       .default_step = 0.02,
       .stable_up_to = 2.8,
+      .lanes = true,
       .purpose = "equal steps, for real time and for comparison with other programs"};
   static std::vector<double> stability_polynomial() { return {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}; }
 

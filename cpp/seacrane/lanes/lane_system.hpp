@@ -21,6 +21,8 @@ class LaneSystem : public System {
   virtual void set_inputs(const std::vector<double>& slots) = 0;
   /// Holds the state of a lane from now on, whatever its equations say.
   virtual void freeze(std::size_t lane) = 0;
+  /// Largest angular velocity (rad/s) of a body in a lane, where it was evaluated last.
+  virtual double turning_rate(std::size_t lane) const = 0;
 };
 
 /// One model for each lane, which differ in their seas alone.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -81,6 +82,15 @@ class PackedSystem final : public LaneSystem {
     frozen_.push_back(lane);
     by_lane_.freeze(lane);
     while (std::ranges::find(frozen_, leading_) != frozen_.end() && leading_ + 1 < L) ++leading_;
+  }
+
+  double turning_rate(std::size_t lane) const override {
+    double square = 0.0;
+    for (const BodyKinematics<T>& body : bodies_) {
+      const T own = body.angular_velocity.dot(body.angular_velocity);
+      square = std::max(square, own[static_cast<int>(lane)]);
+    }
+    return std::sqrt(square);
   }
 
   void derivative(double t, const double* y, double* ydot) override {

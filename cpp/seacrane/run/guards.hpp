@@ -17,6 +17,9 @@ struct Stepper;
 /// StallWatch::step() and RankWatch::sees() are in the loop: a sum over the state and two comparisons per
 /// step.
 
+/// rad that a body turns in one step: no method resolves more.
+inline constexpr double kLargestTurn = 3.14159265358979323846;
+
 /// Throws IntegrationError, with the component named, when the state that was stepped to is not finite.
 void require_finite(const Integrator& integrator, const Formulation& stepped);
 

@@ -60,14 +60,15 @@ std::vector<Kink> kinks_of(const std::vector<Simulation*>& runs) {
 
 std::string kept_apart(const Simulation& run) {
   if (run.options().formulation != "recursive") return "its formulation is not the recursive one";
-  if (!integrator_of(run.options().integrator).lanes) return "its integrator is no explicit pair";
+  if (!integrator_of(run.options().integrator).lanes) return "its integrator steps nothing side by side";
   if (run.options().energy_limit) return "its energy is watched";
   return kept_out_of_lanes(*run.model());
 }
 
 bool by_one_method(const Simulation& one, const Simulation& other) {
   const RunOptions &a = one.options(), &b = other.options();
-  return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance && a.max_step == b.max_step;
+  return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance &&
+         a.fixed_step == b.fixed_step && a.max_step == b.max_step;
 }
 
 std::string kept_apart(const Simulation& first, const Simulation& run) {
@@ -160,11 +161,12 @@ void SideBySide::step(double t_end) {
   const double stop = std::min(smooth_until, kink_at_);
   try {
     integrator_->step(std::min(stop, t_end));
-    stall_.step(integrator_->time());
+    if (integrator_->is_adaptive()) stall_.step(integrator_->time());
   } catch (const IntegrationError& error) {
     return drop(error);
   }
   if (retake_to_kink()) return;
+  if (!integrator_->is_adaptive()) leave_turning();
   record(smooth_until);
   if (integrator_->time() < stop) return;
   kink_at_ = std::numeric_limits<double>::infinity();
@@ -233,9 +235,18 @@ std::optional<double> SideBySide::find_kink(std::size_t lane) {
     return run.find_kink(steps_[lane]);
   } catch (const std::domain_error&) {
     run.take_sides_back();
-    hand_over(lane, integrator_->previous_time(), integrator_->previous_state());
-    set_aside(lane, kStuck);
+    leave_before_step(lane, kStuck);
     return std::nullopt;
+  }
+}
+
+/// As in a run by itself: what turns too far in a step of given length goes back to its start, and tells it.
+void SideBySide::leave_turning() {
+  const double h = integrator_->time() - integrator_->previous_time();
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (has_left(lane) || h * system_->turning_rate(lane) <= kLargestTurn) continue;
+    if (runs_[lane]->has_switches()) runs_[lane]->take_sides_back();
+    leave_before_step(lane, "a body turns too far in a step");
   }
 }
 
@@ -257,6 +268,11 @@ void SideBySide::leave(std::size_t lane) {
   if (has_left(lane)) return;
   hand_over(lane, integrator_->time(), integrator_->state());
   set_aside(lane, "its step beside the others failed");
+}
+
+void SideBySide::leave_before_step(std::size_t lane, const std::string& why) {
+  hand_over(lane, integrator_->previous_time(), integrator_->previous_state());
+  set_aside(lane, why);
 }
 
 void SideBySide::set_aside(std::size_t lane, const std::string& why) {

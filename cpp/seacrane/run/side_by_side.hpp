@@ -57,9 +57,11 @@ class SideBySide {
   void step(double t_end);
   void drop(const IntegrationError& error);
   bool retake_to_kink();
+  void leave_turning();
   std::optional<double> find_kink(std::size_t lane);
   void watch_kinks();
   void leave(std::size_t lane);
+  void leave_before_step(std::size_t lane, const std::string& why);
   void set_aside(std::size_t lane, const std::string& why);
   bool has_left(std::size_t lane) const { return gone_[lane]; }
   void reset();

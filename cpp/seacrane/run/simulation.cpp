@@ -13,7 +13,6 @@ namespace seacrane {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kLargestTurn = 3.14159265358979323846;  // rad in one step: no method resolves more
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double seconds_since(Clock::time_point start) {

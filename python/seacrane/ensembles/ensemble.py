@@ -5,27 +5,29 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
-from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.rest_state import equilibrium
+from seacrane.ensembles.beside import SIDE_BY_SIDE, lanes_for, remark
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
 from seacrane.ensembles.dataset import table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
+from seacrane.ensembles.grouping import order_of
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
-from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.packs import Packs, pack_size
 from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
@@ -37,7 +39,6 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
-from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -51,8 +52,6 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 USUAL_END = 100.0  # s
-MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
-LARGEST_PACK = 64
 POOLED = ("seed", START_TIME)
 
 
@@ -64,7 +63,8 @@ class Ensemble:
     ----------
     dataset : xarray.Dataset
         A variable for everything kept, over the parameters of a grid or over `member`, NaN where a member
-        failed or was not run; `failure`, `validity` and `kept_apart` are texts.
+        failed or was not run; `failure`, `validity` and `kept_apart` are texts. The attribute `side_by_side`
+        says how many were stepped side by side, and why others were not.
     failures : mapping of int to str
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
     certainty : tuple of Certainty
@@ -144,11 +144,11 @@ class Ensemble:
         data = study_in(path)
         if not data.get("seeds_in_pack"):
             members = members_in(path, data)
-            return _ensemble(members, _store_at(path, lambda _: members).dataset(members))
+            return _ensemble(members, _store_at(path, lambda _: members).dataset(members), lanes_in(data))
         growth = growth_in(path, data)
         store = _store_at(path, growth.holding)
         members = growth.members(max(growth.batches_in(store.done()), 1))
-        return _ensemble(members, store.dataset(members))
+        return _ensemble(members, store.dataset(members), lanes_in(data))
 
 
 @refusing
@@ -196,9 +196,10 @@ def ensemble(
         of the scene tells. Their numbers vary by paths such as "stages.lift.duration",
         "stages.lift.commands.hoist.rate" or, of a `Move`, "stages.lift.commands.slew.to". What is kept may
         be of one stage, "hook_load[stage=lift].max", and its time, "stage[lift].end" ("start", "duration").
-        A member whose stage is not over in its maximum duration fails, by its name. Stages have no lanes.
+        A member whose stage is not over in its maximum duration fails, by its name.
         In a grid, "start_time" (s) is when the lift begins: the scene waits until then in the same sea, in
-        one run that is carried from each start to the next, and a member begins in its state there.
+        one run that is carried from each start to the next, and a member begins in its state there, without
+        lanes.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     start : State, "rest" or callable, optional
@@ -225,7 +226,7 @@ def ensemble(
         Members that are run, kept and lost together, a multiple of `lanes`; default: so many that there are
         at most 250 packs, but no more than 64; with `until` two seeds, or as many as there are lanes.
     lanes : int, optional
-        Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
+        Members that are stepped side by side, as far as they are of one lift; see docs/ensembles.md: 4, 8
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
         and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
         dataset, and of a result's stats, says why.
@@ -278,14 +279,14 @@ def ensemble(
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
         start=_checked_start(start),
-        lanes=_lanes(lanes, pack, members, in_stages=bool(in_stages)),
+        lanes=lanes_for(lanes, pack, members, starts=starts),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
             what.require_times(study.t_end, recorded.dt_out)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
-    size = _pack_size(pack, len(members), study.lanes, together=len(starts))
+    size = pack_size(pack, len(members), study.lanes, together=len(starts))
     raises = on_error == "raise"
     probes = {}
     if accuracy is not None:
@@ -299,12 +300,13 @@ def ensemble(
             kept.mend()
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
         dataset = table_of(grown.members, grown.outcomes).dataset()
-        done = replace(_ensemble(grown.members, dataset), certainty=grown.certainty)
+        done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
     else:
         with _store(store, study, members, size) as kept:
             kept.mend()
-            _run(study, members, size, kept, executor, raises=raises, progress=progress)
-            done = _ensemble(members, kept.dataset(members))
+            packs = Packs(order=order_of(study, members), size=size)
+            _run(study, members, packs, kept, executor, raises=raises, progress=progress)
+            done = _ensemble(members, kept.dataset(members), study.lanes)
     if accuracy is None:
         return done
     ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]
@@ -321,9 +323,11 @@ def _checked_start(start: Any) -> Start:
     return start  # type: ignore[no-any-return]
 
 
-def _ensemble(members: Members, dataset: xarray.Dataset) -> Ensemble:
+def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble:
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
+    apart = dataset.kept_apart.to_numpy().ravel()[told == ""]
+    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)), members.axes)
     return Ensemble(members=members, dataset=dataset, failures=failures)
 
 
@@ -362,31 +366,6 @@ def _end(t_end: float | None, stages: Stages) -> float:
     return float(sum(one.duration or one.maximum_duration or 0.0 for one in stages))
 
 
-def _lanes(lanes: int | None, pack: int | None, members: Members, *, in_stages: bool) -> int:
-    asked = lanes_of(lanes)
-    if in_stages and lanes not in (None, 1):
-        raise SceneError(f"lanes is {lanes}, and stages are run one by one; leave lanes out")
-    if in_stages:
-        return 1
-    if lanes is not None:
-        return asked
-    of_one_lift = any(name in WORDS for name in members.axes)
-    return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
-
-
-def _pack_size(pack: int | None, count: int, lanes: int, together: int) -> int:
-    """`together` is how many members share what is done before the first of them."""
-    if pack is None and together:
-        return min(LARGEST_PACK, together)
-    if pack is None:
-        return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
-    if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
-        raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
-    if pack % lanes:
-        raise SceneError(f"pack is {pack} and lanes is {lanes}; give a pack that is a multiple of lanes")
-    return pack
-
-
 @contextlib.contextmanager
 def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, size: int) -> Iterator[Store]:
     if path is None:
@@ -418,7 +397,7 @@ def _store_at(folder: Path, holding: Callable[[int], Members]) -> Store:
 def _run(
     study: Study,
     members: Members,
-    size: int,
+    packs: Packs,
     store: Store,
     executor: Executor | None,
     *,
@@ -427,28 +406,29 @@ def _run(
 ) -> None:
     """Run the packs that are not in the store."""
     check = require_success(members) if raises else any_outcome
-    every = {number: _places(members, number, size) for number in range(ceil(len(members) / size))}
+    every = {number: packs[number] for number in range(len(packs))}
     there = kept_packs(store, every)
     if raises:
         for number in sorted(there):
             for outcome in store.of(number):
                 check(outcome)
     wanted = [number for number in every if number not in there]
-    packs = ((number, tuple((index, members.values(index)) for index in every[number])) for number in wanted)
+    coming = ((number, tuple((index, members.values(index)) for index in every[number])) for number in wanted)
     count = len(members)
     left = sum(len(every[number]) for number in wanted)
-    with progress_bar(count, count - left, progress) as bar:
+    with progress_bar(count, count - left, progress, lanes=study.lanes, names=members.axes) as bar:
 
         def look(outcome: Outcome) -> None:
-            bar.tell(outcome, study.lanes)
+            bar.tell(outcome.kept_apart)
             check(outcome)
 
-        fill(store, Job(study), packs, executor, done=bar.add, check=look)
+        fill(store, Job(study), coming, executor, done=bar.add, check=look)
 
 
-def _places(members: Members, number: int, size: int) -> range:
-    """Numbers of the members of a pack."""
-    return range(number * size, min((number + 1) * size, len(members)))
+def lanes_in(data: Mapping[str, Any]) -> int:
+    """The lanes of a study."""
+    lanes = data.get("identity", {}).get("lanes", 1)
+    return lanes if isinstance(lanes, int) else 1
 
 
 def members_in(folder: Path, data: Mapping[str, Any]) -> Members:

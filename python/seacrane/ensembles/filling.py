@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Generator, Iterator
+from collections import Counter
+from collections.abc import Callable, Collection, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 from typing import Any
 
+from seacrane.ensembles.beside import remark
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.outcome import Outcome
@@ -62,22 +64,21 @@ def require_success(members: Members) -> Callable[[Outcome], None]:
 class Progress:
     """A bar with the time left, where one is wanted; else nothing that looks like it."""
 
-    def __init__(self, bar: Any) -> None:
-        self._bar = bar
-        self._told = False
+    def __init__(self, bar: Any, lanes: int, names: Collection[str]) -> None:
+        self._bar, self._lanes, self._names = bar, lanes, names
+        self._told = Counter[str]()
 
     def add(self, count: int) -> None:
         """So many members more are done."""
         if self._bar is not None:
             self._bar.update(count)
 
-    def tell(self, outcome: Outcome, lanes: int) -> None:
-        """How the first member went: beside how many, or why by itself."""
-        if self._bar is None or lanes == 1 or self._told:
+    def tell(self, kept_apart: str) -> None:
+        """How a member went: in how many lanes, or why by itself; the bar says so of all until now."""
+        if self._bar is None:
             return
-        self._told = True
-        why = outcome.kept_apart
-        self._bar.set_postfix_str(f"one by one: {why}" if why else f"{lanes} side by side")
+        self._told[kept_apart] += 1
+        self._bar.set_postfix_str(remark(self._lanes, self._told, self._names), refresh=False)
 
     def left(self, count: int) -> None:
         """So many members are still expected."""
@@ -87,15 +88,17 @@ class Progress:
 
 
 @contextlib.contextmanager
-def progress_bar(total: int, done: int, wanted: bool) -> Iterator[Progress]:
-    """A bar over so many members, some of which are done."""
+def progress_bar(
+    total: int, done: int, wanted: bool, *, lanes: int, names: Collection[str]
+) -> Iterator[Progress]:
+    """A bar over so many members, some of which are done, with a remark on how they are stepped."""
     if not wanted:
-        yield Progress(None)
+        yield Progress(None, lanes, names)
         return
     from tqdm.auto import tqdm
 
     with tqdm(total=total, initial=done, unit="member", desc="ensemble") as bar:
-        yield Progress(bar)
+        yield Progress(bar, lanes, names)
 
 
 def gathered(

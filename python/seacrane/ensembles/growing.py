@@ -146,9 +146,15 @@ def grow(
     cells: dict[int, list[Outcome]] = {cell: [] for cell in range(growth.cells)}
     known: dict[int, list[Certainty]] = {}
     going, batch = list(cells), 0
-    with progress_bar(BATCH * growth.cells, 0, progress) as bar:
+    most, names = BATCH * growth.cells, growth.members(1).axes
+    with progress_bar(most, 0, progress, lanes=job.study.lanes, names=names) as bar:
+
+        def look(outcome: Outcome) -> None:
+            bar.tell(outcome.kept_apart)
+            check(outcome)
+
         while going and batch < growth.batches:
-            _run_batch(growth, batch, going, job, store, executor, bar.add, check)
+            _run_batch(growth, batch, going, job, store, executor, bar.add, look)
             for cell in going:
                 with interrupts_kept():
                     cells[cell] += [one for number in growth.packs(batch, cell) for one in store.of(number)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from threading import Lock
 from typing import Any, TypeVar
@@ -13,13 +13,16 @@ from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.carried import Carried, stepped
 from seacrane.ensembles.members import Value
+from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study, Values
 from seacrane.errors import SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
+from seacrane.run.alike_stages import AlikeStages
 from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
+from seacrane.run.lifts_in_lanes import LiftsInLanes
 from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
@@ -64,43 +67,54 @@ class Job:
             raise WorkerVersionError(
                 f"a worker has seacrane {__version__}, and the ensemble is of {version}; install the same"
             )
-        return [outcome for members in self._groups(pack) for outcome in self._together(members)]
-
-    def _groups(self, pack: Pack) -> list[Pack]:
-        """Members that are stepped side by side, by their numbers; without lanes, a few at a time."""
-        lanes = self.study.lanes
-        if lanes == 1:
-            return [pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER)]
-        beside: dict[int, list[tuple[int, Mapping[str, Value]]]] = {}
-        for index, values in pack:
-            beside.setdefault(index // lanes, []).append((index, values))
-        return [tuple(members) for members in beside.values()]
+        count = TOGETHER if self.study.lanes == 1 else self.study.lanes
+        groups = [pack[first : first + count] for first in range(0, len(pack), count)]
+        return [outcome for members in groups for outcome in self._together(members)]
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
         runs = self._begun(members)
         if self.study.lanes > 1:
-            failed = self._beside([run for run in runs if isinstance(run, Run)])
-            if failed:
-                runs = self._begun(members)
-                note_apart([run for run in runs if isinstance(run, Run)], failed)
+            runs = self._beside(members, runs)
         runs = [run if isinstance(run, str) else _tried(partial(stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
     def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
         return [_tried(interrupts_kept()(partial(self._prepared.run, values))) for _, values in members]
 
-    def _beside(self, runs: Sequence[Run]) -> str:
-        """Advance runs side by side; why that failed and left them nowhere, or nothing."""
+    def _beside(self, members: Pack, begun: list[Run | StagedRun | str]) -> list[Run | StagedRun | str]:
+        """The runs as far as they go side by side; where that fails altogether, begun anew."""
+        runs = list(begun)
         with Interrupts() as interrupts:
             try:
-                reached = advance_side_by_side(runs, self.study.lanes, lambda _: interrupts.take())
+                reached = self._advance(runs, interrupts)
             except (MemoryError, SeacraneError, ValueError) as error:
-                return f"stepping it beside others failed: {type(error).__name__}: {error}"
+                reached, runs = True, self._begun(members)
+                why = f"stepping it beside others failed: {type(error).__name__}: {error}"
+                note_apart([run for run in runs if isinstance(run, Run)], why)
         interrupts.take()
         if not reached:
             raise KeyboardInterrupt
-        return ""
+        return runs
+
+    def _advance(self, runs: list[Run | StagedRun | str], interrupts: Interrupts) -> bool:
+        lanes = self.study.lanes
+        if not self.study.stages:
+            plain = [run for run in runs if isinstance(run, Run)]
+            return advance_side_by_side(plain, lanes, lambda _: interrupts.take())
+
+        def stepped_in_lanes(place: int, lift: StagedRun) -> Iterator[Run]:
+            try:
+                yield from lift.runs(interrupts)
+            except MemoryError:
+                raise
+            except Exception as error:
+                runs[place] = _told(error)
+
+        lifts = [
+            stepped_in_lanes(place, lift) for place, lift in enumerate(runs) if isinstance(lift, StagedRun)
+        ]
+        return LiftsInLanes(lifts, lanes, lambda _: interrupts.take()).advance()
 
     def _outcome(self, index: int, run: Run | StagedRun | str) -> Outcome:
         """The outcome of a run at its end, or of why there is none."""
@@ -121,7 +135,11 @@ def _tried(work: Callable[[], Some]) -> Some | str:
     except MemoryError:
         raise
     except Exception as error:
-        return f"{type(error).__name__}: {error}"
+        return _told(error)
+
+
+def _told(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"
 
 
 @lru_cache(maxsize=4)
@@ -138,6 +156,7 @@ class Prepared:
     def __init__(self, study: Study) -> None:
         self._study = study
         self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
+        self._alike: OrderedDict[str, AlikeStages] = OrderedDict()
         self._carried: OrderedDict[str, Carried] = OrderedDict()
         self._lock = Lock()
 
@@ -165,8 +184,19 @@ class Prepared:
             carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
             start, before = carrier.at(time), carrier.found(time)
         return StagedRun(
-            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs
-        )
+            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
+            alike=self._alike_with(scene, values),
+        )  # fmt: skip
+
+    def _alike_with(self, scene: Scene, values: Values) -> AlikeStages | None:
+        """What is known of the lift of a scene in other seas; None where stages may differ in more."""
+        study = self._study
+        if not isinstance(study.source, Scene) or callable(study.stages) or given_vessels(scene):
+            return None
+        key = repr([(name, value) for name, value in values.items() if name not in WORDS])
+        with self._lock:
+            self._alike.setdefault(key, AlikeStages())
+            return _kept_of_late(self._alike, key, MOST_HELD)
 
     def _carrier(
         self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values

@@ -136,8 +136,15 @@ def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:
         first = next(iter(lost))
         others = f"; so are those of {len(lost) - 1} other packs" if len(lost) > 1 else ""
         warn_caller(
-            f"store: members {packs[first][0]} to {packs[first][-1]} are lost or damaged, and are run again: "
+            f"store: members {_shown(packs[first])} are lost or damaged, and are run again: "
             f"{lost[first]}{others}",
             LostMembersWarning,
         )
     return there - lost.keys()
+
+
+def _shown(indices: Sequence[int]) -> str:
+    first, last = indices[0], indices[-1]
+    if list(indices) == list(range(first, last + 1)):
+        return f"{first} to {last}"
+    return ", ".join(map(str, indices))

@@ -145,12 +145,12 @@ def named_channels(
     loads = hook_loads(scene, arrays)
     leads = lead_angles(scene, arrays) if wanted & {"offlead", "sidelead"} else None
     offlead, sidelead = leads or (None, None)
-    found = {
+    found: dict[str, Array | None] = {
         "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
         "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
         "cylinder_force": _loads(scene, arrays, strokes),
         "cylinder_pressure": _pressures(scene, arrays, strokes),
-        "slew_angle": _turned(_recorded(scene, arrays.get("coordinate"), drives)),
+        **turning_channels(scene, arrays),
         "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
         "link_tension": _without_axis_of_one(link_tensions(scene, arrays, loads)),
         "hook_load": loads,
@@ -172,6 +172,12 @@ def named_channels(
     out = arrays | {name: values for name, values in found.items() if values is not None}
     out |= motions(scene, arrays, asked)
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
+
+
+def turning_channels(scene: Description, arrays: Mapping[str, Array]) -> dict[str, Array]:
+    """Those of `named_channels` that count turns."""
+    angle = _turned(_recorded(scene, arrays.get("coordinate"), slews(scene)))
+    return {} if angle is None else {"slew_angle": angle}
 
 
 def _columns(array: Array | None, places: Sequence[int]) -> Array | None:

@@ -14,6 +14,8 @@ from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED
 from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
+from seacrane.run.channel_names import turning_channels
+from seacrane.run.lifts_in_lanes import joined_lanes
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
@@ -76,9 +78,14 @@ class Piece:
 
 def counters(run: Run) -> dict[str, Array]:
     """Values at the present instant of what each run counts from where its record begins."""
-    wanted = {name for name in run.model.channel_names() if name in COUNTED_ON}
-    now = run.measure()
-    return {name: now[name] for name in now if name in wanted or CHANNELS[name].turns}
+    return counted(run.scene, run.model, run.core.snapshot())
+
+
+def counted(scene: Scene, model: _core.Model, snapshot: Mapping[str, Array]) -> dict[str, Array]:
+    """The same of a snapshot of the core."""
+    wanted = [name for name in model.channel_names() if name in COUNTED_ON and name in snapshot]
+    now = {name: snapshot[name] for name in wanted} | turning_channels(scene, snapshot)
+    return {name: values[0] for name, values in now.items()}
 
 
 def joined(
@@ -204,6 +211,8 @@ def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
         key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
     }
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    out.pop("kept_apart", None)
+    out |= joined_lanes(every)
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
     for key, first in (("described", ""), ("validity", before)):

@@ -15,6 +15,7 @@ from seacrane.run.run import Run
 INSTRUCTIONS: Mapping[int, str] = {4: "avx2", 8: "avx512"}
 """What a processor must have for so many lanes."""
 USUAL = 4  # alike on most machines
+ALONE = "there is no other run beside it"
 
 
 @cache
@@ -81,7 +82,7 @@ def _alike(runs: Sequence[Run]) -> list[list[Run]]:
 def _apart(one: Run, other: Run | None) -> str:
     """Why two runs are not stepped side by side; empty: they can be."""
     if other is None:
-        return "there is no other run beside it"
+        return ALONE
     if one.t_end != other.t_end:
         return "the runs end at different times"
     return _core.kept_apart([other.core, one.core])
@@ -103,4 +104,3 @@ def note_apart(runs: Sequence[Run], why: str) -> None:
     """In the stats of runs: that they are stepped by themselves."""
     for run in runs:
         run.lanes = {"lanes": 1, "kept_apart": why}
-

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,18 +48,19 @@ class Course:
     calls: Calls
     began: Callable[[Run], None]
     done: Callable[[Run], None]
-    warned: bool = False
+    first_run: Run | None = None
 
     def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the stage, not advanced yet; what its description warns of is told once."""
         with warnings.catch_warnings():
-            if self.warned:
+            if self.first_run is not None:
                 warnings.simplefilter("ignore")
-            self.warned = True
-            return Run(
+                return self.first_run.from_there(start, t_end, capacity)
+            self.first_run = Run(
                 self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
                 outputs_from=self.first, model=self.model, capacity=capacity,
             )  # fmt: skip
+            return self.first_run
 
     def taken(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and part of the result."""
@@ -84,14 +85,20 @@ class Course:
         return run
 
 
-def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
+def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Run, None, str]:
     """Run a stage from a state; returns what ended it, "" for an interruption.
+
+    Its runs are told before they are stepped: whoever asks may step them beside others, as far as that goes.
 
     Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
         course.calls.begin(replayed=False)
-        run = course.taken(start, start.time + stage.duration)
+        run = course.run(start, start.time + stage.duration)
+        course.began(run)
+        yield run
+        drive(run, course.calls, course.interrupts)
+        course.done(run)
         return "" if run.interrupted else "duration"
     assert stage.maximum_duration is not None
     end, state = start.time + stage.maximum_duration, start
@@ -101,6 +108,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
         course.began(run)
+        yield run
         looks = _Looks(run, stage.conditions)
         drive(run, course.calls, course.interrupts, halt=looks.any if course.calls.controllers else None)
         found = looks.hits()

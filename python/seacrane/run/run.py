@@ -199,6 +199,23 @@ class Run:
         out._prepare()
         return out
 
+    def from_there(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
+        """A run of the same scene from another state to another end, with outputs at the same times.
+
+        What was checked and warned of is not checked again.
+        """
+        out = copy(self)
+        out._given_start, out._capacity = start, capacity
+        out.t_end = number_of("t_end", t_end)
+        out.described = False
+        out.start = out._started()
+        out.settings = {**self.settings, "t_end": out.t_end}
+        out._own_modes, out.start_modes = Modes(out.model, list(out.scene.bodies), [out.start]), None
+        inputs = frozenset(steered(out.scene, out.model, out.start.inputs))
+        out._lasting = replace(self._lasting, options=_options(out), steered=inputs)
+        out._prepare()
+        return out
+
     def _prepare(self) -> None:
         """What changes while it runs."""
         self.core = self._simulation()
@@ -475,8 +492,15 @@ def _options(run: Run) -> _core.RunOptions:
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
+    return core_options(method, run.formulation, channels=channels, times=times, capacity=capacity)
+
+
+def core_options(
+    method: Method, formulation: str, *, channels: set[str], times: Any, capacity: int | None = None
+) -> _core.RunOptions:
+    """The options of the core for a method, with what is recorded, when (s)."""
     return _core.RunOptions(
-        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
+        formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
         fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip

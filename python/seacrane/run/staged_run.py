@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 import contextlib
-import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.description.channels import COUNTED_ON, OWN
+from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
+from seacrane.run.alike_stages import AlikeStages, Key
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
+from seacrane.run.formulation import stepped
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.joined import Piece, counters, joined
+from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import checked_stages, planned_scene, waiting
-from seacrane.run.run import Run
+from seacrane.run.run import Run, core_options
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stage import Stage
@@ -73,6 +76,8 @@ class StagedRun:
         As of `Run`: time from which output times are counted, s; default: the start.
     before : sequence of (warning, str)
         What was out of range before the start; it is told with what is in the stages.
+    alike : AlikeStages, optional
+        Of lifts that differ in their seas alone: what one of them found is not looked for again.
 
     Attributes
     ----------
@@ -93,6 +98,7 @@ class StagedRun:
         first: str | None = None,
         outputs_from: float | None = None,
         before: Sequence[Finding] = (),
+        alike: AlikeStages | None = None,
         method: Method | None = None,
         outputs: Outputs | None = None,
         controllers: Sequence[SampledController] = (),
@@ -104,7 +110,9 @@ class StagedRun:
         self.stages, self._whole, time = planned_scene(scene, every, first)
         self._given, self._absent = scene, waiting(self.stages)
         self._scene = without(self._whole, self._absent)
-        self._model = self._scene.compile()
+        self._alike = AlikeStages() if alike is None else alike
+        self._shares = alike is not None and scene.waves is not None
+        self._model = self._first_model()
         from_rest = start is None and first is not None
         begin = start_state(self._scene, REST if from_rest else start, time=time)
         self._state = _core.initial_state(self._model) if begin is None else begin
@@ -119,6 +127,8 @@ class StagedRun:
         self._open: tuple[Run, dict[str, Any]] | None = None
         self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
+        self._redescribed = False
+        self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
@@ -142,30 +152,57 @@ class StagedRun:
             As `simulate`, and for a stage that is not over within its `maximum_duration`. Either has
             as its `result` what was recorded until then.
         """
-        if self.interrupted or len(self._spans) == len(self.stages):
-            return False
+        with Interrupts() as interrupts:
+            for _ in self.carry_out(interrupts):
+                pass
+        return not self._over
+
+    @property
+    def _over(self) -> bool:
+        return self.interrupted or len(self._spans) == len(self.stages)
+
+    def runs(self, interrupts: Interrupts) -> Iterator[Run]:
+        """Carry out all stages that are left, as `advance` does.
+
+        Each run is told before it is stepped, so that it can be stepped beside those of other lifts.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            Where Ctrl-C stopped it.
+        """
+        while not self._over:
+            yield from self.carry_out(interrupts)
+        if self.interrupted:
+            raise KeyboardInterrupt
+
+    def carry_out(self, interrupts: Interrupts) -> Iterator[Run]:
+        """The runs of the next stage, each before it is stepped; none where none is left."""
+        if self._over:
+            return
         stage = self.stages[len(self._spans)]
         begin = self._state.time
         gone = self._absent - waiting(self.stages[len(self._spans) :])
         self.begun[stage.name] = Begin(without(self._whole, gone), self._state)
-        with Interrupts() as interrupts:
-            try:
-                self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
-                self._connect(stage)
-                self._command(stage)
-                course, start = self._course(stage, interrupts), self._checked_start(stage)
-                ended = to_its_end(course, stage, start)
-                if not self._pieces:  # met at once, or stopped before anything was stepped
-                    course.stand(self._state)
-            except BaseException as error:
-                self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
-                self.interrupted = True
-                with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
-                    error.result = self._result_of_an_error()  # type: ignore[attr-defined]
-                raise
+        try:
+            self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
+            self._connect(stage)
+            self._command(stage)
+            course, start = self._course(stage, interrupts), self._checked_start(stage)
+            ended = yield from to_its_end(course, stage, start)
+            if not self._pieces:  # met at once, or stopped before anything was stepped
+                course.stand(self._state)
+        except GeneratorExit:  # nobody asks for the rest
+            self.interrupted = True
+            raise
+        except BaseException as error:
+            self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
+            self.interrupted = True
+            with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
+                error.result = self._result_of_an_error()  # type: ignore[attr-defined]
+            raise
         self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
         self.interrupted = not ended
-        return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
         """All that has been recorded so far; `interrupted` until the last stage is over.
@@ -201,9 +238,11 @@ class StagedRun:
         record = self._state.record
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the stage's own run tells them
-            now = counters(self._still(self._scene, self._model, self._state))
+        _, model, formulation = stepped(self._scene, self._model, self.method)
+        start = with_present_inputs(self._state, model)
+        options = core_options(self.method, formulation, channels=set(), times=[])
+        core = _core.Simulation(model=model, start=start, options=options)
+        now = counted(self._scene, model, core.snapshot())
         known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
         return {name: now.get(name, value) for name, value in known.items()}
 
@@ -216,6 +255,7 @@ class StagedRun:
         for name in stage.connect:
             self._absent.discard(name)
             if name in self._whole.joints:
+                self._redescribed = True
                 self._absent |= lifted_seats(self._scene, self._state)
                 self._whole = redescribed(self._whole, self._measured(), self._state)
             self._change(stage, name, "connection")
@@ -265,7 +305,8 @@ class StagedRun:
             return
         self._whole = commanded(self._whole, stage.title, stage.commands, self._state.time)
         self._scene = without(self._whole, self._absent)
-        self._model = compiled_there(self._scene)
+        like = self._like(stage)
+        self._model = compiled_there(self._scene) if like is None else like.model
 
     def _checked_start(self, stage: Stage) -> _core.State:
         check_limits(stage, self._scene)
@@ -283,10 +324,34 @@ class StagedRun:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
         outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
-        return Course(
+        course = Course(
             scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
+            first_run=self._like(stage),
         )  # fmt: skip
+        if self._shares and course.first_run is None and not self._redescribed:
+            longest = stage.duration or stage.maximum_duration or 0.0
+            known = course.run(self._state, self._state.time + longest, capacity=1)
+            if not known.rungs:
+                self._alike.runs[self._key(stage)] = known
+        return course
+
+    def _first_model(self) -> _core.Model:
+        if self._shares and self._alike.model is not None:
+            return compiled_in_sea(self._scene, self._alike.model)
+        self._alike.model = self._scene.compile()
+        return self._alike.model
+
+    def _key(self, stage: Stage) -> Key:
+        return stage.name, self._state.time, frozenset(self._absent)
+
+    def _like(self, stage: Stage) -> Run | None:
+        """The run of the same stage of an alike lift that began at the same time, in this sea."""
+        if self._seen is None or self._seen[0] != stage.name:
+            known = self._alike.runs.get(self._key(stage)) if self._shares and not self._redescribed else None
+            assert known is None or self._scene.waves is not None
+            self._seen = (stage.name, None if known is None else known.in_sea(self._scene.waves))
+        return self._seen[1]
 
     def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Inputs without those of elements that are absent in this stage."""
@@ -297,8 +362,12 @@ class StagedRun:
         """Channels that were asked for, as far as this stage has them."""
         if self.outputs.channels is None:
             return None
-        still = self._still(self._scene, self._model, self._state)
-        there = {*still.named(still.core.snapshot()), OWN, *still.model.channel_names(defaults_only=False)}
+        absent, known = frozenset(self._absent), self._alike.channels
+        if absent not in known:
+            still = self._still(self._scene, self._model, self._state)
+            names = still.model.channel_names(defaults_only=False)
+            known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
+        there = known[absent]
         return [name for name in self.outputs.channels if name in there]
 
     def _began(self, run: Run) -> None:

@@ -1,0 +1,185 @@
+"""Lifts in stages side by side: as alone, together where they are alike at one time."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ensemble_studies import cart
+from stage_scenes import on_deck
+
+from seacrane import Kept, Move, Scene, Stage, Until, ensemble, shipped_database
+from seacrane.ensembles import Ensemble
+from seacrane.run.lanes import module_of
+
+pytestmark = [
+    pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
+    pytest.mark.filterwarnings("ignore::UserWarning"),
+]
+FINE: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.1}
+HOIST = [
+    Stage(name="wait", duration=2.0),
+    Stage(name="raise", duration=3.0, commands={"hoist.rate": -0.4}),
+    Stage(name="hold", duration=2.0, commands={"hoist.rate": 0.0}),
+]
+KEEP: dict[str, Any] = {
+    "hook": Kept(channel="hook_load", interval=0.5),
+    "raised": "line_unstretched_length[stage=hold].min",
+    "end": "stage[raise].end",
+}
+
+
+@cache
+def lift(rung: str = "quasi-static") -> Scene:
+    scene = Scene(name="hoisting")
+    scene.add_vessel(shipped_database())
+    scene.add_crane(slew=-1.2, s1=1.4, s2=1.0)
+    scene.add_hoist(
+        mass=60e3, size=(4.0, 4.0, 4.0), length=14.0, EA=4e8, rung=rung,
+        winch={"lag": 0.3, "maximum_rate": 1.0},
+    )  # fmt: skip
+    scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=1, count=30)
+    return scene
+
+
+def in_both(source: Any, **study: Any) -> tuple[Any, Any]:
+    """Datasets alone and in lanes."""
+    alone, beside = (ensemble(source, lanes=lanes, **study) for lanes in (1, 4))
+    assert alone.failures == beside.failures == {}
+    return alone.dataset, beside.dataset
+
+
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_stages_that_end_at_times_run_side_by_side_as_alone(rung: str) -> None:
+    alone, beside = in_both(lift(rung), stages=HOIST, over={"seed": [1, 2, 3, 4]}, keep=KEEP, **FINE)
+    assert (beside.kept_apart == "").all()
+    assert beside.attrs["side_by_side"] == "4 in 4 lanes"
+    for name in KEEP:
+        assert np.abs(beside[name] - alone[name]).max() < 1e-5 * np.abs(alone[name]).max(), name
+    assert float(np.abs(alone.hook[0] - alone.hook[1]).max()) > 1e3
+
+
+def rolling() -> list[Stage]:
+    """Ends as the ship rolls: at another time in every sea."""
+    return [
+        Stage(
+            name="raise", until=Until.channel("vessel_motion", motion="roll", maximum=-0.3),
+            maximum_duration=60.0, commands={"hoist.rate": -0.1},
+        ),
+        Stage(name="hold", duration=4.0, commands={"hoist.rate": 0.0}),
+    ]  # fmt: skip
+
+
+def test_members_whose_stages_end_at_their_own_times_meet_again() -> None:
+    alone, beside = in_both(lift(), stages=rolling(), over={"seed": [1, 2, 3, 4]}, keep=KEEP | {
+        "hook": "hook_load[hoist, stage=hold].max"
+    }, **FINE)  # fmt: skip
+    ends = alone.end.to_numpy()
+    assert len(set(ends.tolist())) == 4
+    assert np.abs(beside.end - alone.end).max() < 1e-5
+    assert np.abs(beside.hook - alone.hook).max() < 1e-5 * np.abs(alone.hook).max()
+    told = sorted(beside.kept_apart.to_numpy().tolist())
+    assert told[:3] == [""] * 3 and told[3].startswith("from t = ") and "no other lift is alike" in told[3]
+    assert beside.attrs["side_by_side"].endswith("1 (in part, no other lift is alike at that time)")
+
+
+PULL = [
+    Stage(name="stand", duration=1.0),
+    Stage(name="pull", duration=3.0, commands={"rail.displacement": Move(to=1.0, over=2.0)}),
+]
+CART: dict[str, Any] = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"}, interval=0.5)}
+OVER: dict[str, Any] = {"seed": [1, 2, 3], "mass": [9.0, 4.0], "kind": ["prismatic", "cylindrical"]}
+
+
+@pytest.mark.parametrize("stages", [(), PULL])
+def test_the_order_of_names_changes_nothing(stages: Any) -> None:
+    """To the bit, nor who is beside whom: masses in lanes of one kind of joint."""
+    study: dict[str, Any] = {"keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages}
+    study |= {} if stages else {"t_end": 3.0}
+    orders = [["seed", "mass", "kind"], ["kind", "mass", "seed"], ["mass", "kind", "seed"]]
+    found = [ensemble(cart, over={name: OVER[name] for name in order}, **study).dataset for order in orders]
+    for other in found[1:]:
+        assert np.array_equal(other.x.transpose(*found[0].x.dims), found[0].x)
+        assert (other.kept_apart.transpose(*found[0].kept_apart.dims) == found[0].kept_apart).all()
+    assert (found[0].kept_apart == "").all()
+
+
+def test_kinds_that_cannot_share_are_no_neighbours() -> None:
+    """With a seed of one value, neighbours by mass would be of both kinds."""
+    over = {"kind": ["prismatic", "cylindrical"], "mass": [4.0, 5.0, 6.0, 7.0], "seed": [1]}
+    for names in (["kind", "mass", "seed"], ["mass", "kind", "seed"]):
+        told = ensemble(
+            cart, over={name: over[name] for name in names}, keep=CART, lanes=4, t_end=1.0, dt_out=0.1
+        ).dataset
+        assert told.attrs["side_by_side"] == "8 in 4 lanes"
+
+
+@pytest.mark.parametrize("store", ["packs", "group.zarr"])
+@pytest.mark.parametrize("stages", [(), PULL])
+def test_a_store_killed_in_a_pack_has_the_same_bits(store: str, stages: Any, tmp_path: Path) -> None:
+    if store.endswith(".zarr"):
+        pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
+    ran: list[int] = []
+
+    def watched(**given: Any) -> Scene:
+        ran.append(1)
+        if len(ran) == kill:
+            raise KeyboardInterrupt
+        return cart(**given)
+
+    study: dict[str, Any] = {
+        "over": OVER, "keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages,
+        **({} if stages else {"t_end": 3.0}),
+    }  # fmt: skip
+    kill = 0
+    whole = ensemble(watched, **study).dataset
+    before = len(ran) - 12  # of identity and order
+    ran.clear()
+    kill = before + 7 + 2  # in the middle of the second pack
+    with pytest.raises(KeyboardInterrupt):
+        ensemble(watched, store=tmp_path / store, **study)
+    left = Ensemble.load(tmp_path / store).dataset
+    assert 0 < int((left.failure == "").sum()) < 12
+    kill = 0
+    with ThreadPoolExecutor(2) as executor:
+        resumed = ensemble(watched, store=tmp_path / store, executor=executor, **study).dataset
+    assert np.array_equal(resumed.x, whole.x)
+    assert (resumed.kept_apart == whole.kept_apart).all()
+
+
+def test_stages_with_limits_are_run_as_alone_and_say_why() -> None:
+    scene = on_deck(damping_ratio=0.1)
+    scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0), position=(40.0, 0.0, 0.0))
+    stages = [Stage(name="hold", duration=0.5), Stage(name="up", duration=1.0, commands={"hoist.rate": -0.1})]
+    over = {"loads.hoist.EA": [4e7, 5e7]}
+    alone, beside = in_both(scene, stages=stages, over=over, keep={"t": "line_tension.max"}, dt_out=0.1)
+    assert np.array_equal(alone.t, beside.t)
+    assert (beside.kept_apart == "it has limits").all()
+    assert beside.attrs["side_by_side"] == "0 in 4 lanes, by themselves 2 (it has limits)"
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "rk-low-storage"])
+def test_fixed_steps_run_side_by_side_as_alone(integrator: str) -> None:
+    study: dict[str, Any] = {
+        "over": {"seed": [1, 2, 3, 4]}, "t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01,
+        "keep": {"hook": Kept(channel="hook_load", interval=0.5)},
+    }  # fmt: skip
+    alone, beside = in_both(lift(), **study)
+    assert (beside.kept_apart == "").all()
+    assert np.abs(beside.hook - alone.hook).max() < 1e-9 * np.abs(alone.hook).max()
+
+
+def test_one_remark_says_how_members_are_stepped(capfd: pytest.CaptureFixture[str]) -> None:
+    given: dict[str, Any] = {"keep": CART, "t_end": 0.5, "dt_out": 0.1}
+    told = ensemble(cart, over=[{"seed": 1, "mass": 4.0}] * 5, lanes=4, progress=True, **given)
+    why = "4 in 4 lanes, by themselves 1 (there is no other run beside it)"
+    assert told.dataset.attrs["side_by_side"] == why and why in capfd.readouterr().err
+    one = ensemble(cart, over={"mass": [4.0, 5.0], "kind": ["prismatic"], "seed": [1]}, lanes=1, **given)
+    assert one.dataset.attrs["side_by_side"] == "2 one by one: lanes is 1"
+    scene = cart(seed=1, mass=4.0)
+    alone = ensemble(scene, over={"gravity": [9.8, 9.81]}, **given).dataset.attrs["side_by_side"]
+    assert alone == "2 one by one: lanes is 1, as it is by default where no word of the sea varies"
