@@ -4,6 +4,7 @@
 #include "multibody_scenes.hpp"
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/elements/loads/heave_compensator.hpp"
 #include "seacrane/elements/loads/line.hpp"
