@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "multibody_scenes.hpp"
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 
@@ -267,8 +268,32 @@ TEST_CASE("loops, drivers, vessel, memory and waves: the recursive form agrees w
   check_agreement(parallelogram(5), 1e-9);
 }
 
+/// Accelerations and power of both formulations where the recursive one places the bodies: what drivers
+/// prescribe there follows from the time.
+void check_where_driven(const SceneDescription& scene, double bound) {
+  const auto model = compile(scene);
+  MaximalSystem redundant(model);
+  RecursiveSystem recursive(std::make_shared<Terms>(model));
+  std::vector<double> y = moving_state(redundant, 7), ydot(y.size());
+  std::vector<double> z(recursive.size()), zdot(recursive.size());
+  recursive.read_bodies(0.0, y.data(), z.data());
+  recursive.derivative(0.3, z.data(), zdot.data());
+  recursive.write_bodies(0.3, z.data(), y.data());
+  redundant.derivative(0.3, y.data(), ydot.data());
+  CHECK(constraint_residual(redundant.terms(), 0.3, y.data()).position < 1e-12);
+  CHECK(constraint_residual(redundant.terms(), 0.3, y.data()).rate < 1e-11);
+  double largest = 0.0, worst = 0.0;
+  for (std::size_t b = 0; b < redundant.accelerations().size(); ++b) {
+    const Vec6d& a = redundant.accelerations()[b];
+    largest = std::max(largest, a.norm());
+    worst = std::max(worst, (recursive.accelerations()[b] - a).norm());
+  }
+  CHECK(worst < bound * largest);
+  CHECK(std::abs(zdot[zdot.size() - 2] - ydot[idx(model->layout.work)]) < bound * (1.0 + zdot.back()));
+}
+
 TEST_CASE("driven strokes and bodies: the recursive form, without unknowns for them, agrees") {
-  Random random(17);
+  Random random(5);
   int told = 0;
   for (int trial = 0; trial < 8; ++trial) {
     CAPTURE(trial);
@@ -278,7 +303,7 @@ TEST_CASE("driven strokes and bodies: the recursive form, without unknowns for t
     ++told;
     CHECK(tree.driven == (trial > 3 ? 7 : 1));
     CHECK(tree.loop_rows == 0);
-    check_agreement(scene, 1e-9);
+    check_where_driven(scene, 1e-9);
   }
   CHECK(told >= 4);
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "seacrane/dynamics/recursive/driven_stroke.hpp"
@@ -186,14 +187,14 @@ class TreeBuilder {
     return good;
   }
 
-  /// A vessel, else the heaviest body not reached yet.
+  /// A body whose motion is given, a vessel, else the heaviest body not reached yet.
   int next_root() const {
     int best = -1;
     for (int b = 0; b < ground_; ++b) {
       if (placed_.count(b) || is_strut_part(b)) continue;
       const auto rank = [&](int i) {
         const BodyModel& body = model_.bodies[idx(i)];
-        return std::pair(body.vessel >= 0, body.mass);
+        return std::tuple(!motion_of(i).empty(), body.vessel >= 0, body.mass);
       };
       if (best < 0 || rank(b) > rank(best)) best = b;
     }
@@ -348,13 +349,19 @@ class TreeBuilder {
     }
     for (Cluster& c : tree_.clusters) {
       if (c.kind != Cluster::floating) continue;
-      for (const JointData& joint : model_.joints[kind_of("free")]) {
-        if (joint.first != ground_ || joint.second != c.body || c.is_driven()) continue;
-        std::vector<int> drivers = drivers_of(joint);
-        if (std::ranges::none_of(drivers, [](int d) { return d < 0; }))
-          lead(c, {std::move(drivers), -1, 1.0});
-      }
+      std::vector<int> drivers = motion_of(c.body);
+      if (!drivers.empty()) lead(c, {std::move(drivers), -1, 1.0});
     }
+  }
+
+  /// The drivers of all six motions of a body over the ground; none unless all are driven.
+  std::vector<int> motion_of(int body) const {
+    for (const JointData& joint : model_.joints[kind_of("free")]) {
+      if (joint.first != ground_ || joint.second != body) continue;
+      std::vector<int> drivers = drivers_of(joint);
+      if (std::ranges::none_of(drivers, [](int d) { return d < 0; })) return drivers;
+    }
+    return {};
   }
 
   void lead(Cluster& c, Drive drive) {
