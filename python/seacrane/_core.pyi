@@ -2962,6 +2962,11 @@ class Simulation:
         Outputs recorded.
         """
     @property
+    def set_aside(self) -> str:
+        """
+        Why it was not stepped on beside others; empty: it was.
+        """
+    @property
     def state(self) -> State:
         """
         copy

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from seacrane import _core
 from seacrane.run.run import Run
 
+MOST_RUNS = 64
 Key = tuple[str, float, frozenset[str]]  # a stage, when it began (s), what was absent
 
 
@@ -24,3 +25,8 @@ class AlikeStages:
     model: _core.Model | None = None
     channels: dict[frozenset[str], set[str]] = field(default_factory=dict)
     runs: dict[Key, Run] = field(default_factory=dict)
+
+    @property
+    def has_room(self) -> bool:
+        """Whether it takes one more: behind an event, a stage begins at its own time in every sea."""
+        return len(self.runs) < MOST_RUNS

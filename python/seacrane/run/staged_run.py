@@ -329,7 +329,7 @@ class StagedRun:
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
             first_run=self._like(stage),
         )  # fmt: skip
-        if self._shares and course.first_run is None and not self._redescribed:
+        if self._shares and course.first_run is None and not self._redescribed and self._alike.has_room:
             longest = stage.duration or stage.maximum_duration or 0.0
             known = course.run(self._state, self._state.time + longest, capacity=1)
             if not known.rungs:
@@ -348,9 +348,9 @@ class StagedRun:
     def _like(self, stage: Stage) -> Run | None:
         """The run of the same stage of an alike lift that began at the same time, in this sea."""
         if self._seen is None or self._seen[0] != stage.name:
-            known = self._alike.runs.get(self._key(stage)) if self._shares and not self._redescribed else None
-            assert known is None or self._scene.waves is not None
-            self._seen = (stage.name, None if known is None else known.in_sea(self._scene.waves))
+            waves = self._scene.waves if self._shares and not self._redescribed else None
+            known = None if waves is None else self._alike.runs.get(self._key(stage))
+            self._seen = (stage.name, None if known is None or waves is None else known.in_sea(waves))
         return self._seen[1]
 
     def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
