@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane._core import Integrator
+from seacrane._core import Integrator, integrator
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
@@ -79,7 +79,7 @@ def line_rungs(
         return {name: _kept(name, start) for name in lines}
     if start is not None:
         return _chosen(scene, known, end, start, in_memory, controlled)
-    return dict(_chosen_from_described(scene, known, end, None, in_memory, controlled))
+    return dict(_chosen_from_described(scene, known.name, end, in_memory, controlled))
 
 
 def _chosen(
@@ -98,7 +98,11 @@ def _chosen(
     return found
 
 
-_chosen_from_described = once(_chosen)
+@once
+def _chosen_from_described(
+    scene: Scene, method: str, end: float, in_memory: bool, controlled: bool
+) -> Mapping[str, LineRung]:
+    return _chosen(scene, integrator(method), end, None, in_memory, controlled)
 
 
 def as_told(rungs: Mapping[str, LineRung]) -> str:
