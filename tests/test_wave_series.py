@@ -101,8 +101,10 @@ def test_the_grid_is_found_or_refused() -> None:
     for omega in ([0.3, 0.5, 0.6 + 1e-6], [0.3, 0.3 + 1e-7, 1.0]):
         with pytest.raises(ValueError, match="realise the sea with placement='uniform'"):
             grid_of(np.array(omega))
-    jittered = uniform()
-    jittered.omega[3] *= 1.0001
+    even = uniform()
+    omega = even.omega.copy()
+    omega[3] *= 1.0001
+    jittered = replace(even, omega=omega)
     with pytest.raises(SceneError, match="frequencies that are multiples of one step"):
         compiled_waves(jittered)
     with pytest.raises(SceneError, match="evaluation is 'spline'; choose table, exact, fft"):

@@ -2534,7 +2534,7 @@ class Model:
     @property
     def tree(self) -> dict:
         """
-        What formulation 'recursive' makes of the scene: clusters, struts (cylinder loops in closed form), positions, speeds, loop_rows (rows left to close), loop_trees (trees, each with a root of its own, that they couple).
+        What formulation 'recursive' makes of the scene: clusters, struts (cylinder loops in closed form), positions, speeds, driven (drivers whose coordinate is a function of time and no unknown), loop_rows (rows left to close), loop_trees (trees, each with a root of its own, that they couple).
         """
 class Evaluator:
     """

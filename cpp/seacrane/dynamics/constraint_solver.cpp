@@ -11,6 +11,7 @@ namespace seacrane {
 namespace {
 
 constexpr double kRedundantPivot = 1.0 / (kRedundantSingularValue * kRedundantSingularValue);
+constexpr int kMostDecomposed = 256;  // rows, for their singular values
 constexpr double kWeakPivot = 1e4;  // rows beyond wait while a model is assembled: what is kept steps safely
 constexpr double kPart = 1e-7;      // of a combination of rows of unit size: less is rounding
 
@@ -164,20 +165,16 @@ Dependence ConstraintSolver::take_dependence() {
 }
 
 ConstraintRank ConstraintSolver::rank(int skipped) {
-  if (has_many_rows()) return rank_of_many();
+  if (chooses_ || !row_space_ || model_.rows() > kMostDecomposed) return rank_of_many();
   factor();
   ConstraintRank out;
   out.condition = condition_;
   assemble_shape();
-  if (row_space_) {
-    out.rank = row_space_->factor(model_.elements, terms_.blocks().data(), over_shape_.data(),
-                                  kRedundantSingularValue);
-    out.shared = row_space_->null_space().rowwise().norm();
-    out.smallest_singular_value = row_space_->singular_value(skipped);
-    out.weakest = weakest_element(skipped);
-  } else {
-    out.rank = model_.rows() - (model_.schur.factor(shape_values_.data()) > kRedundantPivot ? 1 : 0);
-  }
+  out.rank = row_space_->factor(model_.elements, terms_.blocks().data(), over_shape_.data(),
+                                kRedundantSingularValue);
+  out.shared = row_space_->null_space().rowwise().norm();
+  out.smallest_singular_value = row_space_->singular_value(skipped);
+  out.weakest = weakest_element(skipped);
   return out;
 }
 

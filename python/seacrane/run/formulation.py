@@ -64,8 +64,8 @@ def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
         return "orientation 'euler_xyz' is a choice of the redundant state"
     if not known.projects and (model.tree["loop_rows"] or model.limits):
         return f"integrator {known.name!r} cannot project, and this scene keeps constraints or limits"
-    if model.tree["speeds"] == len(model.tree["driven"]):
-        return "the joints and drivers of this scene leave nothing free to move"
+    if model.tree["speeds"] == 0:
+        return "the joints and drivers of this scene leave nothing to move"
     return None
 
 

@@ -338,8 +338,10 @@ class TreeBuilder {
     }
   }
 
-  /// Takes drivers of the tree's own coordinates from the rows; the first of two that drive one cluster.
+  /// Takes drivers of the tree's own coordinates from the rows, the first of two that drive one cluster,
+  /// unless nothing else moves: an integrator needs an unknown.
   void drive() {
+    const BodyTree rows = tree_;
     for (std::size_t d = 0; d < model_.drivers.size(); ++d) {
       const std::optional<TreeCoordinate> place = find_coordinate(model_.drivers[d].coordinate, tree_);
       if (!place) continue;
@@ -352,6 +354,7 @@ class TreeBuilder {
       std::vector<int> drivers = motion_of(c.body);
       if (!drivers.empty()) lead(c, {std::move(drivers), -1, 1.0});
     }
+    if (tree_.driven == tree_.speeds) tree_ = rows;
   }
 
   /// The drivers of all six motions of a body over the ground; none unless all are driven.
