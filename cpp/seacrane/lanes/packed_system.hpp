@@ -96,7 +96,7 @@ class PackedSystem final : public LaneSystem {
   void derivative(double t, const double* y, double* ydot) override {
     std::memcpy(state_.data(), y, size() * sizeof(double));
     const T *const q = state_.data(), *const u = q + speeds_;
-    if (driven_.any()) follow_drivers(t);
+    if (driven_.any()) read_drivers(t);
     factor();
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
@@ -214,17 +214,22 @@ class PackedSystem final : public LaneSystem {
     articulated_.factor();
   }
 
-  /// Sets what drivers prescribe, which is the same in all lanes; their states say what it is near to.
-  void follow_drivers(double t) {
+  /// What drivers prescribe, which is the same in all lanes; their states say what it is near to.
+  void read_drivers(double t) {
     read_leading();
     driven_.follow(t, curve_limit_, positions_.data(), speed_.data(), speed_rate_.data());
     for (const std::size_t i : driven_.clusters()) {
       const Cluster& c = tree_.clusters[i];
+      for (int k = c.u; k < c.u + c.speeds; ++k) driven_rate_[idx(k)] = T(speed_rate_[idx(k)]);
+    }
+  }
+
+  void follow_drivers(double t) {
+    read_drivers(t);
+    for (const std::size_t i : driven_.clusters()) {
+      const Cluster& c = tree_.clusters[i];
       for (int k = c.q; k < c.q + c.positions; ++k) state_[idx(k)] = T(positions_[idx(k)]);
-      for (int k = c.u; k < c.u + c.speeds; ++k) {
-        state_[idx(speeds_ + k)] = T(speed_[idx(k)]);
-        driven_rate_[idx(k)] = T(speed_rate_[idx(k)]);
-      }
+      for (int k = c.u; k < c.u + c.speeds; ++k) state_[idx(speeds_ + k)] = T(speed_[idx(k)]);
     }
   }
 

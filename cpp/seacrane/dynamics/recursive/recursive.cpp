@@ -79,26 +79,20 @@ void RecursiveSystem::choose_rows() {
 
 std::vector<double> RecursiveSystem::scale() const {
   std::vector<double> out = tree_.scales(model_.translation_scale, model_.rotation_scale);
-  for (const std::size_t i : driven_.clusters()) {
-    const Cluster& c = tree_.clusters[i];
-    std::fill_n(out.begin() + c.q, c.positions, std::numeric_limits<double>::infinity());
-    std::fill_n(out.begin() + layout_.speeds + c.u, c.speeds, std::numeric_limits<double>::infinity());
-  }
   out.insert(out.end(), model_.scale.begin() + model_.layout.memory, model_.scale.end());
   return out;
 }
 
-/// The state with what drivers prescribe, at which the bodies are.
-const double* RecursiveSystem::place(double t, const double* y) {
-  if (driven_.any()) {
-    followed_.assign(y, y + layout_.size);
-    y = followed_.data();
-    driven_.follow(t, terms_->curve_limit(), followed_.data(), followed_.data() + layout_.speeds,
-                   driven_rate_.data());
-  }
-  place_as_given(y);
-  return y;
+/// What drivers prescribe: the state with it, and its rates.
+const double* RecursiveSystem::followed(double t, const double* y) {
+  if (!driven_.any()) return y;
+  followed_.assign(y, y + layout_.size);
+  driven_.follow(t, terms_->curve_limit(), followed_.data(), followed_.data() + layout_.speeds,
+                 driven_rate_.data());
+  return followed_.data();
 }
+
+void RecursiveSystem::place(double t, const double* y) { place_as_given(followed(t, y)); }
 
 void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
@@ -138,8 +132,11 @@ void RecursiveSystem::factor(double t) {
 
 void RecursiveSystem::derivative(double t, const double* y, double* ydot) { evaluate(t, y, ydot, true); }
 
+/// Within a step what drivers prescribe is integrated, as what hangs on it is: at a stage both are off alike,
+/// where their difference would be of a stiff line's. The rates are exact, and project() sets the values.
 void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
-  y = place(t, y);
+  followed(t, y);
+  place_as_given(y);
   terms_->follow_yaw();
   factor(t);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
@@ -233,7 +230,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   if (!loops_.regular()) return false;
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
                        acceleration_.data(), blocks_.data(), driven_, drive_power_},
-                      t, driven_.any() ? followed_.data() : y, jacobian_rate_.data(), out);
+                      t, y, jacobian_rate_.data(), out);
   return true;
 }
 

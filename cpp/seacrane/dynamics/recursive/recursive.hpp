@@ -63,7 +63,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
     int speeds = 0, memory = 0, work = 0, size = 0;
   };
 
-  const double* place(double t, const double* y);
+  const double* followed(double t, const double* y);
+  void place(double t, const double* y);
   void place_as_given(const double* y);
   bool follow_drivers(double t, double* y);
   void strike(double t, double* y);

@@ -96,12 +96,6 @@ void RecursiveJacobian::differentiate_tree(int first, const double* y, const dou
   const std::size_t n = idx(size + states_ + 2);
   for (int i = 0; i < size; ++i) state_[idx(i)] = Scalar(y[i]);
   for (int i = first; i < last; ++i) state_[idx(i)] = Scalar::variable(y[i], i - first);
-  for (const std::size_t i : at_->driven.clusters()) {  // functions of time
-    const Cluster& c = tree_.clusters[i];
-    for (int k = c.q; k < c.q + c.positions; ++k) state_[idx(k)] = Scalar(y[k]);
-    for (int k = tree_.positions + c.u; k < tree_.positions + c.u + c.speeds; ++k)
-      state_[idx(k)] = Scalar(y[k]);
-  }
   const Scalar* u = state_.data() + tree_.positions;
   kinematics_.place(state_.data(), u, bodies_.data());
   kinematics_.position_rates(state_.data(), u, bodies_.data(), state_rate_.data());
