@@ -277,6 +277,7 @@ void check_where_driven(const SceneDescription& scene, double bound) {
   std::vector<double> y = moving_state(redundant, 7), ydot(y.size());
   std::vector<double> z(recursive.size()), zdot(recursive.size());
   recursive.read_bodies(0.0, y.data(), z.data());
+  recursive.project(0.3, z.data(), false);
   recursive.derivative(0.3, z.data(), zdot.data());
   recursive.write_bodies(0.3, z.data(), y.data());
   redundant.derivative(0.3, y.data(), ydot.data());
