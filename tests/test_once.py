@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import warnings
 from collections.abc import Callable
@@ -12,6 +13,7 @@ import pytest
 
 from seacrane import Curve, Scene, SceneError, SeaState, WaveSystem, cases, equilibrium, simulate
 from seacrane.description.once import ANSWERS, once, once_in_any_sea
+from seacrane.description.pick import Pick
 from seacrane.inputs.caller import warn_caller
 from seacrane.result import Result
 from seacrane.scene import Waves
@@ -276,3 +278,31 @@ def test_a_sea_is_not_written_into() -> None:
     for one in (waves, pickle.loads(pickle.dumps(waves))):
         with pytest.raises(ValueError, match="read-only"):
             one.phase[0] = 1.0
+
+
+def test_mappings_of_a_description_are_not_written_into() -> None:
+    """A crane's parts, a sea's hulls, a limit's and a channel's names, sources: none changes in place."""
+    scene = cases.case2()
+    assert scene.waves is not None
+    limit = scene.add_limit_state("slew_torque", name="hold", maximum=1e6)
+    factors = scene.add_lift_factors("payload", skew_load=1.25, sources={"skew_load": "weighed"})
+    mappings = [*(getattr(scene.roles[""], key) for key in ("cylinders", "areas", "luffs", "ropes"))]
+    mappings += [scene.waves.hulls, limit.names, factors.sources, Pick(channel="tip", names={"a": "b"}).names]
+    changes: tuple[Callable[[Any], object], ...] = (
+        lambda one: one.__setitem__("main", "knuckle"),
+        lambda one: one.update(main="knuckle"),
+        lambda one: one.pop("main", None),
+        lambda one: one.setdefault("other", "knuckle"),
+        lambda one: one.clear(),
+        lambda one: one.popitem(),
+        lambda one: one.__ior__({"main": "knuckle"}),
+        lambda one: one.__delitem__("main"),
+    )
+    for mapping in mappings:
+        before = dict(mapping)
+        for one in (mapping, copy.copy(mapping), copy.deepcopy(mapping), pickle.loads(pickle.dumps(mapping))):
+            for change in changes:
+                with pytest.raises(TypeError, match=r"read-only .* change a copy"):
+                    change(one)
+            assert type(one) is type(mapping)
+            assert list(one) == list(before)

@@ -14,6 +14,7 @@ from seacrane.description.description import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, vector_of
 from seacrane.inputs.node import Node
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
 Vector = tuple[float, float, float]
@@ -59,7 +60,7 @@ class LiftFactors:
     sources: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "sources", dict(self.sources))
+        object.__setattr__(self, "sources", ReadOnly(self.sources))
 
 
 ROWS = ("center_of_gravity", "skew_load")

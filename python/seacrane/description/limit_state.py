@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from seacrane.inputs.read_only import ReadOnly
+
 
 @dataclass(frozen=True, kw_only=True)
 class LimitState:
@@ -26,4 +28,4 @@ class LimitState:
     names: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "names", dict(self.names))
+        object.__setattr__(self, "names", ReadOnly(self.names))

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
@@ -48,6 +49,9 @@ class Pick:
     names: Mapping[str, str] = field(default_factory=dict)
     after: float | None = None
     stage: str | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", ReadOnly(self.names))
 
     @property
     def parts(self) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
 from seacrane.description.luffing_rope import LuffingRope
+from seacrane.inputs.read_only import ReadOnly
 
 Vector = tuple[float, float, float]
 
@@ -64,7 +65,7 @@ class CraneRoles:
     structure: str | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "cylinders", dict(self.cylinders))
-        object.__setattr__(self, "areas", dict(self.areas))
-        object.__setattr__(self, "luffs", dict(self.luffs))
-        object.__setattr__(self, "ropes", dict(self.ropes))
+        object.__setattr__(self, "cylinders", ReadOnly(self.cylinders))
+        object.__setattr__(self, "areas", ReadOnly(self.areas))
+        object.__setattr__(self, "luffs", ReadOnly(self.luffs))
+        object.__setattr__(self, "ropes", ReadOnly(self.ropes))

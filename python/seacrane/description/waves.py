@@ -16,6 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 from seacrane.warnings import RepeatingSeaWarning
 
@@ -158,6 +159,7 @@ class Waves(_ReadOnly):
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
             )
+        object.__setattr__(self, "hulls", ReadOnly(hulls))
         self._close()
 
     def __repr__(self) -> str:

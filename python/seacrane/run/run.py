@@ -492,7 +492,7 @@ def _options(run: Run) -> _core.RunOptions:
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
-    return core_options(method, run.formulation, channels=channels, times=times, capacity=capacity)
+    return core_options(method, run.formulation, channels=set(channels), times=times, capacity=capacity)
 
 
 def core_options(
