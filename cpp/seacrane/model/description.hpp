@@ -16,6 +16,7 @@
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/types.hpp"
+#include "seacrane/sea/sea_field.hpp"
 #include "seacrane/sea/wave_load.hpp"
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
@@ -89,6 +90,7 @@ struct SceneDescription {
   LoadDescriptions loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
+  std::shared_ptr<const SeaField> sea;  // null: still water
   std::vector<RecordedCoordinate> coordinates;
   std::vector<PointDescription> points;
   std::vector<LimitDescription> limits;

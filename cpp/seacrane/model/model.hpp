@@ -89,6 +89,8 @@ struct Model {
   CompiledLoads loads;
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
+  std::shared_ptr<const SeaField> sea;  // null: still water
+  std::vector<FlowStencil> stencils;    // at which loads look at it
   std::vector<CoordinateData> coordinates;
   std::vector<Attachment> points;
   std::vector<InputModel> inputs;      // in the order of their slots
