@@ -600,6 +600,14 @@ class WavesWithoutLoadWarning(SeaWarning):
     """
 
 
+class BlockedWavesWarning(SeaWarning):
+    """Waves that come against the current faster than they can travel on it are left out of the sea.
+
+    In deep water those are beyond a frequency of g / (4 U). Real ones break before. Give a lower
+    `maximum_omega`, or a spectrum measured on that current.
+    """
+
+
 class RaoPhaseWarning(SeaWarning):
     """Waves far longer than a hull carry it along: it heaves with the crest and pitches with the slope,
     whatever it is.

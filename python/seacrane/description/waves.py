@@ -17,9 +17,12 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.sea.current import Current
 from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
+STRETCHING = ("wheeler", "none")
+CHOICE = " or ".join(map(repr, STRETCHING))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -116,6 +119,11 @@ class Waves:
     negligible : float
         Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
         are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
+    current : Current, optional
+        On which the waves travel. Frequencies are those that a fixed observer sees, wavenumbers follow.
+    stretching : str
+        How moving points see the waves above and below the still water, "wheeler" or "none"; see
+        `Scene.sea_at`.
     provenance : SeaProvenance
         What the sea was made from, and its realisation: seed, realised Hs, repeat period.
     """
@@ -129,12 +137,18 @@ class Waves:
     depth: float = float("inf")
     evaluation: str = "table"
     negligible: float = 1e-9
+    current: Current | None = None
+    stretching: str = "wheeler"
     provenance: SeaProvenance = field(default_factory=SeaProvenance)
 
     def __post_init__(self) -> None:
         hulls = self.hulls
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
+        if not (self.current is None or isinstance(self.current, Current)):
+            raise SceneError(f"waves: current is {shown(self.current)}; give a seacrane.sea.Current")
+        if self.stretching not in STRETCHING:
+            raise SceneError(f"waves: stretching is {shown(self.stretching)}; choose {CHOICE}")
         if not isinstance(self.provenance, SeaProvenance):
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
@@ -178,7 +192,12 @@ class Waves:
             phase=self.phase,
             direction=self.direction,
             depth=self.depth,
+            current=None if self.current is None else self.current.core(),
         )
+
+    def field(self) -> _core.SeaField:
+        """What moving points see of the sea."""
+        return _core.SeaField(self.components(), stretching=self.stretching)
 
     def warn_of_repeats(self, duration: float) -> None:
         """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
