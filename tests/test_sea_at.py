@@ -237,7 +237,7 @@ def test_another_sea_for_a_compiled_model_is_another_field() -> None:
         out.add_point("deep", body="ground", point=(10.0, 0.0, -4.0))
         return out
 
-    given = {"t_end": 1.0, "outputs": Outputs(interval=0.5, channels=["point_wave"])}
+    given = {"t_end": 1.0, "outputs": Outputs(dt_out=0.5, channels=["point_wave"])}
     waves = scene(7).waves
     assert waves is not None
     again, alone = Run(scene(3), **given).in_sea(waves), Run(scene(7), **given)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sea_arrays.hpp"
-#include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/flow_evaluator.hpp"
 #include "seacrane/sea/require.hpp"
 #include "vector_state.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "count_allocations.hpp"
-#include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/flow_evaluator.hpp"
 #include "seacrane/sea/sea_field.hpp"
 #include "seacrane/sea/sea_view.hpp"
 #include "seacrane/sea/wave_kinematics.hpp"

@@ -95,8 +95,8 @@ class Compiler final : private LoadContext {
   double length_scale() const override { return kTranslationScale * scene_.length_scale; }
   int ground() const override { return static_cast<int>(model_.merge.carriers.size()); }
   int inertial_tension() override { return model_.inertial_tensions++; }
-  int stencil(FlowStencil stencil) override {
-    model_.stencils.push_back(std::move(stencil));
+  int stencil(const FlowStencil& stencil) override {
+    model_.stencils.push_back(stencil);
     return static_cast<int>(model_.stencils.size()) - 1;
   }
   int input(const std::string& name, int count) override {

@@ -10,6 +10,7 @@
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/wave_forces.hpp"
 #include "seacrane/model/model.hpp"
+#include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 

@@ -8,6 +8,7 @@
 
 #include "seacrane/elements/loads/load_list.hpp"
 #include "seacrane/math/pack.hpp"
+#include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 

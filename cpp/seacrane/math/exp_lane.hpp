@@ -12,8 +12,10 @@ template <class T, class Bits>
 void exp_lane(const T& x, T& out) {
   constexpr double round_to_integer = 0x1.8p52, log2_e = 0x1.71547652b82fep0;
   constexpr double part1 = 0x1.62e42feep-1, part2 = 0x1.a39ef35793c76p-33;
+  // A comparison would be a branch, as it may trap: the sign of x - least chooses.
   const T least = T{} - 700.0;
-  const T above = x > least ? x : least;
+  const auto below = Bits{} - (std::bit_cast<Bits>(T(x - least)) >> 63);
+  const T above = std::bit_cast<T>((std::bit_cast<Bits>(least) & below) | (std::bit_cast<Bits>(x) & ~below));
   const T shifted = above * log2_e + round_to_integer;
   const T n = shifted - round_to_integer;
   const T r = (above - n * part1) - n * part2;

@@ -16,12 +16,13 @@
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/types.hpp"
-#include "seacrane/sea/sea_field.hpp"
 #include "seacrane/sea/wave_load.hpp"
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
 /// is the inertial frame. Scenes are checked as a whole before they are compiled.
 namespace seacrane {
+
+class SeaField;
 
 /// A joint coordinate to record.
 struct RecordedCoordinate : CoordinateDescription {

@@ -14,6 +14,7 @@
 #include "seacrane/model/limit.hpp"
 #include "seacrane/model/line_bounce.hpp"
 #include "seacrane/model/merge.hpp"
+#include "seacrane/sea/flow_stencil.hpp"
 
 namespace seacrane {
 

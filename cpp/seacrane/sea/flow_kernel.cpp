@@ -1,13 +1,13 @@
 #include "seacrane/sea/flow_kernel.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
 #include "seacrane/math/exp_lane.hpp"
 #include "seacrane/math/sinc_lane.hpp"
-#include "seacrane/math/sincos.hpp"
+#include "seacrane/sea/sincos.hpp"
 
 // GCC compiles these loops a second time for registers of four doubles, and chooses when the program starts.
 // Neither form fuses products and sums, so that both give the same bits. All that they call is within them.
@@ -23,93 +23,100 @@ namespace {
 
 constexpr std::size_t wide = SeaField::lanes;
 typedef double FlowPack __attribute__((vector_size(8 * wide)));
-typedef std::uint64_t FlowBits __attribute__((vector_size(8 * wide)));
 
 inline void get(const std::vector<double>& from, std::size_t i, FlowPack& to) {
   std::memcpy(&to, from.data() + i, sizeof(FlowPack));
 }
-inline void put(const FlowPack& from, std::vector<double>& to, std::size_t i) {
-  std::memcpy(to.data() + i, &from, sizeof(FlowPack));
-}
 inline double total(const FlowPack& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
 
-/// amplitude (cos, sin) of each angle where it is small enough for the fast form.
-inline void put_phasor(const FlowPack& angle, std::size_t i, const FlowPack& amplitude,
-                       std::vector<double>& cosine, std::vector<double>& sine) {
-  FlowPack s, c;
-  sincos_lane<FlowPack, FlowBits>(angle, s, c);
-  put(amplitude * c, cosine, i);
-  put(amplitude * s, sine, i);
+/// `value` where `test` is below zero, else zero; a comparison would be a branch, as it may trap.
+inline double where_negative(double test, double value) {
+  const std::uint64_t negative = 0u - (std::bit_cast<std::uint64_t>(test) >> 63);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & negative);
 }
 
-void set_large_phasors(const SeaField::Arrays& f, std::size_t count, double t, double x, double y,
-                       FlowScratch& s) {
+using Read = const double* __restrict;
+using Write = double* __restrict;
+
+/// amplitude (cos, sin) of omega t + phase - (kx x + ky y), none of them above `largest`.
+SEACRANE_FLOW_LOOP void write_phasors(Read omega, Read phase, Read kx, Read ky, Read amplitude,
+                                      std::size_t count, double t, double x, double y, double largest,
+                                      Write angle, Write cosine, Write sine) {
+  for (std::size_t i = 0; i < count; ++i) angle[i] = omega[i] * t + (phase[i] - (kx[i] * x + ky[i] * y));
+  sincos_each(angle, count, largest, sine, cosine);
+  for (std::size_t i = 0; i < count; ++i) cosine[i] *= amplitude[i];
+  for (std::size_t i = 0; i < count; ++i) sine[i] *= amplitude[i];
+}
+
+SEACRANE_FLOW_LOOP void write_turns(Read kx, Read ky, std::size_t count, double dx, double dy, double largest,
+                                    Write angle, Write cosine, Write sine) {
+  for (std::size_t i = 0; i < count; ++i) angle[i] = -(kx[i] * dx + ky[i] * dy);
+  sincos_each(angle, count, largest, sine, cosine);
+}
+
+SEACRANE_FLOW_LOOP void write_turned(Read turn_cosine, Read turn_sine, std::size_t count, Write cosine,
+                                     Write sine) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double angle = f.omega[i] * t + (f.phase[i] - (f.kx[i] * x + f.ky[i] * y));
-    s.cosine[i] = s.amplitude[i] * std::cos(angle);
-    s.sine[i] = s.amplitude[i] * std::sin(angle);
+    const double c = cosine[i], q = sine[i];
+    cosine[i] = c * turn_cosine[i] - q * turn_sine[i];
+    sine[i] = q * turn_cosine[i] + c * turn_sine[i];
   }
 }
 
-SEACRANE_FLOW_LOOP void set_small_phasors(const SeaField::Arrays& f, std::size_t count, double t, double x,
-                                          double y, FlowScratch& s) {
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack omega, phase, kx, ky, amplitude;
-    get(f.omega, i, omega);
-    get(f.phase, i, phase);
-    get(f.kx, i, kx);
-    get(f.ky, i, ky);
-    get(s.amplitude, i, amplitude);
-    put_phasor(omega * t + (phase - (kx * x + ky * y)), i, amplitude, s.cosine, s.sine);
+SEACRANE_FLOW_LOOP void write_filtered(Read kx, Read ky, std::size_t count, double x, double y,
+                                       Write amplitude) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
+    double sinc;
+    sinc_lane(square, sinc);
+    amplitude[i] *= where_negative(square - sinc_end, sinc);
   }
+}
+
+SEACRANE_FLOW_LOOP void write_exponentials(Read k, std::size_t count, double z, Write out) {
+  for (std::size_t i = 0; i < count; ++i) exp_lane<double, std::uint64_t>(k[i] * z, out[i]);
+}
+
+SEACRANE_FLOW_LOOP void write_products(Read factor, std::size_t count, Write out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] *= factor[i];
 }
 
 }  // namespace
 
-SEACRANE_FLOW_LOOP void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y,
-                                          FlowScratch& s) {
-  const SeaField::Arrays& f = field.arrays();
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack kx, ky, amplitude, sinc;
-    get(f.kx, i, kx);
-    get(f.ky, i, ky);
-    get(s.amplitude, i, amplitude);
-    const FlowPack half = 0.5 * (kx * x + ky * y), square = half * half;
-    sinc_lane<FlowPack>(square, sinc);
-    const FlowPack felt = square < sinc_end ? sinc : FlowPack{};
-    put(amplitude * felt, s.amplitude, i);
-  }
+void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y, FlowScratch& s) {
+  write_filtered(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y, s.amplitude.data());
 }
 
 void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s) {
-  if (field.largest_angle(t, x, y) <= sincos_limit) {
-    set_small_phasors(field.arrays(), count, t, x, y, s);
-  } else {
-    set_large_phasors(field.arrays(), count, t, x, y, s);
-  }
-}
-
-SEACRANE_FLOW_LOOP void set_turns(const SeaField& field, std::size_t count, double dx, double dy,
-                                  FlowScratch& s) {
   const SeaField::Arrays& f = field.arrays();
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack kx, ky;
-    get(f.kx, i, kx);
-    get(f.ky, i, ky);
-    put_phasor(-(kx * dx + ky * dy), i, FlowPack{} + 1.0, s.turn_cosine, s.turn_sine);
-  }
+  write_phasors(f.omega.data(), f.phase.data(), f.kx.data(), f.ky.data(), s.amplitude.data(), count, t, x, y,
+                field.largest_angle(t, x, y), s.angle.data(), s.cosine.data(), s.sine.data());
 }
 
-SEACRANE_FLOW_LOOP void turn(std::size_t count, FlowScratch& s) {
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack c, q, tc, tq;
-    get(s.cosine, i, c);
-    get(s.sine, i, q);
-    get(s.turn_cosine, i, tc);
-    get(s.turn_sine, i, tq);
-    put(c * tc - q * tq, s.cosine, i);
-    put(q * tc + c * tq, s.sine, i);
-  }
+void set_turns(const SeaField& field, std::size_t count, double dx, double dy, FlowScratch& s) {
+  write_turns(field.arrays().kx.data(), field.arrays().ky.data(), count, dx, dy,
+              field.largest_angle(0.0, dx, dy), s.angle.data(), s.turn_cosine.data(), s.turn_sine.data());
+}
+
+void turn(std::size_t count, FlowScratch& s) {
+  write_turned(s.turn_cosine.data(), s.turn_sine.data(), count, s.cosine.data(), s.sine.data());
+}
+
+void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s) {
+  const double* k = field.arrays().k.data();
+  write_exponentials(k, count, level, s.decay.data());
+  write_exponentials(k, std::min(count, s.images), -(level + 2.0 * field.depth()), s.image.data());
+}
+
+void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s) {
+  const double* k = field.arrays().k.data();
+  write_exponentials(k, count, dz, s.decay_step.data());
+  write_exponentials(k, std::min(count, s.images), -dz, s.image_step.data());
+}
+
+void step_decays(std::size_t count, FlowScratch& s) {
+  write_products(s.decay_step.data(), count, s.decay.data());
+  write_products(s.image_step.data(), std::min(count, s.images), s.image.data());
 }
 
 SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s,
@@ -132,51 +139,6 @@ SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, co
   out.elevation_rate += total(rate);
   out.slope[0] += total(slope_x);
   out.slope[1] += total(slope_y);
-}
-
-SEACRANE_FLOW_LOOP void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s) {
-  const SeaField::Arrays& f = field.arrays();
-  FlowPack k, down, image;
-  for (std::size_t i = 0; i < count; i += wide) {
-    get(f.k, i, k);
-    exp_lane<FlowPack, FlowBits>(k * level, down);
-    put(down, s.decay, i);
-  }
-  const double mirrored = -(level + 2.0 * field.depth());
-  for (std::size_t i = 0; i < std::min(count, field.with_floor()); i += wide) {
-    get(f.k, i, k);
-    exp_lane<FlowPack, FlowBits>(k * mirrored, image);
-    put(image, s.image, i);
-  }
-}
-
-SEACRANE_FLOW_LOOP void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s) {
-  const SeaField::Arrays& f = field.arrays();
-  FlowPack k, down, image;
-  for (std::size_t i = 0; i < count; i += wide) {
-    get(f.k, i, k);
-    exp_lane<FlowPack, FlowBits>(k * dz, down);
-    put(down, s.decay_step, i);
-  }
-  for (std::size_t i = 0; i < std::min(count, field.with_floor()); i += wide) {
-    get(f.k, i, k);
-    exp_lane<FlowPack, FlowBits>(k * -dz, image);
-    put(image, s.image_step, i);
-  }
-}
-
-SEACRANE_FLOW_LOOP void step_decays(const SeaField& field, std::size_t count, FlowScratch& s) {
-  FlowPack from, factor;
-  for (std::size_t i = 0; i < count; i += wide) {
-    get(s.decay, i, from);
-    get(s.decay_step, i, factor);
-    put(from * factor, s.decay, i);
-  }
-  for (std::size_t i = 0; i < std::min(count, field.with_floor()); i += wide) {
-    get(s.image, i, from);
-    get(s.image_step, i, factor);
-    put(from * factor, s.image, i);
-  }
 }
 
 namespace {
@@ -219,7 +181,7 @@ inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_
 SEACRANE_FLOW_LOOP void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s,
                                      LocalFlow<double>& out) {
   InteriorSums sum;
-  const std::size_t floor = std::min(count, field.with_floor());
+  const std::size_t floor = std::min(count, s.images);
   sum_interior<true>(field.arrays(), 0, floor, s, sum);
   sum_interior<false>(field.arrays(), floor, count, s, sum);
   out.velocity += Vec3d(total(sum.u), total(sum.v), total(sum.w));

@@ -63,7 +63,7 @@ double SeaField::largest_angle(double t, double x, double y) const {
 
 std::size_t SeaField::reach(double level, double cut) const {
   if (!(level < 0.0)) return padded();
-  const double largest = std::log(cut) / level;
+  const double largest = std::log(0.5 * cut) / level;
   const auto end = std::upper_bound(arrays_.k.begin(), arrays_.k.end(), largest);
   return whole_packs(static_cast<std::size_t>(end - arrays_.k.begin()));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -35,7 +36,6 @@ class SeaField {
   const Arrays& arrays() const { return arrays_; }
   std::size_t size() const { return size_; }             // without padding
   std::size_t padded() const { return arrays_.k.size(); }
-  std::size_t with_floor() const { return with_floor_; }  // the first ones feel the sea floor; whole packs
   double depth() const { return depth_; }
   double gravity() const { return gravity_; }
   const Current& current() const { return current_; }
@@ -52,8 +52,12 @@ class SeaField {
     return clamped(own, T(-depth_), T(0));
   }
 
-  /// How many components count at a level: those with exp(k level) >= cut. Whole packs.
+  /// How many components count at a level: those with exp(k level) >= cut / 2; and of how many the image
+  /// below the sea floor does. Whole packs. What is left out is at most `cut` of magnitude().
   std::size_t reach(double level, double cut) const;
+  std::size_t images(double level, double cut) const {
+    return std::min(with_floor_, reach(-(level + 2.0 * depth_), cut));
+  }
 
   /// Share of component i that an element feels whose extents (m) along three of its axes are the columns:
   /// its mean over the element, the product of sin(x) / x with x = k (extent along the wave) / 2, and nothing

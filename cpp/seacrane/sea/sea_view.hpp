@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/flow_evaluator.hpp"
 
 namespace seacrane {
 

@@ -1,4 +1,4 @@
-#include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/flow_evaluator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +50,7 @@ void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>&
 void FlowEvaluator::take(std::size_t count, double z, LocalFlow<double>& out) {
   const double level = field_->level(z, out.elevation);
   const std::size_t reached = std::min(count, field_->reach(level, stencil_.cut));
+  scratch_.images = field_->images(level, stencil_.cut);
   sea::set_decays(*field_, reached, level, scratch_);
   interior(reached, level, out);
 }
@@ -82,7 +83,8 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
   const bool rises = step.z() > 0.0;
   const Vec3d top = rises ? Vec3d(first + static_cast<double>(last) * step) : first;
   const Vec3d down = rises ? Vec3d(-step) : step;
-  require_above_floor(top.z() + static_cast<double>(last) * down.z());
+  const double deepest = top.z() + static_cast<double>(last) * down.z();
+  require_above_floor(deepest);
   scratch_.amplitude = field_->arrays().amplitude;
   if (whole) sea::filter_amplitudes(*field_, field_->padded(), step.x(), step.y(), scratch_);
   const std::size_t count = felt(scratch_.amplitude);
@@ -101,8 +103,9 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
     }
     const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
     if (below) {
-      sea::step_decays(*field_, reached, scratch_);
+      sea::step_decays(reached, scratch_);
     } else {
+      scratch_.images = field_->images(deepest, stencil_.cut);
       sea::set_decays(*field_, reached, z, scratch_);
       sea::set_decay_steps(*field_, reached, down.z(), scratch_);
       below = true;
