@@ -34,6 +34,7 @@ from measure import (
     memory_kinds,
     memory_models,
     memory_speed,
+    moving_points,
     pages,
     paper_form,
     rival,
@@ -48,7 +49,6 @@ from measure import (
     two_cores,
     w_method,
     wave_loads,
-    moving_points,
 )
 from measure.machine import machine
 from measure.section import Section

@@ -16,6 +16,7 @@ from seacrane import (
     shipped_database,
     simulate,
 )
+from seacrane.ensembles.other_sea import require_same_sea, with_sea
 from seacrane.errors import SceneError
 from seacrane.scene import Waves
 from seacrane.sea import Current, cos_2s, jonswap
@@ -139,7 +140,7 @@ def test_waves_that_the_current_stops_are_left_out_and_told() -> None:
         scene.add_sea(vessel=None, hs=2.0, tp=8.0, direction_deg=0.0, current=against)
     assert scene.waves is not None
     assert scene.waves.omega.max() < G / (4.0 * 1.5)
-    assert scene.waves.provenance.wave_components == len(scene.waves.omega) < 200
+    assert len(scene.waves.omega) < scene.waves.provenance.wave_components == 200
 
 
 def test_a_current_keeps_frequencies_and_loads_of_a_hull_but_not_its_phases_elsewhere() -> None:
@@ -160,7 +161,10 @@ def test_a_current_keeps_frequencies_and_loads_of_a_hull_but_not_its_phases_else
 def test_the_current_of_the_sea_is_what_a_hull_feels_and_is_counted_once() -> None:
     around = np.radians([0.0, 45.0, 90.0, 135.0, 180.0])
     c = FlowCoefficients(
-        angle=around, x=[0.6, 0.4, 0.0, -0.4, -0.6], y=[0.0, 0.6, 0.8, 0.6, 0.0], yaw=[0.0, 0.1, 0.0, -0.1, 0.0]
+        angle=around,
+        x=[0.6, 0.4, 0.0, -0.4, -0.6],
+        y=[0.0, 0.6, 0.8, 0.6, 0.0],
+        yaw=[0.0, 0.1, 0.0, -0.1, 0.0],
     )
     areas = {"frontal_area": 100.0, "lateral_area": 600.0, "length": 100.0}
     profile = Current(depth=[0.0, 6.0], speed=[1.0, 0.4], direction_deg=90.0)
@@ -247,3 +251,32 @@ def test_another_sea_for_a_compiled_model_is_another_field() -> None:
     expected = scene(7).sea_at(points=["deep"], times=again.result().time)
     seen = again.result().select("point_wave", point="deep", water="velocity_x")
     assert np.abs(seen - expected.velocity[:, 0, 0]).max() < 1e-12
+
+
+def test_members_of_a_study_keep_the_current() -> None:
+    scene = ship_in_a_sea(current=Current(speed=1.5, direction_deg=340.0), stretching="none")
+    require_same_sea(scene, ["seed", "hs"])
+    waves = with_sea(scene, {"seed": 9}).waves
+    assert waves is not None
+    assert waves.current == Current(speed=1.5, direction_deg=340.0)
+    assert waves.stretching == "none"
+
+
+def test_a_line_in_the_sea_has_drag_in_its_current() -> None:
+    """A wire hangs in a uniform current: its small offset by the drag on it, and in air none."""
+    flow, diameter, drag, length, weight = 0.5, 0.06, 1.2, 200.0, 400e3
+    scene = Scene(name="wire")
+    scene.add_sea(vessel=None, hs=0.0, current=Current(speed=flow, direction_deg=90.0))
+    scene.add_body(name="load", mass=weight / G, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0 - length))
+    scene.add_line(
+        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+        rung="with mass", EA=4e8, mass_per_length=20.0, segments=10, diameter=diameter, length=length,
+        drag_coefficient=drag, medium="sea",
+    )  # fmt: skip
+    still = simulate(scene, t_end=0.1, start="rest", channels=["position"])
+    offset = still.select("position", body="load")[0]
+    push = 0.5 * 1025.0 * drag * diameter * flow**2  # N/m
+    s = np.linspace(0.0, length, 20001)  # from the load up, small angles
+    expected = np.trapezoid(push * s / (weight + 20.0 * G * s), s)
+    assert offset[1] == pytest.approx(expected, rel=0.02)
+    assert offset[0] == pytest.approx(0.0, abs=1e-6)

@@ -608,6 +608,15 @@ class BlockedWavesWarning(SeaWarning):
     """
 
 
+class SecondOrderFlowWarning(SeaWarning):
+    """Waves are so steep that linear theory, which leaves (u . grad) u out, is off by a third or more in the
+    acceleration of the water near its surface.
+
+    The figure is an estimate from standard deviations in deep water. Look deeper down, or take such loads as
+    an estimate.
+    """
+
+
 class RaoPhaseWarning(SeaWarning):
     """Waves far longer than a hull carry it along: it heaves with the crest and pitches with the slope,
     whatever it is.

@@ -199,6 +199,10 @@ class Waves:
         """What moving points see of the sea."""
         return _core.SeaField(self.components(), stretching=self.stretching)
 
+    def calm(self) -> Waves | None:
+        """The same water without waves, at rest or on its current: what a scene rests in."""
+        return None if self.current is None else flowing_water(self.current, self.depth, self.stretching)
+
     def warn_of_repeats(self, duration: float) -> None:
         """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
         if self.evaluation != "fft":
@@ -210,3 +214,17 @@ class Waves:
                 "comes later adds nothing to extremes or statistics; put more components into the same band",
                 RepeatingSeaWarning,
             )
+
+
+def flowing_water(current: Current, depth: float, stretching: str) -> Waves:
+    """A sea without waves that flows: one component of no height."""
+    none = np.zeros(1)
+    return Waves(
+        omega=none + 1.0, amplitude=none, phase=none, direction=none, hulls={}, depth=depth, current=current,
+        stretching=stretching,
+    )  # fmt: skip
+
+
+def calm_water(waves: Waves | None) -> Waves | None:
+    """The water of a scene without its waves."""
+    return None if waves is None else waves.calm()

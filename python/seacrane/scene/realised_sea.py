@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
-from seacrane.description.waves import STRETCHING, Waves
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
@@ -67,7 +67,7 @@ def realised_sea(
             realised_hs_of_systems=several,
             seed=sea.seed,
             realised_hs=float(realised.hs),
-            wave_components=int(np.count_nonzero(kept)),
+            wave_components=len(waves.omega),
             repeat_period_s=float(realised.repeat.time) if look_for_repeats else None,
             repeat_found=int(realised.repeat.found) if look_for_repeats else None,
         ),
@@ -93,15 +93,6 @@ def _not_stopped(waves: _core.WaveComponents, current: Current | None) -> NDArra
             BlockedWavesWarning,
         )
     return kept
-
-
-def still_water(current: Current, stretching: str | None, depth: float) -> Waves:
-    """A sea of no waves that flows: one component of no height."""
-    nothing = np.zeros(1)
-    return Waves(
-        omega=nothing + 2.0 * np.pi / DEFAULTS["tp"], amplitude=nothing, phase=nothing, direction=nothing,
-        hulls={}, depth=depth, current=current, stretching=stretching or STRETCHING[0],
-    )  # fmt: skip
 
 
 def _one_system(

@@ -13,7 +13,7 @@ from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.vessel_hydrodynamics import Source
-from seacrane.description.waves import HullLoads, Waves
+from seacrane.description.waves import STRETCHING, HullLoads, Waves, flowing_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
@@ -28,7 +28,7 @@ from seacrane.renamed import refusing
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
 from seacrane.scene.position import use_actual_position, use_slow_position
-from seacrane.scene.realised_sea import realised_sea, still_water
+from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import Current, SeaState, Spreading
 from seacrane.sea.dispersion import wavenumber
@@ -154,7 +154,7 @@ def add_sea(
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
         depth = float("inf") if vessel not in scene.bodies else _depth_of(source_of(scene, str(vessel)))
-        scene.waves = None if current is None else still_water(current, stretching, depth)
+        scene.waves = None if current is None else flowing_water(current, depth, stretching or STRETCHING[0])
         return scene.waves
     if vessel is not None:
         _require_vessel(scene, vessel)

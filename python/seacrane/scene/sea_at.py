@@ -11,14 +11,18 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.description.compilation import field_of, pruned
 from seacrane.description.description import Description
 from seacrane.description.places import place_of
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import numbers_of, positive_of, rows_of
 from seacrane.scene.wind_current import SEA_WATER
+from seacrane.warnings import SecondOrderFlowWarning
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+MOST_SECOND_ORDER = 0.3  # of the first order
 
 
 def sea_at(
@@ -52,6 +56,11 @@ def sea_at(
     SceneError
         For a scene without a sea, points below its floor, and values that are not finite.
 
+    Warns
+    -----
+    SecondOrderFlowWarning
+        Linear theory leaves out (u . grad) u, which is estimated to be 30 % of the acceleration or more.
+
     Notes
     -----
     J. D. Wheeler, "Method for calculating forces produced by irregular waves", J. Petroleum Technology 22,
@@ -68,7 +77,23 @@ def sea_at(
         flow: Array = field_of(pruned(scene.waves)).at(times=moments, points=places)
     except ValueError as error:
         raise SceneError(f"sea_at: {error}") from error
+    _warn_of_second_order(scene.waves, float(places[:, 2].max(initial=-np.inf)))
     return _dataset(names, moments, places, flow, rho)
+
+
+def _warn_of_second_order(waves: Waves, highest: float) -> None:
+    """Standard deviations of u and of its gradient at the highest point, over that of the acceleration."""
+    sea = waves.components()
+    sigma, k = np.array(sea.intrinsic), np.array(sea.wavenumber)
+    speed = np.array(sea.amplitude) * sigma * np.exp(k * min(highest, 0.0)) / np.sqrt(2.0)
+    flow, shear, acceleration = (float(np.linalg.norm(speed * factor)) for factor in (1.0, k, sigma))
+    if flow * shear > MOST_SECOND_ORDER * acceleration:
+        warn_caller(
+            f"sea_at: at z = {highest:.3g} m (u . grad) u is about {flow * shear / acceleration:.0%} of the "
+            "acceleration, and linear theory leaves it out; take loads on what is near the surface as an "
+            "estimate",
+            SecondOrderFlowWarning,
+        )
 
 
 def _dataset(names: Any, times: Array, places: Array, flow: Array, rho: float) -> xarray.Dataset:

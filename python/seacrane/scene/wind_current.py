@@ -15,7 +15,15 @@ from seacrane.description.forces import add_load
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import curve_of, name_of, not_negative_of, number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import (
+    curve_of,
+    name_of,
+    not_negative_of,
+    number_of,
+    shaped_of,
+    text_of,
+    vector_of,
+)
 from seacrane.inputs.plausible import direction_of
 from seacrane.warnings import DoubleCountedDampingWarning
 
@@ -214,7 +222,7 @@ def _flow_of(
     if of_sea is None:
         if speed is None or direction_deg is None:
             raise SceneError(
-                f"{what}: has no speed or no direction_deg; give both, or the sea a current, add_sea(current=)"
+                f"{what}: has no speed or no direction_deg; give both, or add_sea a current"
             )
         return speed, direction_deg
     if speed is not None or direction_deg is not None:

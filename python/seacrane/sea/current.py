@@ -59,7 +59,9 @@ class Current:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Current):
             return NotImplemented
-        return all(np.array_equal(getattr(self, k), getattr(other, k)) for k in ("depth", "speed", "direction_deg"))
+        return all(
+            np.array_equal(getattr(self, k), getattr(other, k)) for k in ("depth", "speed", "direction_deg")
+        )
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 
