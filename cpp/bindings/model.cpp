@@ -301,11 +301,12 @@ void bind_model(py::module_& m) {
   py::class_<Model, std::shared_ptr<Model>>(m, "Model", py::dynamic_attr(),
                                             "A compiled scene: immutable, shareable between threads.")
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
-      .def_property_readonly("tree", &tree_of,
-                             "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
-                             "loops in closed form), positions, speeds, driven (drivers whose coordinate is a "
-                             "function of time and no unknown), loop_rows (rows left to close), "
-                             "loop_trees (trees, each with a root of its own, that they couple).")
+      .def_property_readonly(
+          "tree", &tree_of,
+          "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
+          "loops in closed form), positions, speeds, driven (drivers whose coordinate is a "
+          "function of time and no unknown), loop_rows (rows left to close), "
+          "loop_trees (trees, each with a root of its own, that they couple).")
       .def_property_readonly("merge", &merge_of,
                              "What runs step: bodies merged by the one that carries them, drivers that lock "
                              "a joint, elements dropped, coordinates and constraints of formulation "

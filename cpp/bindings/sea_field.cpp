@@ -86,7 +86,8 @@ void bind_current(py::module_& m) {
           },
           py::kw_only(), py::arg("omega"), py::arg("direction"), py::arg_v("depth", infinity, "float('inf')"),
           py::arg("gravity") = standard_gravity,
-          "Wavenumbers (n,), rad/m, of waves that a fixed observer sees at omega (n,), rad/s, and that travel "
+          "Wavenumbers (n,), rad/m, of waves that a fixed observer sees at omega (n,), rad/s, and that "
+          "travel "
           "to direction (n,), rad: (omega - k U)^2 = g k tanh(k depth), with U of the profile by Stewart and "
           "Joy (1974) and Skop (1987). NaN where the current stops the wave.")
       .def(
@@ -178,7 +179,8 @@ Above the water they are those at its level.)")
              long count, double dt) {
             std::vector<FlowPoint> at;
             for (const Vec3d& point : points) at.push_back({point, extents});
-            if (at.size() != e.stencil().count) throw py::value_error("stencil: give as many points as it has");
+            if (at.size() != e.stencil().count)
+              throw py::value_error("stencil: give as many points as it has");
             const WithoutGil released;
             clear_vector_state();
             double sum = 0.0;

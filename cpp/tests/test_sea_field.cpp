@@ -108,9 +108,9 @@ TEST_CASE("a profile carries waves as the integral of Skop and of Stewart and Jo
       double sum = 0.0;
       for (int i = 0; i < steps; ++i) {
         const double z = -bottom * (i + 0.5) / steps;
-        const double weight = std::isinf(depth) ? 2.0 * k * std::exp(2.0 * k * z)
-                                                : 2.0 * k * std::cosh(2.0 * k * (depth + z)) /
-                                                      std::sinh(2.0 * k * depth);
+        const double weight = std::isinf(depth)
+                                  ? 2.0 * k * std::exp(2.0 * k * z)
+                                  : 2.0 * k * std::cosh(2.0 * k * (depth + z)) / std::sinh(2.0 * k * depth);
         const auto u = profile.at<double>(z);
         sum += weight * (0.8 * u.x + 0.6 * u.y) * bottom / steps;
       }
@@ -172,7 +172,8 @@ TEST_CASE("a towed point meets waves at omega - k U cos b") {
           doctest::Approx(std::cos(met * t + 0.4)).epsilon(1e-12));
   }
   // On a current of the same speed, a point that drifts with it meets the frequency of the water.
-  const WaveComponents carried({w}, {1.0}, {0.4}, {b}, 50.0, standard_gravity, Current({0.0}, {speed}, {0.0}));
+  const WaveComponents carried({w}, {1.0}, {0.4}, {b}, 50.0, standard_gravity,
+                               Current({0.0}, {speed}, {0.0}));
   const double own = carried.intrinsic()[0], k = carried.wavenumber()[0];
   CHECK(own * own == doctest::Approx(standard_gravity * k * std::tanh(50.0 * k)).epsilon(1e-12));
   CHECK(SeaField(carried).at<double>(9.0, Vec3d(speed * 9.0, 0.0, -1.0)).elevation ==
@@ -282,7 +283,8 @@ TEST_CASE("the force of the undisturbed wave on a box, as a filtered sum and as 
   // 12 x 6 x 4 m, its top 2 m deep, long side along a wave of 8 s and 1 m in deep water.
   constexpr double rho = 1025.0, length = 12.0, breadth = 6.0, height = 4.0, expected = 138'615.297;
   const double w = 2.0 * std::numbers::pi / 8.0;
-  const auto sea = std::make_shared<const SeaField>(WaveComponents({w}, {1.0}, {0.3}, {0.0}), Stretching::none);
+  const auto sea =
+      std::make_shared<const SeaField>(WaveComponents({w}, {1.0}, {0.3}, {0.0}), Stretching::none);
   Mat3d extents = Mat3d::Zero();
   extents.col(0).x() = length;
   extents.col(1).y() = breadth;
@@ -354,7 +356,8 @@ TEST_CASE("slopes are those of differences, with stretching, filter, profile and
   constexpr double h = 1e-5;
   for (std::size_t n = 0; n < 2; ++n) {
     const Vec3d along = n == 0 ? first : second;
-    const LocalFlow<double> up = sea->at<double>(8.0, place + h * along), down = sea->at<double>(8.0, place - h * along);
+    const LocalFlow<double> up = sea->at<double>(8.0, place + h * along),
+                            down = sea->at<double>(8.0, place - h * along);
     LocalFlow<double> slope = up;
     LocalFlow<double>::each(down, slope, [](double a, double& b) { b = (b - a) / (2.0 * h); });
     LocalFlow<double>::each(flow, slope, [&](const Dual<2>& a, double& b) {

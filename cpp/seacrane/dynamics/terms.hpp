@@ -81,12 +81,7 @@ class Terms {
   Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
   /// What loads look at; `memory`: the memory part of a state.
   LoadInput<double> load_input(double t, const double* memory) const {
-    return {t,
-            curve_limit_,
-            bodies_.data(),
-            slots_.data(),
-            memory + first_load_state_,
-            inertial_.data(),
+    return {t,    curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_, inertial_.data(),
             &sea_};
   }
   /// The power of the loads without potential, drivers included.

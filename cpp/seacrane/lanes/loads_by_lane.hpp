@@ -22,11 +22,15 @@ class LoadsByLane {
   /// Loads of one kind, those of each lane.
   using Lists = std::array<const LoadList*, L>;
 
-  /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces others
-  /// ask for; `seas`: one for each lane.
+  /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces
+  /// others ask for; `seas`: one for each lane.
   LoadsByLane(std::vector<Lists> lists, const std::vector<Lists>& read, int bodies, std::size_t states,
               std::vector<SeaView> seas)
-      : lists_(std::move(lists)), seas_(std::move(seas)), wrench_(idx(bodies) + 1), total_(idx(bodies) + 1), rates_(states, 0.0) {
+      : lists_(std::move(lists)),
+        seas_(std::move(seas)),
+        wrench_(idx(bodies) + 1),
+        total_(idx(bodies) + 1),
+        rates_(states, 0.0) {
     for (const Lists& list : lists_) {
       look_at(list);
       for (std::size_t i = 0; i < list[0]->size(); ++i) {

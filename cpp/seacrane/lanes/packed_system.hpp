@@ -155,9 +155,8 @@ class PackedSystem final : public LaneSystem {
   static std::vector<TreeActuators> actuators_of(const LaneModels& models, const BodyTree& tree) {
     std::vector<TreeActuators> out;
     out.emplace_back(models.front()->stepped(), tree);
-    const bool alike = std::ranges::all_of(models.front()->stepped().loads.lists, [&](const auto& list) {
-      return !differs(models, list->kind);
-    });
+    const bool alike = std::ranges::all_of(models.front()->stepped().loads.lists,
+                                           [&](const auto& list) { return !differs(models, list->kind); });
     for (std::size_t lane = 1; lane < L && !alike; ++lane) out.emplace_back(models[lane]->stepped(), tree);
     return out;
   }
@@ -336,12 +335,12 @@ class PackedSystem final : public LaneSystem {
     if (!by_lane_.lists().empty()) by_lane_.apply(tensions_.none(), sum);
     std::fill(torque_.begin(), torque_.end(), T(0.0));
     actuators_.front().apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
-                        torque_.data(), sum,
-                        [&](std::size_t k, const LoadInput<T>& in, const T& value, const T& rate) {
-                          const TreeActuators::Along& one = actuators_.front().along()[k];
-                          if (along_[k] == nullptr) return drive_by_lane(k, value, rate);
-                          return along_[k]->force(*one.list, one.at, in, value, rate);
-                        });
+                                torque_.data(), sum,
+                                [&](std::size_t k, const LoadInput<T>& in, const T& value, const T& rate) {
+                                  const TreeActuators::Along& one = actuators_.front().along()[k];
+                                  if (along_[k] == nullptr) return drive_by_lane(k, value, rate);
+                                  return along_[k]->force(*one.list, one.at, in, value, rate);
+                                });
     for (std::size_t v = 0; v < frames_.size(); ++v) {
       const Vessel& vessel = model_->vessels[v];
       const auto own = idx(memory_ + vessel.memory_offset - model_->layout.memory);
@@ -397,10 +396,10 @@ class PackedSystem final : public LaneSystem {
   LoadsByLane<L> by_lane_;
   TensionsByLane<L> tensions_;
   std::vector<T> torque_, driven_rate_, drive_power_;
-  std::vector<std::vector<T>> drive_response_;  // to 1 N of each inertial tension
+  std::vector<std::vector<T>> drive_response_;                 // to 1 N of each inertial tension
   std::vector<double> positions_, speed_, speed_rate_, jump_;  // of the lane that leads drivers
   std::size_t leading_ = 0;                                    // the first that is not frozen
-  int speeds_, memory_, loads_, work_;  // where they begin in the state of a lane
+  int speeds_, memory_, loads_, work_;                         // where they begin in the state of a lane
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> frozen_;

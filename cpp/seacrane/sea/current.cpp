@@ -45,8 +45,7 @@ double Current::carrying(double k, double direction_x, double direction_y, doubl
   for (std::size_t i = 1; i < depth_.size() && depth_[i - 1] < water_depth; ++i) {
     const double thickness = depth_[i] - depth_[i - 1];
     const double bottom = std::min(depth_[i], water_depth);
-    const double slope =
-        (direction_x * (x_[i - 1] - x_[i]) + direction_y * (y_[i - 1] - y_[i])) / thickness;
+    const double slope = (direction_x * (x_[i - 1] - x_[i]) + direction_y * (y_[i - 1] - y_[i])) / thickness;
     along -= slope * (weight(k, -depth_[i - 1], water_depth) - weight(k, -bottom, water_depth)) / (2.0 * k);
   }
   return along;

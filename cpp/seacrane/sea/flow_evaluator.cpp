@@ -20,6 +20,39 @@ std::size_t felt(const std::vector<double>& amplitude) {
   return (count + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
 }
 
+/// A line from its highest point downwards, so that decays only become smaller.
+struct Descent {
+  std::size_t last;
+  bool rises;
+  Vec3d top, down;
+
+  Descent(const Vec3d& first, const Vec3d& step, std::size_t last_point)
+      : last(last_point),
+        rises(step.z() > 0.0),
+        top(rises ? Vec3d(first + static_cast<double>(last) * step) : first),
+        down(rises ? Vec3d(-step) : step) {}
+  double z(std::size_t n) const { return top.z() + static_cast<double>(n) * down.z(); }
+};
+
+/// Phasors at the highest point, and what turns them; how many components are felt at all.
+std::size_t start(const SeaField& field, double t, const Descent& way, bool whole, sea::FlowScratch& s) {
+  s.amplitude = field.arrays().amplitude;
+  if (whole) sea::filter_amplitudes(field, field.padded(), way.down.x(), way.down.y(), s);
+  const std::size_t count = felt(s.amplitude);
+  sea::set_phasors(field, count, t, way.top.x(), way.top.y(), s);
+  if (way.last > 0) sea::set_turns(field, count, way.down.x(), way.down.y(), s);
+  return count;
+}
+
+/// Without stretching, below the still water: decays follow from those of the point before.
+void descend(const SeaField& field, std::size_t reached, std::size_t n, const Descent& way, double cut,
+             bool first_below, sea::FlowScratch& s) {
+  if (!first_below) return sea::step_decays(reached, s);
+  s.images = field.images(way.z(way.last), cut);
+  sea::set_decays(field, reached, way.z(n), s);
+  sea::set_decay_steps(field, reached, way.down.z(), s);
+}
+
 }  // namespace
 
 FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil)
@@ -78,39 +111,23 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
                                                        bool whole) {
   std::fill(flow_.begin(), flow_.end(), LocalFlow<double>());
   if (!field_) return flow_;
-  // From the highest point downwards, so that decays only become smaller.
-  const std::size_t last = flow_.size() - 1;
-  const bool rises = step.z() > 0.0;
-  const Vec3d top = rises ? Vec3d(first + static_cast<double>(last) * step) : first;
-  const Vec3d down = rises ? Vec3d(-step) : step;
-  const double deepest = top.z() + static_cast<double>(last) * down.z();
-  require_above_floor(deepest);
-  scratch_.amplitude = field_->arrays().amplitude;
-  if (whole) sea::filter_amplitudes(*field_, field_->padded(), step.x(), step.y(), scratch_);
-  const std::size_t count = felt(scratch_.amplitude);
-  sea::set_phasors(*field_, count, t, top.x(), top.y(), scratch_);
-  if (last > 0) sea::set_turns(*field_, count, down.x(), down.y(), scratch_);
+  const Descent way(first, step, flow_.size() - 1);
+  require_above_floor(way.z(way.last));
+  const std::size_t count = start(*field_, t, way, whole, scratch_);
   const bool straight = field_->stretching() == Stretching::none;
-  bool below = false;  // the decays are those of the point before
-  for (std::size_t n = 0; n <= last; ++n) {
-    LocalFlow<double>& out = flow_[rises ? last - n : n];
-    const double z = top.z() + static_cast<double>(n) * down.z();
+  bool first_below = true;
+  for (std::size_t n = 0; n <= way.last; ++n) {
+    LocalFlow<double>& out = flow_[way.rises ? way.last - n : n];
+    const double z = way.z(n);
     if (n > 0) sea::turn(count, scratch_);
     sea::add_surface(*field_, count, scratch_, out);
-    if (!straight || z >= 0.0 || z < -field_->depth()) {
-      take(count, z, out);
-      continue;
-    }
-    const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
-    if (below) {
-      sea::step_decays(reached, scratch_);
+    if (straight && z < 0.0 && z >= -field_->depth()) {
+      const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
+      descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), scratch_);
+      interior(reached, z, out);
     } else {
-      scratch_.images = field_->images(deepest, stencil_.cut);
-      sea::set_decays(*field_, reached, z, scratch_);
-      sea::set_decay_steps(*field_, reached, down.z(), scratch_);
-      below = true;
+      take(count, z, out);
     }
-    interior(reached, z, out);
   }
   return flow_;
 }

@@ -17,8 +17,8 @@ struct FlowPoint {
   Mat3d extents = Mat3d::Zero();   // m, inertial frame: of its element along three axes, in columns; 0: none
 };
 
-/// The sea at a stencil of points, and its scratch; one for each run. Without a field the water is still and at
-/// rest. Results depend on the arguments alone, whatever was evaluated before.
+/// The sea at a stencil of points, and its scratch; one for each run. Without a field the water is still and
+/// at rest. Results depend on the arguments alone, whatever was evaluated before.
 class FlowEvaluator {
  public:
   FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil);

@@ -11,17 +11,17 @@ namespace seacrane::sea {
 
 /// What one stencil keeps for each component, at the point that it is at.
 struct FlowScratch {
-  std::vector<double> amplitude, angle;         // what the element feels of it; of its phase
-  std::vector<double> cosine, sine;             // amplitude times those of the phase angle
-  std::vector<double> turn_cosine, turn_sine;   // of the phase from point to point
-  std::vector<double> decay, image;             // exp(k level), exp(-k (level + 2 depth))
-  std::vector<double> decay_step, image_step;   // their factors from point to point
+  std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
+  std::vector<double> cosine, sine;            // amplitude times those of the phase angle
+  std::vector<double> turn_cosine, turn_sine;  // of the phase from point to point
+  std::vector<double> decay, image;            // exp(k level), exp(-k (level + 2 depth))
+  std::vector<double> decay_step, image_step;  // their factors from point to point
 
-  std::size_t images = 0;                       // how many of the first have an image, whole packs
+  std::size_t images = 0;  // how many of the first have an image, whole packs
 
   explicit FlowScratch(std::size_t padded) {
-    for (auto* array : {&amplitude, &angle, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image, &decay_step,
-                        &image_step}) {
+    for (auto* array : {&amplitude, &angle, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image,
+                        &decay_step, &image_step}) {
       array->assign(padded, 0.0);
     }
   }

@@ -7,16 +7,16 @@
 
 namespace seacrane {
 
-/// The undisturbed sea at one point, inertial axes; zeros are still water. T is double, or a Dual, whose slopes
-/// are over what the point depends on.
+/// The undisturbed sea at one point, inertial axes; zeros are still water. T is double, or a Dual, whose
+/// slopes are over what the point depends on.
 ///
 /// Above the water's level velocity, acceleration and pressure are those at the level, not zero: what is in
 /// air leaves by its wetted area, so that nothing jumps.
 template <class T>
 struct LocalFlow {
-  T elevation = T(0);       // m, of the surface above or below the point
-  T elevation_rate = T(0);  // m/s, at fixed x and y
-  std::array<T, 2> slope{};                   // of the surface over x and y
+  T elevation = T(0);                      // m, of the surface above or below the point
+  T elevation_rate = T(0);                 // m/s, at fixed x and y
+  std::array<T, 2> slope{};                // of the surface over x and y
   Vec3<T> velocity = Vec3<T>::Zero();      // m/s, of the water, the current included
   Vec3<T> acceleration = Vec3<T>::Zero();  // m/s2, of the water: u_t + (U . grad) u, first order in the waves
   T pressure = T(0);                       // m2/s2, dynamic, over density; without the hydrostatic -g z

@@ -50,8 +50,8 @@ SeaField::SeaField(const WaveComponents& waves, Stretching stretching)
   }
   largest_k_ = f.k.back();
   with_floor_ = whole_packs(with_floor_);
-  for (auto* array : {&f.omega, &f.sigma, &f.kx, &f.ky, &f.x, &f.y, &f.amplitude, &f.phase, &f.speed,
-                      &f.pressure}) {
+  for (auto* array :
+       {&f.omega, &f.sigma, &f.kx, &f.ky, &f.x, &f.y, &f.amplitude, &f.phase, &f.speed, &f.pressure}) {
     array->resize(whole_packs(size_), 0.0);
   }
   f.k.resize(whole_packs(size_), largest_k_);

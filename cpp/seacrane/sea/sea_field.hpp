@@ -13,7 +13,8 @@
 namespace seacrane {
 
 /// The waves and the current of a scene as sums over components take them: by wavenumber, so that those that
-/// reach a depth are the first ones, and in whole packs of `lanes`, filled up by waves of no height. Immutable.
+/// reach a depth are the first ones, and in whole packs of `lanes`, filled up by waves of no height.
+/// Immutable.
 ///
 /// With c = cosh k(z + d), s = sinh k(z + d), S = sinh kd, each component of amplitude a, frequency omega for
 /// a fixed observer and sigma = omega - k U for the water, phase angle theta, adds to first order
@@ -34,7 +35,7 @@ class SeaField {
     std::vector<double> pressure;  // sigma / k
   };
   const Arrays& arrays() const { return arrays_; }
-  std::size_t size() const { return size_; }             // without padding
+  std::size_t size() const { return size_; }  // without padding
   std::size_t padded() const { return arrays_.k.size(); }
   double depth() const { return depth_; }
   double gravity() const { return gravity_; }
@@ -48,7 +49,8 @@ class SeaField {
   /// Where a point at z counts in linear theory, -depth <= level <= 0.
   template <class T>
   T level(const T& z, const T& elevation) const {
-    const T own = stretching_ == Stretching::wheeler ? T((z - elevation) / (T(1) + elevation / T(depth_))) : z;
+    const T own =
+        stretching_ == Stretching::wheeler ? T((z - elevation) / (T(1) + elevation / T(depth_))) : z;
     return clamped(own, T(-depth_), T(0));
   }
 

@@ -17,7 +17,8 @@ struct SpanDragDescription : SpanDescription {
 
   static constexpr const char* type = "SpanDrag";
   static constexpr const char* text =
-      "Drag across a straight span of wire between two points: in a fluid that flows steadily, or in the sea.";
+      "Drag across a straight span of wire between two points: in a fluid that flows steadily, or in the "
+      "sea.";
   static constexpr auto fields() {
     using D = SpanDragDescription;
     return std::tuple_cat(
@@ -36,9 +37,9 @@ struct SpanDragDescription : SpanDescription {
 };
 
 /// Drag across a straight span of wire: with n along the span, at either end half of
-/// F = -rho / 2 C_D diameter length |v| v, v the velocity of that end in the fluid less its part along n. In the
-/// sea the fluid is the water at that end, as an element as long as half of the span feels it, and the half of
-/// the span counts with the share of it that is below the surface.
+/// F = -rho / 2 C_D diameter length |v| v, v the velocity of that end in the fluid less its part along n. In
+/// the sea the fluid is the water at that end, as an element as long as half of the span feels it, and the
+/// half of the span counts with the share of it that is below the surface.
 struct SpanDrag {
   static constexpr const char* kind = "span drag";
   using Description = SpanDragDescription;
@@ -121,8 +122,8 @@ struct SpanDrag {
   }
 
   template <class T>
-  void drag_end(const BodyKinematics<T>& k, const Vec3<T>& lever, const SpanPlace<T>& at, const Fluid<T>& fluid,
-                LoadSum<T>& out, BodyLoad<T>& wrench) const {
+  void drag_end(const BodyKinematics<T>& k, const Vec3<T>& lever, const SpanPlace<T>& at,
+                const Fluid<T>& fluid, LoadSum<T>& out, BodyLoad<T>& wrench) const {
     using std::sqrt;
     const Vec3<T> velocity = k.velocity + cross<T>(k.angular_velocity, lever);
     const Vec3<T> relative = velocity - fluid.velocity;
