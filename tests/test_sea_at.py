@@ -13,11 +13,13 @@ from seacrane import (
     Scene,
     SeaState,
     WaveSystem,
+    _core,
     shipped_database,
     simulate,
 )
 from seacrane.ensembles.other_sea import require_same_sea, with_sea
 from seacrane.errors import SceneError
+from seacrane.run.lanes import module_of
 from seacrane.scene import Waves
 from seacrane.sea import Current, cos_2s, jonswap
 from seacrane.warnings import BlockedWavesWarning
@@ -280,3 +282,26 @@ def test_a_line_in_the_sea_has_drag_in_its_current() -> None:
     expected = np.trapezoid(push * s / (weight + 20.0 * G * s), s)
     assert offset[1] == pytest.approx(expected, rel=0.02)
     assert offset[0] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+def test_each_lane_is_in_its_own_sea() -> None:
+    def scene(seed: int) -> Scene:
+        out = ship_in_a_sea(seed=seed, count=40, current=Current(speed=0.1 * seed, direction_deg=160.0))
+        out.add_body(name="box", mass=5e3, inertia=(8e3, 8e3, 8e3), position=(40.0, -12.0, -9.0))
+        out.add_spring("wire", first="vessel", second="box", lengths=[0.0, 90.0], forces=[0.0, 9e5])
+        out.add_load(
+            _core.SpanDrag(
+                name="drag", first="vessel", second="box", density=1025.0, diameter=0.3, length=20.0,
+                coefficient=1.2, in_sea=True,
+            )
+        )  # fmt: skip
+        return out
+
+    evaluator = _core.LaneEvaluator(module_of(4), [scene(seed).compile() for seed in (1, 2, 3, 4)])
+    start, rng = evaluator.start(), np.random.default_rng(1)
+    for t in (0.0, 0.7, 4.1):
+        state = start + 1e-3 * rng.normal(size=start.shape)
+        alone, side_by_side = evaluator.scalar_derivative(t, state), evaluator.derivative(t, state)
+        assert np.abs((side_by_side - alone) / np.abs(alone).max(axis=1)[:, None]).max() < 1e-12
+        assert np.ptp(alone[:, :4], axis=1).max() > 1e-4  # the lanes differ
