@@ -207,9 +207,10 @@ def test_a_lift_file_gives_the_current(tmp_path: object) -> None:
     path = f"{tmp_path}/flow.toml"
     with open(path, "w") as file:
         file.write(
-            '[[vessel]]\ndatabase = "hull_115"\n\n[[sea]]\nhs_m = 1.5\ntp_s = 9.0\ndirection_deg = 180.0\n'
+            'format = "seacrane lift"\nversion = 2\n\n[[vessel]]\ndatabase = "hull_115"\n\n'
+            "[[sea]]\nhs_m = 1.5\ntp_s = 9.0\ndirection_deg = 180.0\n"
             'stretching = "none"\ncurrent = { depth_m = [0.0, 40.0], speed_m_per_s = [0.8, 0.2], '
-            "direction_deg = [90.0, 90.0] }\n"
+            "direction_deg = [90.0, 90.0] }\n\n[run]\nt_end_s = 1.0\n"
         )
     waves = Lift.load(path).scene().waves
     assert waves is not None

@@ -371,6 +371,21 @@ TEST_CASE("slopes are those of differences, with stretching, filter, profile and
   });
 }
 
+TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
+  RandomSea random{std::mt19937_64(18)};
+  const auto sea = std::make_shared<const SeaField>(random.waves(25, 60.0));
+  const SeaView view(sea, {{"other", 4}, {"part", 1, 1e-9}});
+  const Vec3d place(4.0, -3.0, -2.7);
+  const Mat3d extents = Mat3d::Identity() * 3.0;
+  const LocalFlow<double> flow = view.one<double>(1, 8.0, place, extents);
+  const LocalFlow<Dual<3>> slopes =
+      view.one<Dual<3>>(1, 8.0, variables(place), extents.cast<Dual<3>>().eval());
+  LocalFlow<double> off = flow;
+  LocalFlow<double>::each(slopes, off, [](const Dual<3>& a, double& b) { b = std::fabs(a.value - b); });
+  LocalFlow<double>::each(sea->magnitude(), off, [](double size, double& b) { CHECK(b <= 2e-9 * size); });
+  CHECK(slopes.pressure.slope[2] == doctest::Approx(-flow.acceleration.z()).epsilon(0.2));
+}
+
 TEST_CASE("stencils allocate nothing when they are evaluated") {
   RandomSea random{std::mt19937_64(19)};
   const auto sea = std::make_shared<const SeaField>(random.waves(200, 40.0, shear()));

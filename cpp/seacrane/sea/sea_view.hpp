@@ -32,6 +32,18 @@ class SeaView {
     return evaluators_[idx(stencil)].cloud(t, points);
   }
 
+  /// The flow at the point of a stencil that has one, over an element whose extents are the columns; with
+  /// slopes where T is a Dual.
+  template <class T>
+  LocalFlow<T> one(int stencil, double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+    if constexpr (std::is_same_v<T, double>) {
+      const FlowPoint here{point, extents};
+      return cloud(stencil, t, {&here, 1}).front();
+    } else {
+      return at<T>(t, point, extents);
+    }
+  }
+
   /// The flow at one point component by component, with slopes where T is a Dual: what Jacobians take.
   template <class T>
   LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents) const {

@@ -24,6 +24,7 @@ from seacrane.inputs.caller import tell, warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
@@ -150,6 +151,8 @@ def add_sea(
     if phase not in ("mean", "slow", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
+    if current is not None and not isinstance(current, Current):
+        raise SceneError(f"sea: current is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+MOST_FLOWS = 2_000_000
 MOST_SECOND_ORDER = 0.3  # of the first order
 
 
@@ -72,6 +73,11 @@ def sea_at(
     moments = np.atleast_1d(numbers_of("sea_at: times", times))
     if moments.ndim != 1:
         raise SceneError(f"sea_at: times has shape {moments.shape}; give one row")
+    if len(places) * moments.size > MOST_FLOWS:
+        raise SceneError(
+            f"sea_at: {len(places):,} points at {moments.size:,} times would take minutes; give fewer, at most "
+            f"{MOST_FLOWS:,} of both together"
+        )
     rho = positive_of("sea_at: density", density, "kg/m3")
     try:
         flow: Array = field_of(pruned(scene.waves)).at(times=moments, points=places)

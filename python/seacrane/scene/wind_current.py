@@ -221,9 +221,7 @@ def _flow_of(
     of_sea = None if scene.waves is None else scene.waves.current
     if of_sea is None:
         if speed is None or direction_deg is None:
-            raise SceneError(
-                f"{what}: has no speed or no direction_deg; give both, or add_sea a current"
-            )
+            raise SceneError(f"{what}: has no speed or no direction_deg; give both, or add_sea a current")
         return speed, direction_deg
     if speed is not None or direction_deg is not None:
         raise SceneError(
