@@ -75,8 +75,8 @@ def sea_at(
         raise SceneError(f"sea_at: times has shape {moments.shape}; give one row")
     if len(places) * moments.size > MOST_FLOWS:
         raise SceneError(
-            f"sea_at: {len(places):,} points at {moments.size:,} times would take minutes; give fewer, at most "
-            f"{MOST_FLOWS:,} of both together"
+            f"sea_at: {len(places):,} points at {moments.size:,} times would take minutes; give fewer, "
+            f"at most {MOST_FLOWS:,} of both together"
         )
     rho = positive_of("sea_at: density", density, "kg/m3")
     try:
