@@ -47,6 +47,13 @@ def ship_in_a_sea(**sea: object) -> Scene:
     return scene
 
 
+def add_mark(scene: Scene, name: str, place: tuple[float, float, float]) -> None:
+    """A point that does not move."""
+    scene.add_body(name=name, mass=1.0, inertia=(1.0, 1.0, 1.0), position=place)
+    scene.add_joint(kind="weld", name=f"{name} holds", first="ground", second=name, point=place)
+    scene.add_point(name, body=name, point=(0.0, 0.0, 0.0))
+
+
 def test_the_numbers_of_a_regular_wave_in_shallow_water() -> None:
     scene = regular(depth=20.0, stretching="none")
     at = scene.sea_at(points={"ten": (0.0, 0.0, -10.0)}, times=[0.0, 9.0]).sel(point="ten")
@@ -80,7 +87,7 @@ def test_the_stretched_pressure_is_the_hydrostatic_one_at_the_surface() -> None:
 def test_a_vessel_and_a_point_at_its_place_see_one_wave(phase: str) -> None:
     scene = ship_in_a_sea(spreading=8.0, phase=phase)
     scene.add_point("here", body="vessel", point=(0.0, 0.0, 0.0))
-    scene.add_point("there", body="ground", point=(30.0, -12.0, -2.0))
+    add_mark(scene, "there", (30.0, -12.0, -2.0))
     result = simulate(
         scene, t_end=6.0, dt_out=0.5, channels=["wave_elevation", "point_wave", "point_position"]
     )
@@ -106,9 +113,10 @@ def test_several_wave_systems_in_one_sea() -> None:
     times = np.arange(0.0, 20.0, 0.7)
     at = scene.sea_at(points=[(4.0, 5.0, -6.0)], times=times)
     plain = scene.waves.components().kinematics(time=times, x=4.0, y=5.0, z=-6.0)
-    assert np.abs(at.velocity[:, 0] - plain.velocity).max() < 1e-12
-    assert np.abs(at.acceleration[:, 0] - plain.acceleration).max() < 1e-12
-    assert np.abs(at.pressure[:, 0] - plain.dynamic_pressure).max() < 1e-8
+    # Compiling leaves out components of a share of 1e-9.
+    assert np.abs(at.velocity[:, 0] - plain.velocity).max() < 1e-8
+    assert np.abs(at.acceleration[:, 0] - plain.acceleration).max() < 1e-8
+    assert np.abs(at.pressure[:, 0] - plain.dynamic_pressure).max() < 1e-4
 
 
 @pytest.mark.parametrize(("speed", "wavenumber"), [(1.0, 0.054478), (-1.0, 0.075592)])
@@ -132,7 +140,6 @@ def test_a_profile_is_linear_between_depths_and_held_beyond() -> None:
     assert np.allclose(at.velocity[0], [[0.75, 0.0, 0.0], [0.25, 0.0, 0.0]])
     assert not at.elevation.any()
     assert not at.acceleration.any()
-    scene.compile()
 
 
 def test_waves_that_the_current_stops_are_left_out_and_told() -> None:
@@ -241,7 +248,7 @@ def test_points_by_what_makes_no_sense() -> None:
 def test_another_sea_for_a_compiled_model_is_another_field() -> None:
     def scene(seed: int) -> Scene:
         out = ship_in_a_sea(seed=seed)
-        out.add_point("deep", body="ground", point=(10.0, 0.0, -4.0))
+        add_mark(out, "deep", (10.0, 0.0, -4.0))
         return out
 
     given = {"t_end": 1.0, "outputs": Outputs(dt_out=0.5, channels=["point_wave"])}
