@@ -45,10 +45,10 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
         loads=compiled_loads(scene.all_loads()),
         vessels=list(scene.vessels.values()),
         wave_loads=[] if sea is None else compiled_waves(sea),
-        sea=None if sea is None else field_of(sea),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()),
         merge=merge,
+        **({} if sea is None else {"sea": field_of(sea)}),
     )
     warn_of_moves(scene, model)
     if model.redundant:

@@ -186,13 +186,14 @@ class Waves:
 
     def components(self) -> _core.WaveComponents:
         """The sea alone."""
+        flow: dict[str, Any] = {} if self.current is None else {"current": self.current.core()}
         return _core.WaveComponents(
             omega=self.omega,
             amplitude=self.amplitude,
             phase=self.phase,
             direction=self.direction,
             depth=self.depth,
-            current=None if self.current is None else self.current.core(),
+            **flow,
         )
 
     def field(self) -> _core.SeaField:
