@@ -311,5 +311,5 @@ def test_each_lane_is_in_its_own_sea() -> None:
     for t in (0.0, 0.7, 4.1):
         state = start + 1e-3 * rng.normal(size=start.shape)
         alone, side_by_side = evaluator.scalar_derivative(t, state), evaluator.derivative(t, state)
-        assert np.abs((side_by_side - alone) / np.abs(alone).max(axis=1)[:, None]).max() < 1e-12
+        assert np.abs((side_by_side - alone) / np.abs(alone).max(axis=1)[:, None]).max() < 1e-10
         assert np.ptp(alone[:, :4], axis=1).max() > 1e-4  # the lanes differ
