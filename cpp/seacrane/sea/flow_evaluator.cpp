@@ -13,6 +13,12 @@ namespace {
 
 constexpr double rounding = 0x1p-53;
 
+std::string shown(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 /// The first components, in whole packs, behind which none is felt.
 std::size_t felt(const std::vector<double>& amplitude) {
   std::size_t count = amplitude.size();
@@ -68,10 +74,9 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
 void FlowEvaluator::require_above_floor(double z) const {
   constexpr double give = 1.01;  // what lies on the sea floor may sink into it a little
   if (!(z < -give * field_->depth())) return;
-  std::ostringstream text;
-  text << stencil_.name << ": is at z = " << z << " m, below the sea floor at z = " << -field_->depth()
-       << " m; make the sea deeper, or stop the load above its floor";
-  throw std::domain_error(text.str());
+  throw std::domain_error(stencil_.name + ": is at z = " + shown(z) +
+                          " m, below the sea floor at z = " + shown(-field_->depth()) +
+                          " m; make the sea deeper, or stop the load above its floor");
 }
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
