@@ -35,6 +35,7 @@ from measure import (
     memory_kinds,
     memory_models,
     memory_speed,
+    moving_points,
     pages,
     paper_form,
     rival,
@@ -87,6 +88,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_kinds.memory_kinds(repeats=repeats)
     yield memory_speed.memory_speed(repeats=repeats)
     yield wave_loads.wave_loads(repeats=repeats)
+    yield moving_points.moving_points(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)
     integrators.figure(rows, folder / PICTURE)

@@ -29,7 +29,7 @@ std::shared_ptr<Model> compile_scene(
     std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
     std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
     const std::vector<std::tuple<std::string, std::string, std::string>>& coordinates,
-    std::vector<PointDescription> points, bool merge) {
+    std::vector<PointDescription> points, bool merge, std::shared_ptr<SeaField> sea) {
   SceneDescription scene;
   scene.name = std::move(name);
   scene.gravity = gravity;
@@ -56,6 +56,7 @@ std::shared_ptr<Model> compile_scene(
     scene.coordinates.push_back({{joint, coordinate}, name});
   }
   scene.points = std::move(points);
+  scene.sea = std::move(sea);
   return std::const_pointer_cast<Model>(compile(scene, merge));
 }
 
@@ -431,17 +432,17 @@ void bind_model(py::module_& m) {
           py::arg("names"), "How many numbers one output of these channels holds.")
       .def(
           "in_sea",
-          [](const Model& m, const std::vector<WaveLoadDescription>& loads) {
-            return std::const_pointer_cast<Model>(in_sea(m, loads));
+          [](const Model& m, const std::vector<WaveLoadDescription>& loads, std::shared_ptr<SeaField> sea) {
+            return std::const_pointer_cast<Model>(in_sea(m, loads, std::move(sea)));
           },
-          py::arg("wave_loads"),
-          "The model of the same scene with other wave loads on the same vessels, as compiling it again "
-          "gives. "
-          "Raises SceneError.");
+          py::arg("wave_loads"), py::arg("sea") = py::none(),
+          "The model of the same scene with other wave loads on the same vessels, in another field, as "
+          "compiling it again gives. Raises SceneError.");
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
         py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),
         py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
+        py::arg("sea") = py::none(),
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);
 }

@@ -114,7 +114,9 @@ ValueError
 
 void bind_sea(py::module_& m) {
   bind_spectrum(m);
+  bind_current(m);
   bind_wave_components(m);
+  bind_sea_field(m);
   bind_realisation(m);
   bind_wave_load(m);
 }

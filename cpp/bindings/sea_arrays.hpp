@@ -9,6 +9,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/sea/exact_wave_load.hpp"
+#include "seacrane/sea/stretching.hpp"
 #include "without_gil.hpp"
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -51,6 +52,14 @@ inline std::vector<double> to_vector(const Doubles& a, const std::string& object
   return {a.data(), a.data() + a.size()};
 }
 
+inline seacrane::Stretching stretching_of(const std::string& name) {
+  if (name == "wheeler") return seacrane::Stretching::wheeler;
+  if (name == "none") return seacrane::Stretching::none;
+  throw py::value_error("wave kinematics: stretching is '" + name + "'; give 'wheeler' or 'none'");
+}
+
+void bind_current(py::module_& m);
+void bind_sea_field(py::module_& m);
 void bind_spectrum(py::module_& m);
 void bind_wave_components(py::module_& m);
 void bind_wave_load(py::module_& m);

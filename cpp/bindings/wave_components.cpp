@@ -69,12 +69,6 @@ struct WaveKinematics {
   py::array_t<bool> submerged;
 };
 
-Stretching stretching_of(const std::string& name) {
-  if (name == "wheeler") return Stretching::wheeler;
-  if (name == "none") return Stretching::none;
-  throw py::value_error("wave kinematics: stretching is '" + name + "'; give 'wheeler' or 'none'");
-}
-
 /// Every point above any crest that this sea can have: a depth where z, upwards, is due.
 void warn_of_air(const WaveComponents& waves, const Doubles& z) {
   double crest = 0.0;
@@ -129,9 +123,9 @@ void bind_wave_components(py::module_& m) {
                              "vectors have three inertial components last. In air velocity, acceleration "
                              "and pressure are zero.")
       .def_readonly("elevation", &WaveKinematics::elevation, "m, of the surface above the point")
-      .def_readonly("velocity", &WaveKinematics::velocity, "m/s")
+      .def_readonly("velocity", &WaveKinematics::velocity, "m/s, with the current")
       .def_readonly("acceleration", &WaveKinematics::acceleration,
-                    "m/s2, partial derivative in time (at the stretched point)")
+                    "m/s2, of the water, first order: partial derivative in time, and along a current")
       .def_readonly("dynamic_pressure", &WaveKinematics::dynamic_pressure,
                     "Pa, without the hydrostatic -density g z")
       .def_readonly("submerged", &WaveKinematics::submerged, "Whether the point is below the surface.");
@@ -153,24 +147,31 @@ depth : float
     Water depth, m; infinity for deep water. Wavenumbers follow from omega^2 = g k tanh(k depth).
 gravity : float
     m/s2.
+current : Current, optional
+    On which the waves travel: (omega - k U)^2 = g k tanh(k depth), see `Current.wavenumber`; omega is what a
+    fixed observer sees.
 
 Raises
 ------
 ValueError
-    A value is not finite or out of range, or the lengths differ.)")
+    A value is not finite or out of range, the lengths differ, or the current stops a wave.)")
       .def(py::init([](const Doubles& omega, const Doubles& amplitude, const Doubles& phase,
-                       const Doubles& direction, double depth, double gravity) {
+                       const Doubles& direction, double depth, double gravity,
+                       const std::shared_ptr<Current>& current) {
              std::vector<double> w = to_vector(omega, object, "omega");
              const std::size_t n = w.size();
              return WaveComponents(std::move(w), spread(amplitude, n, "amplitude"), spread(phase, n, "phase"),
-                                   spread(direction, n, "direction"), depth, gravity);
+                                   spread(direction, n, "direction"), depth, gravity,
+                                   current ? *current : Current());
            }),
            py::kw_only(), py::arg("omega"), py::arg("amplitude"), py::arg("phase") = 0.0,
            py::arg("direction") = 0.0, py::arg_v("depth", infinity, "float('inf')"),
-           py::arg("gravity") = standard_gravity)
+           py::arg("gravity") = standard_gravity, py::arg("current") = py::none())
       .def("__len__", &WaveComponents::size)
       .def_property_readonly("omega", &view<&WaveComponents::omega>, "rad/s")
       .def_property_readonly("wavenumber", &view<&WaveComponents::wavenumber>, "rad/m")
+      .def_property_readonly("intrinsic", &view<&WaveComponents::intrinsic>,
+                             "rad/s, omega - k U: with which the water moves")
       .def_property_readonly("direction", &view<&WaveComponents::direction>, "rad, travelling to")
       .def_property_readonly("amplitude", &view<&WaveComponents::amplitude>, "m")
       .def_property_readonly("phase", &view<&WaveComponents::phase>, "rad")

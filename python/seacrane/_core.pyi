@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -126,6 +126,25 @@ class Spectrum:
         """
         Peak period, s.
         """
+class Current:
+    """
+    Steady horizontal current over depth: linear between depths, held beyond the first and the last.
+    
+    `depth` (n,), m below the still water, increasing; `x`, `y` (n,), m/s, inertial frame. Raises
+    ValueError.
+    """
+    def __init__(self, *, depth: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def velocity(self, z: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Along x and y, (n, 2), m/s, at heights z (n,), m.
+        """
+    def wavenumber(self, *, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Wavenumbers (n,), rad/m, of waves that a fixed observer sees at omega (n,), rad/s, and that travel to direction (n,), rad: (omega - k U)^2 = g k tanh(k depth), with U of the profile by Stewart and Joy (1974) and Skop (1987). NaN where the current stops the wave.
+        """
 class RepeatPeriod:
     """
     Answer of `WaveComponents.repeat_period`.
@@ -151,7 +170,7 @@ class WaveKinematics:
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        m/s2, partial derivative in time (at the stretched point)
+        m/s2, of the water, first order: partial derivative in time, and along a current
         """
     @property
     def dynamic_pressure(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -171,7 +190,7 @@ class WaveKinematics:
     @property
     def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        m/s
+        m/s, with the current
         """
 class WaveComponents:
     """
@@ -190,13 +209,16 @@ class WaveComponents:
         Water depth, m; infinity for deep water. Wavenumbers follow from omega^2 = g k tanh(k depth).
     gravity : float
         m/s2.
+    current : Current, optional
+        On which the waves travel: (omega - k U)^2 = g k tanh(k depth), see `Current.wavenumber`; omega is what a
+        fixed observer sees.
     
     Raises
     ------
     ValueError
-        A value is not finite or out of range, or the lengths differ.
+        A value is not finite or out of range, the lengths differ, or the current stops a wave.
     """
-    def __init__(self, *, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], amplitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> None:
+    def __init__(self, *, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], amplitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, current: Current = None) -> None:
         ...
     def __len__(self) -> int:
         ...
@@ -264,6 +286,11 @@ class WaveComponents:
         m/s2
         """
     @property
+    def intrinsic(self) -> numpy.ndarray:
+        """
+        rad/s, omega - k U: with which the water moves
+        """
+    @property
     def m0(self) -> float:
         """
         sum a^2 / 2, m2.
@@ -292,6 +319,54 @@ class WaveComponents:
     def wavenumber(self) -> numpy.ndarray:
         """
         rad/m
+        """
+class SeaField:
+    """
+    Waves and current of a scene as loads see them at moving points; immutable.
+    
+    Flows are rows of eleven numbers: elevation (m), its rate (m/s) and its slopes over x and y, velocity (3, m/s,
+    with the current), acceleration (3, m/s2, of the water, first order), dynamic pressure over density (m2/s2).
+    Above the water they are those at its level.
+    """
+    def __init__(self, waves: WaveComponents, *, stretching: str = 'wheeler') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def at(self, *, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Flows (n, m, 11) at times (n,), s, and points (m, 3), m, component by component.
+        """
+    def share_beyond(self, length: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Share of the variance of the acceleration that is of waves shorter than this, m.
+        """
+class FlowEvaluator:
+    """
+    A stencil of `count` points in a sea field, for tests and timing; loads hold theirs in the core.
+    """
+    def __init__(self, field: SeaField, *, count: typing.SupportsInt | typing.SupportsIndex, cut: typing.SupportsFloat | typing.SupportsIndex = 1e-05) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def cloud(self, *, time: typing.SupportsFloat | typing.SupportsIndex, points: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]], extents: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"]]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Flows (count, 11) at points (count, 3), m, of elements whose extents along three axes are the columns of (count, 3, 3), m.
+        """
+    def error_bound(self, *, time: typing.SupportsFloat | typing.SupportsIndex, x: typing.SupportsFloat | typing.SupportsIndex, y: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Bounds (1, 11) of the distance from the sum component by component.
+        """
+    def line(self, *, time: typing.SupportsFloat | typing.SupportsIndex, first: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], whole: bool = True) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Flows (count, 11) at first + i step, m; with `whole` each is the mean over an element as long as the step.
+        """
+    def repeat_cloud(self, *, time: typing.SupportsFloat | typing.SupportsIndex, points: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]], extents: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        The same of a cloud, whose elements have the same extents.
+        """
+    def repeat_line(self, *, time: typing.SupportsFloat | typing.SupportsIndex, first: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Evaluates the line `count` times; the caller takes the time.
         """
 class ExactWaveLoad:
     """
@@ -1800,7 +1875,7 @@ class PendulumDamping:
         """
 class SpanDrag:
     """
-    Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
+    Drag across a straight span of wire between two points: in a fluid that flows steadily, or in the sea. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     OWN_PACE: typing.ClassVar[bool] = False
@@ -1821,7 +1896,7 @@ class SpanDrag:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ..., in_sea: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1856,6 +1931,11 @@ class SpanDrag:
     def flow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m/s, velocity of the fluid, inertial axes
+        """
+    @property
+    def in_sea(self) -> bool:
+        """
+        in place of flow: waves and current of the sea, and none above it
         """
     @property
     def length(self) -> float:
@@ -2412,9 +2492,9 @@ class Model:
         """
         How many numbers one output of these channels holds.
         """
-    def in_sea(self, wave_loads: collections.abc.Sequence[WaveLoads]) -> Model:
+    def in_sea(self, wave_loads: collections.abc.Sequence[WaveLoads], sea: SeaField = None) -> Model:
         """
-        The model of the same scene with other wave loads on the same vessels, as compiling it again gives. Raises SceneError.
+        The model of the same scene with other wave loads on the same vessels, in another field, as compiling it again gives. Raises SceneError.
         """
     def pose_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
         ...
@@ -2972,11 +3052,6 @@ class Simulation:
         copy
         """
     @property
-    def steps(self) -> int:
-        """
-        Steps so far; `statistics` tells more, and takes longer.
-        """
-    @property
     def time(self) -> float:
         ...
 class LaneEvaluator:
@@ -3015,7 +3090,7 @@ def channels() -> list[Channel]:
     """
     Every channel there is, in the order of results.
     """
-def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str, str]], points: collections.abc.Sequence[Point] = [], merge: bool = True) -> Model:
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str, str]], points: collections.abc.Sequence[Point] = [], merge: bool = True, sea: SeaField = None) -> Model:
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """
@@ -3070,10 +3145,6 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
 def kept_apart(runs: collections.abc.Sequence[Simulation]) -> str:
     """
     Why runs cannot be stepped side by side; empty: they can.
-    """
-def lanes_differ(one: Model, other: Model) -> str:
-    """
-    What two models differ in of what runs side by side share; empty: nothing.
     """
 def lanes_of(module: types.ModuleType) -> int:
     """

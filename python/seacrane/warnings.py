@@ -600,6 +600,23 @@ class WavesWithoutLoadWarning(SeaWarning):
     """
 
 
+class BlockedWavesWarning(SeaWarning):
+    """Waves that come against the current faster than they can travel on it are left out of the sea.
+
+    In deep water those are beyond a frequency of g / (4 U). Real ones break before. Give a lower
+    `maximum_omega`, or a spectrum measured on that current.
+    """
+
+
+class SecondOrderFlowWarning(SeaWarning):
+    """Waves are so steep that linear theory, which leaves (u . grad) u out, is off by a third or more in the
+    acceleration of the water near its surface.
+
+    The figure is an estimate from standard deviations in deep water. Look deeper down, or take such loads as
+    an estimate.
+    """
+
+
 class RaoPhaseWarning(SeaWarning):
     """Waves far longer than a hull carry it along: it heaves with the crest and pitches with the slope,
     whatever it is.

@@ -33,6 +33,7 @@ class Compiler final : private LoadContext {
            ClosedSet closed = 0)
       : scene_(scene) {
     model_.description = scene;
+    model_.sea = scene.sea;
     model_.merge = std::move(merge);
     model_.limits = std::move(limits);
     model_.closed = closed;
@@ -94,6 +95,10 @@ class Compiler final : private LoadContext {
   double length_scale() const override { return kTranslationScale * scene_.length_scale; }
   int ground() const override { return static_cast<int>(model_.merge.carriers.size()); }
   int inertial_tension() override { return model_.inertial_tensions++; }
+  int stencil(const FlowStencil& stencil) override {
+    model_.stencils.push_back(stencil);
+    return static_cast<int>(model_.stencils.size()) - 1;
+  }
   int input(const std::string& name, int count) override {
     const int first = model_.slot_count;
     model_.inputs.push_back({name, first, count});

@@ -17,8 +17,10 @@ bool alike(const WaveLoadDescription& a, const WaveLoadDescription& b) {
          (a.positioned != nullptr) == (b.positioned != nullptr) && (cutoff(a) > 0.0) == (cutoff(b) > 0.0);
 }
 
-void put(Model& model, const std::vector<WaveLoadDescription>& loads) {
+void put(Model& model, const std::vector<WaveLoadDescription>& loads,
+         const std::shared_ptr<const SeaField>& sea) {
   model.description.wave_loads = loads;
+  model.description.sea = model.sea = sea;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     WaveLoad& load = model.wave_loads[i];
     load.sources = loads[i];
@@ -37,7 +39,8 @@ void copy_fast_motions(const Model& from, Model& to) {
 
 }  // namespace
 
-std::shared_ptr<const Model> in_sea(const Model& model, const std::vector<WaveLoadDescription>& loads) {
+std::shared_ptr<const Model> in_sea(const Model& model, const std::vector<WaveLoadDescription>& loads,
+                                    std::shared_ptr<const SeaField> sea) {
   const std::vector<WaveLoadDescription>& there = model.description.wave_loads;
   if (!std::equal(there.begin(), there.end(), loads.begin(), loads.end(), alike)) {
     throw SceneError("scene '" + model.description.name +
@@ -45,11 +48,11 @@ std::shared_ptr<const Model> in_sea(const Model& model, const std::vector<WaveLo
                      "position; compile the scene in that sea");
   }
   auto out = std::make_shared<Model>(model);
-  put(*out, loads);
+  put(*out, loads, sea);
   start_fast_motions(*out);
   if (model.merged) {
     auto merged = std::make_shared<Model>(*model.merged);
-    put(*merged, loads);
+    put(*merged, loads, sea);
     copy_fast_motions(*out, *merged);
     out->merged = std::move(merged);
   }

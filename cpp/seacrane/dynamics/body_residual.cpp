@@ -82,7 +82,7 @@ LoadInput<BodyResidual::Scalar> BodyResidual::clear() {
   }
   const LoadInput<double> now = terms_->load_input(t_, held_.memory);
   sum_ = LoadSum<Scalar>{wrench_.data(), state_rate_.data()};
-  return {t_, now.curve_limit, bodies_.data(), now.slots, state_.data(), now.inertial};
+  return {t_, now.curve_limit, bodies_.data(), now.slots, state_.data(), now.inertial, now.sea};
 }
 
 void BodyResidual::differentiate(int b) {

@@ -19,7 +19,8 @@ Terms::Terms(std::shared_ptr<const Model> model)
       first_load_state_(model_->layout.loads - model_->layout.memory),
       slots_(idx(model_->slot_count), 0.0),
       inertial_(VecXd::Zero(model_->inertial_tensions)),
-      histories_(*model_) {
+      histories_(*model_),
+      sea_(model_->sea, model_->stencils) {
   const Model& m = *model_;
   const auto bodies = idx(m.body_count());
   bodies_.assign(bodies + 1, BodyKinematics<double>::ground());

@@ -10,6 +10,7 @@
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/wave_forces.hpp"
 #include "seacrane/model/model.hpp"
+#include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 
@@ -73,13 +74,15 @@ class Terms {
   }
   const BodyLoad<double>& applied(int body) const { return wrench_[idx(body)]; }
   const WaveForces& waves(std::size_t load) const { return waves_[load]; }
+  const SeaView& sea() const { return sea_; }
   /// For two that evaluate the same wave loads in one run, at about the same times.
   void share_wave_knots(const Terms& other);
   /// x, y and yaw of the vessel where its wave loads are taken; `memory`: the memory part of a state.
   Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
   /// What loads look at; `memory`: the memory part of a state.
   LoadInput<double> load_input(double t, const double* memory) const {
-    return {t, curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_, inertial_.data()};
+    return {t,    curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_, inertial_.data(),
+            &sea_};
   }
   /// The power of the loads without potential, drivers included.
   const Power& power() const { return power_; }
@@ -116,6 +119,7 @@ class Terms {
   std::vector<Vec6d> bias_, load_;
   std::vector<RowBlock<double>> blocks_;
   std::vector<WaveForces> waves_;
+  SeaView sea_;
   Power power_;
 };
 

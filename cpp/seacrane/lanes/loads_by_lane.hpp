@@ -8,6 +8,7 @@
 
 #include "seacrane/elements/loads/load_list.hpp"
 #include "seacrane/math/pack.hpp"
+#include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 
@@ -22,9 +23,14 @@ class LoadsByLane {
   using Lists = std::array<const LoadList*, L>;
 
   /// For lists of loads of `bodies` bodies, with `states` states of all loads, and `read`, whose forces
-  /// others ask for.
-  LoadsByLane(std::vector<Lists> lists, const std::vector<Lists>& read, int bodies, std::size_t states)
-      : lists_(std::move(lists)), wrench_(idx(bodies) + 1), total_(idx(bodies) + 1), rates_(states, 0.0) {
+  /// others ask for; `seas`: one for each lane.
+  LoadsByLane(std::vector<Lists> lists, const std::vector<Lists>& read, int bodies, std::size_t states,
+              std::vector<SeaView> seas)
+      : lists_(std::move(lists)),
+        seas_(std::move(seas)),
+        wrench_(idx(bodies) + 1),
+        total_(idx(bodies) + 1),
+        rates_(states, 0.0) {
     for (const Lists& list : lists_) {
       look_at(list);
       for (std::size_t i = 0; i < list[0]->size(); ++i) {
@@ -60,6 +66,7 @@ class LoadsByLane {
     out.bodies = kinematics_[idx(lane)].data();
     out.states = states_[idx(lane)].data();
     out.inertial = inertial;
+    out.sea = &seas_[idx(lane)];
     return out;
   }
 
@@ -134,6 +141,7 @@ class LoadsByLane {
   }
 
   std::vector<Lists> lists_;
+  std::vector<SeaView> seas_;
   std::vector<int> bodies_;
   std::vector<std::size_t> own_states_;
   std::array<bool, L> frozen_{};

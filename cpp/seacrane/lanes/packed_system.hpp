@@ -40,7 +40,7 @@ class PackedSystem final : public LaneSystem {
         actuators_(actuators_of(models, tree_)),
         driven_(*model_, tree_),
         by_lane_(loads_by_lane(models), drives_by_lane(models), model_->body_count(),
-                 model_->load_states.size()),
+                 model_->load_states.size(), seas_of(models)),
         tensions_(by_lane_.lists(), model_->body_count(), tree_.speeds),
         torque_(idx(tree_.speeds), T(0.0)),
         speeds_(tree_.positions),
@@ -190,6 +190,11 @@ class PackedSystem final : public LaneSystem {
       Lists& lists = out.emplace_back();
       for (std::size_t lane = 0; lane < L; ++lane) lists[lane] = &*actuators_of_lane(lane).others().lists[i];
     }
+    return out;
+  }
+  static std::vector<SeaView> seas_of(const LaneModels& models) {
+    std::vector<SeaView> out;
+    for (const auto& model : models) out.emplace_back(model->stepped().sea, model->stepped().stencils);
     return out;
   }
   /// Lists with loads along coordinates of the tree whose forces differ.

@@ -22,6 +22,8 @@
 /// is the inertial frame. Scenes are checked as a whole before they are compiled.
 namespace seacrane {
 
+class SeaField;
+
 /// A joint coordinate to record.
 struct RecordedCoordinate : CoordinateDescription {
   std::string name = "";  // empty: that of the joint
@@ -89,6 +91,7 @@ struct SceneDescription {
   LoadDescriptions loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
+  std::shared_ptr<const SeaField> sea;  // null: still water
   std::vector<RecordedCoordinate> coordinates;
   std::vector<PointDescription> points;
   std::vector<LimitDescription> limits;

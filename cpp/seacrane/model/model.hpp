@@ -14,6 +14,7 @@
 #include "seacrane/model/limit.hpp"
 #include "seacrane/model/line_bounce.hpp"
 #include "seacrane/model/merge.hpp"
+#include "seacrane/sea/flow_stencil.hpp"
 
 namespace seacrane {
 
@@ -89,6 +90,8 @@ struct Model {
   CompiledLoads loads;
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
+  std::shared_ptr<const SeaField> sea;  // null: still water
+  std::vector<FlowStencil> stencils;    // at which loads look at it
   std::vector<CoordinateData> coordinates;
   std::vector<Attachment> points;
   std::vector<InputModel> inputs;      // in the order of their slots

@@ -64,13 +64,14 @@ Correlation correlation(const WaveComponents& waves, double lag) {
 
 WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> amplitude,
                                std::vector<double> phase, std::vector<double> direction, double depth,
-                               double gravity)
+                               double gravity, Current current)
     : omega_(std::move(omega)),
       amplitude_(std::move(amplitude)),
       phase_(std::move(phase)),
       direction_(std::move(direction)),
       depth_(depth),
-      gravity_(gravity) {
+      gravity_(gravity),
+      current_(std::move(current)) {
   const std::size_t n = omega_.size();
   sea::require(n > 0, kComponents, "number of components", n, "give at least one");
   sea::require(depth > 0.0, kComponents, "depth", depth, "give a depth above zero in m, or infinity");
@@ -81,11 +82,20 @@ WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> am
   require_each(amplitude_, "amplitude", n, 0.0, "give an amplitude of zero or more in m");
   require_each(phase_, "phase", n, any, "give a finite phase in rad");
   require_each(direction_, "direction", n, any, "give a finite direction in rad");
-  for (const double w : omega_) wavenumber_.push_back(seacrane::wavenumber(w, depth, gravity));
   for (const double b : direction_) {
     direction_x_.push_back(std::cos(b));
     direction_y_.push_back(std::sin(b));
   }
+  for (std::size_t i = 0; i < n; ++i) add_wavenumber(i);
+}
+
+void WaveComponents::add_wavenumber(std::size_t i) {
+  const double w = omega_[i], x = direction_x_[i], y = direction_y_[i];
+  const double k = current_.wavenumber(w, x, y, depth_, gravity_);
+  sea::require(!std::isnan(k), kComponents, "omega[" + std::to_string(i) + "]", w,
+               "the current stops this wave, which comes against it; leave it out");
+  wavenumber_.push_back(k);
+  intrinsic_.push_back(current_.any() ? w - k * current_.carrying(k, x, y, depth_) : w);
 }
 
 double WaveComponents::phase_at(std::size_t i, double x, double y) const {

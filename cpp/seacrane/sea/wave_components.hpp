@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "seacrane/sea/current.hpp"
 #include "seacrane/sea/spectrum.hpp"
 
 namespace seacrane {
@@ -19,14 +20,17 @@ struct RepeatPeriod {
 class WaveComponents {
  public:
   /// Vectors of one length: rad/s (above zero), m (zero or more), rad, rad. Wavenumbers follow from the
-  /// linear dispersion relation at `depth` (m, infinity for deep water).
+  /// linear dispersion relation at `depth` (m, infinity for deep water) on the current; frequencies are those
+  /// that a fixed observer sees. A component that the current stops is refused.
   WaveComponents(std::vector<double> omega, std::vector<double> amplitude, std::vector<double> phase,
                  std::vector<double> direction, double depth = std::numeric_limits<double>::infinity(),
-                 double gravity = standard_gravity);
+                 double gravity = standard_gravity, Current current = {});
 
   std::size_t size() const { return omega_.size(); }
   const std::vector<double>& omega() const { return omega_; }
   const std::vector<double>& wavenumber() const { return wavenumber_; }
+  /// omega - k U, with which the water moves: sqrt(g k tanh k depth).
+  const std::vector<double>& intrinsic() const { return intrinsic_; }
   const std::vector<double>& direction() const { return direction_; }
   const std::vector<double>& amplitude() const { return amplitude_; }
   const std::vector<double>& phase() const { return phase_; }
@@ -35,6 +39,7 @@ class WaveComponents {
   const std::vector<double>& direction_y() const { return direction_y_; }
   double depth() const { return depth_; }
   double gravity() const { return gravity_; }
+  const Current& current() const { return current_; }
 
   double elevation(double t, double x, double y) const;
   /// phase_i - k_i (x cos b_i + y sin b_i).
@@ -54,8 +59,12 @@ class WaveComponents {
   RepeatPeriod repeat_period(double horizon = 10800.0) const;
 
  private:
-  std::vector<double> omega_, amplitude_, phase_, direction_, wavenumber_, direction_x_, direction_y_;
+  void add_wavenumber(std::size_t i);
+
+  std::vector<double> omega_, amplitude_, phase_, direction_, wavenumber_, intrinsic_, direction_x_,
+      direction_y_;
   double depth_, gravity_;
+  Current current_;
 };
 
 }  // namespace seacrane

@@ -38,8 +38,8 @@ WaveParticle kinematics(const WaveComponents& waves, double t, double x, double 
       stretching == Stretching::wheeler ? (z - out.elevation) / (1.0 + out.elevation / depth) : z;
   const double level = std::clamp(stretched, -depth, 0.0);
   for (std::size_t i = 0; i < waves.size(); ++i) {
-    const double w = waves.omega()[i], a = waves.amplitude()[i];
-    const double angle = w * t + waves.phase_at(i, x, y);
+    const double w = waves.intrinsic()[i], a = waves.amplitude()[i];
+    const double angle = waves.omega()[i] * t + waves.phase_at(i, x, y);
     const double cosine = std::cos(angle), sine = std::sin(angle);
     const Decay d = decay(waves.wavenumber()[i], depth, level);
     const double along = a * w * d.horizontal, up = a * w * d.vertical;
@@ -52,6 +52,9 @@ WaveParticle kinematics(const WaveComponents& waves, double t, double x, double 
     out.acceleration[2] -= w * up * cosine;
     out.pressure_per_density += waves.gravity() * a * d.pressure * cosine;
   }
+  const auto current = waves.current().at<double>(level);
+  out.velocity[0] += current.x;
+  out.velocity[1] += current.y;
   return out;
 }
 

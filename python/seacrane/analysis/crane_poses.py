@@ -16,6 +16,7 @@ from seacrane.description.drives import add_driver
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 
@@ -62,7 +63,7 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
     path : mapping of str to Curve
         Some of them from their described value 0 on; the others are held.
     """
-    out = driven(with_ideal_cylinders(scene)).copy(waves=None)
+    out = driven(with_ideal_cylinders(scene)).copy(waves=calm_water(scene.waves))
     for rope in luffing_ropes(scene).values():  # its hinge is led; what it carries is told from the moment
         out.loads.pop(rope.name, None)
     still = _core.Curve.constant(value=0.0)

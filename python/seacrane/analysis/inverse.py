@@ -20,6 +20,7 @@ from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
@@ -67,7 +68,7 @@ def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
     """The scene with actuators and hydraulic cylinders replaced by drivers at rest, vessels held, calm."""
     ideal = with_ideal_cylinders(scene)
     out = driven(ideal, references={name: _core.Curve.constant(value=0.0) for name in ideal.actuators})
-    out = out.copy(waves=None, springs=dict(scene.springs))
+    out = out.copy(waves=calm_water(out.waves), springs=dict(scene.springs))
     if hold_vessels:
         for vessel in _afloat(scene):
             _hold(out, vessel.body, {motion: _core.Curve.constant(value=0.0) for motion in SIX})
@@ -259,7 +260,7 @@ def inverse_dynamics(
     SceneError
         If the prescribed motions leave a degree of freedom open: use `driven` and `simulate` for that.
     """
-    out = driven(scene, references=references).copy(waves=None)
+    out = driven(scene, references=references).copy(waves=calm_water(scene.waves))
     motions = {vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in _afloat(scene)}
     motions |= {body: dict(curves) for body, curves in (body_motion or {}).items()}
     for body, curves in motions.items():

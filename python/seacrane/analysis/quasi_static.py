@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.analysis.inverse import actuator_loads, driven
 from seacrane.analysis.rest_state import held, rest_states
 from seacrane.description.description import Description
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, vector_of
 from seacrane.inputs.shown import shown
@@ -55,7 +56,7 @@ def quasi_static_loads(
         raise SceneError("quasi-static loads: times do not increase; give them in order, each once")
     if not scene.actuators:
         raise SceneError(f"scene {scene.name!r}: has no actuator to hold; add_actuator first")
-    out = driven(scene, references=references).copy(waves=None)
+    out = driven(scene, references=references).copy(waves=calm_water(scene.waves))
     solved = _first_of_each_pose(out, instants)
     found = {
         state.time: actuator_loads(scene, held(out, time=state.time), state)

@@ -21,6 +21,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
 from seacrane.one_thread import one_thread
@@ -48,7 +49,7 @@ def held(scene: Some, *, time: float = 0.0) -> Some:
 
     Its state of orientation is the quaternion and it has no Baumgarte stabilisation: motions are the same.
     """
-    out = scene.copy(waves=None, orientation="quaternion", baumgarte=0.0)
+    out = scene.copy(waves=calm_water(scene.waves), orientation="quaternion", baumgarte=0.0)
     for name, actuator in scene.actuators.items():
         out.actuators[name] = _core.Actuator(
             name=name, joint=actuator.joint, coordinate=actuator.coordinate,
@@ -150,7 +151,7 @@ def _followed(scene: Description, state: _core.State, time: float) -> Array:
     values = np.array(state.values)
     if not scene.drivers:
         return values
-    model = compile_scene(scene.copy(waves=None, orientation="quaternion", baumgarte=0.0))
+    model = compile_scene(scene.copy(waves=calm_water(scene.waves), orientation="quaternion", baumgarte=0.0))
     evaluator = _core.Evaluator(model)
     for instant in np.linspace(state.time, time, int(np.ceil((time - state.time) / FOLLOW)) + 1)[1:]:
         values = evaluator.project(float(instant), values)

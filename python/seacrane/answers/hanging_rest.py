@@ -7,6 +7,7 @@ import warnings
 from seacrane.answers.rest_columns import AtRest, pulls_of
 from seacrane.answers.statics import resting
 from seacrane.description.description import Some
+from seacrane.description.waves import calm_water
 from seacrane.errors import SeacraneError
 from seacrane.one_thread import one_thread
 from seacrane.result import Result
@@ -24,7 +25,7 @@ def lifted(scene: Some) -> Some:
 @one_thread
 def hanging_rest(scene: Some) -> AtRest:
     """Its state at rest with every load off its deck, calm and held as at the start; SceneError for none."""
-    return next(resting(lifted(scene).copy(waves=None), None, [{}], None))
+    return next(resting(lifted(scene).copy(waves=calm_water(scene.waves)), None, [{}], None))
 
 
 def static_pulls(result: Result) -> dict[str, float] | str:

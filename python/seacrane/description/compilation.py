@@ -34,6 +34,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
 
 def _compiled(scene: Description, merge: bool) -> _core.Model:
     scene = with_holds(scene)
+    sea = None if scene.waves is None else pruned(scene.waves, prune=merge)
     for line in lines_of(scene.loads).values():
         if line.winch:
             refuse_heavy_winch(line)
@@ -48,10 +49,11 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
         drivers=list(scene.drivers.values()),
         loads=compiled_loads(scene.all_loads()),
         vessels=list(scene.vessels.values()),
-        wave_loads=[] if scene.waves is None else compiled_waves(scene.waves, prune=merge),
+        wave_loads=[] if sea is None else compiled_waves(sea),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()),
         merge=merge,
+        **({} if sea is None else {"sea": field_of(sea)}),
     )
     warn_of_moves(scene, model)
     if model.redundant:
@@ -77,7 +79,8 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     """
     assert scene.waves is not None
     _, merge = model.compiled_from
-    out = model.in_sea(compiled_waves(scene.waves, prune=merge))
+    sea = pruned(scene.waves, prune=merge)
+    out = model.in_sea(compiled_waves(sea), sea=field_of(sea))
     out.compiled_from = (scene, merge)
     return out
 
@@ -88,17 +91,29 @@ def compiled(scene: Description, merge: bool) -> _core.Model:
         return compile_scene(scene, merge=merge)
 
 
-def compiled_waves(waves: Waves, *, prune: bool = True) -> list[_core.WaveLoads]:
-    """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
-
-    `prune` leaves out the components that are negligible.
-    """
-    bodies = [text_of("waves: body", body) for body in waves.hulls]
+def pruned(waves: Waves, *, prune: bool = True) -> Waves:
+    """The sea without the components that are negligible; raises SceneError for values that make no sense."""
     try:
-        sea = without_negligible(waves) if prune else waves
+        return without_negligible(waves) if prune else waves
     except (TypeError, ValueError) as error:
-        raise SceneError(f"waves on {', '.join(map(repr, bodies))}: {error}") from error
-    return [_loads_on(sea, body) for body in bodies]
+        raise SceneError(f"waves on {_hulls_of(waves)}: {error}") from error
+
+
+def _hulls_of(waves: Waves) -> str:
+    return ", ".join(map(repr, waves.hulls)) or "no vessel"
+
+
+def field_of(waves: Waves) -> _core.SeaField:
+    """What moving points see of a sea; raises SceneError for values that make no sense."""
+    try:
+        return waves.field()
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"waves on {_hulls_of(waves)}: {error}") from error
+
+
+def compiled_waves(waves: Waves) -> list[_core.WaveLoads]:
+    """The loads for the compiled core; raises SceneError for shapes or values that make no sense."""
+    return [_loads_on(waves, text_of("waves: body", body)) for body in waves.hulls]
 
 
 def _loads_on(waves: Waves, body: str) -> _core.WaveLoads:

@@ -14,12 +14,19 @@ from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import notes_from_node
+from seacrane.sea.current import Current
 
 OLD = "information"  # what version 0.1 calls the provenance
 _ARRAYS = ("omega", "amplitude", "phase", "direction")
 _TRANSFER = ("transfer_real", "transfer_imaginary")
 # Entries that older files do not have.
-_ADDED_LATER: dict[str, Any] = {"evaluation": "table", "negligible": 1e-9}
+_ADDED_LATER: dict[str, Any] = {
+    "evaluation": "table",
+    "negligible": 1e-9,
+    "current": None,
+    "stretching": "wheeler",
+}
+_CURRENT = ("depth", "speed", "direction_deg")
 _HULL_ADDED_LATER: dict[str, Any] = {
     "heading": 0.0,
     "force_by_heading": None,
@@ -35,6 +42,7 @@ def waves_to_data(waves: Waves) -> dict[str, Any]:
     out: dict[str, Any] = {"relative_bound": float(waves.relative_bound)}
     out["depth"] = None if waves.depth == math.inf else float(waves.depth)
     out["evaluation"], out["negligible"] = waves.evaluation, float(waves.negligible)
+    out["current"], out["stretching"] = _current_to_data(waves.current), waves.stretching
     out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS}
     out["hulls"] = [_hull_to_data(body, hull) for body, hull in waves.hulls.items()]
     out["provenance"] = sea_to_data(waves.provenance)
@@ -81,10 +89,25 @@ def waves_from_node(node: Node) -> Waves:
         depth=math.inf if depth.value is None else depth.number(),
         **tables,
         negligible=node.at("negligible").number(),
+        current=_current_from_node(node.at("current")),
+        stretching=node.at("stretching").text(),
         provenance=_provenance(node.at(told), told),
         hulls=hulls,
         **arrays,
     )
+
+
+def _current_to_data(current: Current | None) -> dict[str, Any] | None:
+    if current is None:
+        return None
+    return {key: np.asarray(getattr(current, key), dtype=float).tolist() for key in _CURRENT}
+
+
+def _current_from_node(node: Node) -> Current | None:
+    if node.value is None:
+        return None
+    node.expect(_CURRENT)
+    return Current(**{key: node.at(key).array((-1,)) for key in _CURRENT})
 
 
 def _provenance(node: Node, told: str) -> SeaProvenance:

@@ -18,9 +18,12 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
+from seacrane.sea.current import Current
 from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
+STRETCHING = ("wheeler", "none")
+CHOICE = " or ".join(map(repr, STRETCHING))
 
 
 class _ReadOnly:
@@ -136,6 +139,11 @@ class Waves(_ReadOnly):
     negligible : float
         Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
         are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
+    current : Current, optional
+        On which the waves travel. Frequencies are those that a fixed observer sees, wavenumbers follow.
+    stretching : str
+        How moving points see the waves above and below the still water, "wheeler" or "none"; see
+        `Scene.sea_at`.
     provenance : SeaProvenance
         What the sea was made from, and its realisation: seed, realised Hs, repeat period.
     """
@@ -149,12 +157,18 @@ class Waves(_ReadOnly):
     depth: float = float("inf")
     evaluation: str = "table"
     negligible: float = 1e-9
+    current: Current | None = None
+    stretching: str = "wheeler"
     provenance: SeaProvenance = field(default_factory=SeaProvenance)
 
     def __post_init__(self) -> None:
         hulls = self.hulls
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
+        if not (self.current is None or isinstance(self.current, Current)):
+            raise SceneError(f"waves: current is {shown(self.current)}; give a seacrane.sea.Current")
+        if self.stretching not in STRETCHING:
+            raise SceneError(f"waves: stretching is {shown(self.stretching)}; choose {CHOICE}")
         if not isinstance(self.provenance, SeaProvenance):
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
@@ -194,13 +208,23 @@ class Waves(_ReadOnly):
 
     def components(self) -> _core.WaveComponents:
         """The sea alone."""
+        flow: dict[str, Any] = {} if self.current is None else {"current": self.current.core()}
         return _core.WaveComponents(
             omega=self.omega,
             amplitude=self.amplitude,
             phase=self.phase,
             direction=self.direction,
             depth=self.depth,
+            **flow,
         )
+
+    def field(self) -> _core.SeaField:
+        """What moving points see of the sea."""
+        return _core.SeaField(self.components(), stretching=self.stretching)
+
+    def calm(self) -> Waves | None:
+        """The same water without waves, at rest or on its current: what a scene rests in."""
+        return None if self.current is None else flowing_water(self.current, self.depth, self.stretching)
 
     def warn_of_repeats(self, duration: float) -> None:
         """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
@@ -213,3 +237,17 @@ class Waves(_ReadOnly):
                 "comes later adds nothing to extremes or statistics; put more components into the same band",
                 RepeatingSeaWarning,
             )
+
+
+def flowing_water(current: Current, depth: float, stretching: str) -> Waves:
+    """A sea without waves that flows: one component of no height."""
+    none = np.zeros(1)
+    return Waves(
+        omega=none + 1.0, amplitude=none, phase=none, direction=none, hulls={}, depth=depth, current=current,
+        stretching=stretching,
+    )  # fmt: skip
+
+
+def calm_water(waves: Waves | None) -> Waves | None:
+    """The water of a scene without its waves."""
+    return None if waves is None else waves.calm()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     """A copy of the scene in another sea, all else of which is as it was; repeats are not looked for."""
     assert scene.waves is not None
     old = scene.waves
-    out = scene.copy(waves=_realised(scene, given))
+    out = scene.copy(waves=replace(_realised(scene, given), stretching=old.stretching))
     for body, hull in old.hulls.items():
         _put(out, body, hull, old)
     return out
@@ -39,14 +40,14 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
 def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
     """The sea of the scene with other words, no vessel in it yet."""
     assert scene.waves is not None
-    record, depth = scene.waves.provenance.sea, scene.waves.depth
+    record, depth, current = scene.waves.provenance.sea, scene.waves.depth, scene.waves.current
     if record is not None:
         sea = sea_state_of(record, given.get("seed", record["seed"]))
-        return realised_sea(sea, {}, depth, look_for_repeats=False)
+        return realised_sea(sea, {}, depth, current=current, look_for_repeats=False)
     settings = _settings(scene)
     if "gamma" not in given and settings["spectrum"] != "jonswap":
         settings.pop("gamma")
-    return realised_sea(None, {**settings, **given}, depth, look_for_repeats=False)
+    return realised_sea(None, settings | dict(given), depth, current=current, look_for_repeats=False)
 
 
 def require_same_sea(scene: Scene, words: Collection[str]) -> None:

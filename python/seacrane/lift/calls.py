@@ -26,7 +26,7 @@ from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import FlowCoefficients
-from seacrane.sea import SeaState, WaveSystem, cos_2s
+from seacrane.sea import Current, SeaState, WaveSystem, cos_2s
 
 Keywords = dict[str, Any]
 ANGLES = ("angle", "roll", "pitch", "yaw")
@@ -36,6 +36,7 @@ MOTIONS = ("motion", "database", "raos", "history")  # what tells how a given ve
 _MADE: Mapping[str, Callable[..., Any]] = {
     "payload": Payload,
     "coefficients": FlowCoefficients,
+    "current": Current,
     "first_frame": _core.Frame,
     "second_frame": _core.Frame,
     "frame": _core.Frame,

@@ -107,11 +107,13 @@ def _flow(name: str, add: Callable[..., Any]) -> Table:
     """Wind or current."""
     more = {"angle": ROW | {"unit": "rad"}, "x": ROW, "y": ROW, "yaw": ROW}
     coefficients = keys_of(wind_current.FlowCoefficients, more=more)
-    table = _call(name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients})
+    table = _call(
+        name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients}, draught=LENGTH
+    )
     if add is wind_current.add_wind:
         return table
     texts = {key.name: key.text for key in keys_of(wind_current.add_wind, _core.FlowForce)}
-    return replace(table, keys=tuple(replace(key, text=texts[key.name]) for key in table.keys))
+    return replace(table, keys=tuple(replace(key, text=texts.get(key.name, key.text)) for key in table.keys))
 
 
 TANK = (

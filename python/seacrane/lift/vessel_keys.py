@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, get_overloads
 
+from seacrane.description.waves import STRETCHING
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.key_shapes import CHOSEN, LENGTH, NUMBER, POINT, TIME
@@ -12,7 +13,7 @@ from seacrane.lift.keys import Key, keys_of
 from seacrane.scene import given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.sea import SeaState, WaveSystem
+from seacrane.sea import Current, SeaState, WaveSystem
 
 READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
 
@@ -102,12 +103,19 @@ def sea_keys() -> tuple[Key, ...]:
         sea.add_sea,
         more=CHOSEN | {
             "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
-            "position": POINT | {"shapes": ((2,),)},
+            "position": POINT | {"shapes": ((2,),)}, "stretching": {"choices": STRETCHING},
+            "current": {"type": "table", "keys": _current_keys()},
         },
         without=("sea",),
     )  # fmt: skip
     beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
     return (*plain, *beside, Key(name="systems", **several))
+
+
+def _current_keys() -> tuple[Key, ...]:
+    row = {"type": "array", "shapes": ((-1,),)}
+    units = {"depth": "m", "speed": "m/s", "direction_deg": "deg"}
+    return keys_of(Current, more={name: row | {"unit": unit} for name, unit in units.items()})
 
 
 def _system_keys() -> tuple[Key, ...]:

@@ -16,6 +16,7 @@ from seacrane import _core
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import equilibrium, held
+from seacrane.description.waves import calm_water
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.study import Start
@@ -319,7 +320,7 @@ def _calm_extremes(
     scene: Scene, state: _core.State, asked: _Asked, method: Method, outputs: Outputs
 ) -> Array:
     """What each criterion reaches in the same lift in calm water."""
-    calm = scene.copy(waves=None)
+    calm = scene.copy(waves=calm_water(scene.waves))
     stages = asked.stages(calm) if callable(asked.stages) else asked.stages
     result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
     found = []

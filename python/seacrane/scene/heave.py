@@ -17,6 +17,7 @@ from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.places import placed
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
 from seacrane.inputs.frames import rotation_matrix
@@ -291,7 +292,9 @@ def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction
     """
     curves = {name: _core.Curve.constant(value=0.0) for name in scene.actuators}
     curves[actuator] = _core.Curve.pieces(starts=[0.0], coefficients=[[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
-    out = driven(scene, references=curves).copy(waves=None, orientation="quaternion", baumgarte=0.0)
+    out = driven(scene, references=curves).copy(
+        waves=calm_water(scene.waves), orientation="quaternion", baumgarte=0.0
+    )
     given = given_vessels(scene)
     for vessel in scene.vessels.values():
         if vessel.body not in given:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
+from seacrane.description.damping import AIR
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
@@ -18,8 +19,10 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
+from seacrane.scene.wind_current import SEA_WATER
 
 Array = NDArray[np.float64]
+MEDIA = {"air": AIR, "sea": SEA_WATER}  # kg/m3
 CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
 GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
 MOST_SEGMENTS = 1000
@@ -51,8 +54,9 @@ def chain_of_segments(
     settling: float,
     diameter: float,
     drag_coefficient: float,
-    density: float,
+    density: float | None,
     flow: ArrayLike,
+    medium: str,
 ) -> list[_core.Line]:
     """A line with mass between two points: equal elastic segments with point masses between them.
 
@@ -73,6 +77,9 @@ def chain_of_segments(
         stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
     )
+    if text_of(f"{what}: medium", medium) not in MEDIA:
+        raise SceneError(f"{what}: medium is {medium!r}; choose {' or '.join(map(repr, MEDIA))}")
+    fluid = MEDIA[medium] if density is None else density
     places = first.place + _shape(what, chain)
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
@@ -94,7 +101,8 @@ def chain_of_segments(
             scene,
             _core.SpanDrag(
                 name=f"{name}.{i} drag", first=one[0], second=two[0], first_point=one[1], second_point=two[1],
-                density=density, diameter=diameter, length=step, coefficient=drag_coefficient, flow=flow,
+                density=fluid, diameter=diameter, length=step, coefficient=drag_coefficient, flow=flow,
+                in_sea=medium == "sea",
             ),
         )  # fmt: skip
     return lines

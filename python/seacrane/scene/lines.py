@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike
 
 from seacrane import _core
-from seacrane.description.damping import AIR
 from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
@@ -44,7 +43,8 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
         ("tension_at_start", "mass", "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed",
          "strains", "tensions"), STRETCHING),
     **dict.fromkeys(
-        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient", "density", "flow"),
+        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient", "density", "flow",
+         "medium"),
         (WITH_MASS,)),
 }  # fmt: skip
 
@@ -83,8 +83,9 @@ def add_line(
     segment_rung: StretchingRung = "elastic",
     diameter: float = 0.0,
     drag_coefficient: float = CYLINDER_DRAG,
-    density: float = AIR,
+    density: float | None = None,
     flow: ArrayLike = (0.0, 0.0, 0.0),
+    medium: Literal["air", "sea"] = "air",
     breaking_load: float | None = None,
     safety_factor: float | None = None,
 ) -> _core.Line | _core.Limit | list[_core.Line]:
@@ -158,9 +159,13 @@ def add_line(
     drag_coefficient : float
         With mass, across the line; there is none along it. Default 1.2, a cylinder (DNV-RP-C205).
     density : float
-        With mass, kg/m3, of the fluid; default: air. Buoyancy and added mass are left out.
+        With mass, kg/m3, of the fluid; default: that of the medium, air or sea water. Buoyancy and added mass
+        are left out.
     flow : array_like, shape (3,)
         With mass, velocity of the fluid, m/s, inertial axes.
+    medium : {"air", "sea"}
+        With mass. In the sea drag is that of the water's own velocity, waves and current of `add_sea`, on
+        what is below the surface, in place of a flow.
     breaking_load : float, optional
         Minimum breaking load of the rope, one fall, N: `lift_sheet` and the report compare the tension.
     safety_factor : float, optional
@@ -200,7 +205,7 @@ def add_line(
         added = chain_of_segments(
             scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
             segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
-            diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow,
+            diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow, medium=medium,
         )  # fmt: skip
     else:
         if length is not None and tension_at_start is not None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
@@ -13,8 +14,8 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
-from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
-from seacrane.warnings import UnitWarning
+from seacrane.sea import Current, SeaState, Spreading, WaveSystem, cos_2s, jonswap
+from seacrane.warnings import BlockedWavesWarning, UnitWarning
 
 DEFAULTS: dict[str, Any] = {
     "hs": 2.0,
@@ -31,8 +32,9 @@ SPECTRA = ("jonswap", "pierson-moskowitz", "torsethaugen")
 
 
 def realised_sea(
-    sea: SeaState | None, given: dict[str, Any], depth: float, *, look_for_repeats: bool = True
-) -> Waves:
+    sea: SeaState | None, given: dict[str, Any], depth: float, *, current: Current | None = None,
+    look_for_repeats: bool = True,
+) -> Waves:  # fmt: skip
     """A sea with no vessel in it yet, of that depth where it is not a SeaState.
 
     Looking for repeats takes longer than all the rest; without, its provenance does not tell them.
@@ -51,13 +53,15 @@ def realised_sea(
     realised = sea.realise()
     waves = realised.waves
     several = {system.name: system.hs for system in realised.systems} if len(realised.systems) > 1 else None
+    kept = _not_stopped(waves, current)
     return Waves(
-        omega=np.array(waves.omega),
-        amplitude=np.array(waves.amplitude),
-        phase=np.array(waves.phase),
-        direction=np.array(waves.direction),
+        omega=np.array(waves.omega)[kept],
+        amplitude=np.array(waves.amplitude)[kept],
+        phase=np.array(waves.phase)[kept],
+        direction=np.array(waves.direction)[kept],
         hulls={},
         depth=sea.depth,
+        current=current,
         provenance=replace(
             made_from,
             realised_hs_of_systems=several,
@@ -68,6 +72,27 @@ def realised_sea(
             repeat_found=int(realised.repeat.found) if look_for_repeats else None,
         ),
     )
+
+
+def _not_stopped(waves: _core.WaveComponents, current: Current | None) -> NDArray[np.bool_]:
+    """Which components travel on a current; the energy of the others is told."""
+    kept = np.ones(len(waves.omega), dtype=bool)
+    if current is None:
+        return kept
+    on_current = current.core().wavenumber(
+        omega=waves.omega, direction=waves.direction, depth=waves.depth, gravity=waves.gravity
+    )
+    kept = ~np.isnan(on_current)
+    energy = np.array(waves.amplitude) ** 2
+    if not kept.any():
+        raise SceneError("sea: the current stops all its waves; give a slower one, or longer waves")
+    if energy[~kept].any():
+        warn_caller(
+            f"sea: the current stops waves above {np.min(np.array(waves.omega)[~kept]):.4g} rad/s that come "
+            f"against it, {energy[~kept].sum() / energy.sum():.2%} of the energy; they are left out",
+            BlockedWavesWarning,
+        )
+    return kept
 
 
 def _one_system(

@@ -49,6 +49,7 @@ from seacrane.scene import (
     vessel,
     wind_current,
 )
+from seacrane.scene.sea_at import sea_at
 from seacrane.validity.unstable import warn_of_capsize
 
 WIDTH = 100  # characters of a line of text
@@ -146,6 +147,7 @@ class Scene(Description):
     add_given_vessel = given_vessel.add_given_vessel
     add_slack_tank = slack_tank.add_slack_tank
     add_sea = sea.add_sea
+    sea_at = sea_at
     add_ballast = add_ballast
     add_drift = drift.add_drift
     use_actual_position = position.use_actual_position

@@ -13,7 +13,7 @@ from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.vessel_hydrodynamics import Source
-from seacrane.description.waves import HullLoads, Waves
+from seacrane.description.waves import STRETCHING, HullLoads, Waves, flowing_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
@@ -24,13 +24,14 @@ from seacrane.inputs.caller import tell, warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
 from seacrane.scene.position import use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
-from seacrane.sea import SeaState, Spreading
+from seacrane.sea import Current, SeaState, Spreading
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning
 
@@ -49,7 +50,7 @@ LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a
 def add_sea(
     scene: Description,
     *,
-    vessel: str = "vessel",
+    vessel: str | None = "vessel",
     hs: float | None = None,
     tp: float | None = None,
     gamma: float | Literal["dnv"] | None = None,
@@ -65,6 +66,8 @@ def add_sea(
     evaluation: str | None = None,
     phase: Literal["mean", "slow", "actual"] = "mean",
     drift: bool = False,
+    current: Current | None = None,
+    stretching: str | None = None,
 ) -> Waves | None:
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
 
@@ -75,10 +78,11 @@ def add_sea(
 
     Parameters
     ----------
-    vessel : str
-        Body of the vessel.
+    vessel : str or None
+        Body of the vessel. None puts no vessel into it: a sea for what looks at it by itself.
     hs, tp : float
-        Significant wave height (default 2 m; 0 leaves the sea out) and peak period (8 s).
+        Significant wave height (default 2 m) and peak period (8 s). 0 leaves the sea out; with a current it
+        is still water that flows.
     gamma : float or "dnv"
         Peak enhancement of JONSWAP, 1 to 7 (3.3), or by DNV-RP-C205.
     spectrum : str
@@ -105,6 +109,12 @@ def add_sea(
     drift : bool
         Adds Newman's slow drift, see `add_drift`; components beyond its coefficients take those of
         the nearest.
+    current : Current, optional
+        The current of the scene, a profile over depth. Waves travel on it, with the frequencies that a fixed
+        observer sees; `sea_at`, lines in the sea and `add_current` read it.
+    stretching : str
+        How moving points see waves above and below the still water: "wheeler" (default) or "none", see
+        `sea_at`.
 
     The sea is as deep as the database, or as `sea` says. It keeps all its components: loads at frequencies
     that the database does not hold follow from `HydroDatabase.force_at` with ``outside="limits"``.
@@ -132,6 +142,8 @@ def add_sea(
         A hull that follows the database's longest wave by its amplitudes, and is out of phase with it.
     BelowBandWarning
         More than 10 % of the energy of the waves is below the database's trusted band.
+    BlockedWavesWarning
+        Waves that the current stops are left out.
     """
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
@@ -139,18 +151,28 @@ def add_sea(
     if phase not in ("mean", "slow", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
+    if current is not None and not isinstance(current, Current):
+        raise SceneError(f"sea: current is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
-        scene.waves = None
-        return None
-    _require_vessel(scene, vessel)
+        depth = float("inf") if vessel not in scene.bodies else _depth_of(source_of(scene, str(vessel)))
+        scene.waves = None if current is None else flowing_water(current, depth, stretching or STRETCHING[0])
+        return scene.waves
+    if vessel is not None:
+        _require_vessel(scene, vessel)
     if scene.waves is None and sea is None:
         _tell_assumed(given)
-    database = source_of(scene, vessel)
+    database = None if vessel is None else source_of(scene, vessel)
     waves = _evaluated(
-        _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
+        _sea_of(scene, database, vessel, sea, given, current),
+        relative_bound=relative_bound,
+        evaluation=evaluation,
+        stretching=stretching,
     )
+    if vessel is None:
+        scene.waves = waves
+        return waves
     given_motion = given_vessels(scene).get(vessel)
     if database is not None:
         require_depth(waves, database, vessel)
@@ -189,17 +211,26 @@ def _tell_assumed(given: dict[str, Any]) -> None:
 def _sea_of(
     scene: Description,
     database: Source | None,
-    vessel: str,
+    vessel: str | None,
     sea: SeaState | None,
     given: dict[str, Any],
+    current: Current | None,
 ) -> Waves:
     """The sea asked for; in a scene that has a sea, that one, if it is no other."""
     there = scene.waves
+    if there is not None and current is not None and current != there.current:
+        raise SceneError(
+            "sea: a scene has one current, which is given with its sea; leave current out, or set "
+            "scene.waves = None before a new sea"
+        )
     if there is not None and sea is None and not given:
         return there
-    depth = float("inf") if database is None else database.depth
+    depth = _depth_of(database)
     _require_few(sea, given)
-    asked = realised_sea(sea, given, depth if there is None else there.depth)
+    asked = realised_sea(
+        sea, given, depth if there is None else there.depth,
+        current=current if there is None else there.current,
+    )  # fmt: skip
     if there is None:
         return asked
     arrays = ("omega", "amplitude", "phase", "direction", "depth")
@@ -210,6 +241,10 @@ def _sea_of(
             "systems into one SeaState, or set scene.waves = None before a new sea"
         )
     return there
+
+
+def _depth_of(database: Source | None) -> float:
+    return float("inf") if database is None else database.depth
 
 
 def _require_few(sea: SeaState | None, given: dict[str, Any]) -> None:

@@ -15,7 +15,15 @@ from seacrane.description.forces import add_load
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import (
+    curve_of,
+    name_of,
+    not_negative_of,
+    number_of,
+    shaped_of,
+    text_of,
+    vector_of,
+)
 from seacrane.inputs.plausible import direction_of
 from seacrane.warnings import DoubleCountedDampingWarning
 
@@ -140,8 +148,8 @@ def add_current(
     scene: Description,
     coefficients: FlowCoefficients,
     *,
-    speed: float | _core.Curve,
-    direction_deg: float,
+    speed: float | _core.Curve | None = None,
+    direction_deg: float | None = None,
     frontal_area: float,
     lateral_area: float,
     length: float,
@@ -149,17 +157,34 @@ def add_current(
     point: Any = (0.0, 0.0, 0.0),
     density: float = SEA_WATER,
     name: str = "current",
+    draught: float = 0.0,
 ) -> _core.FlowForce:
     """Add current on a vessel by coefficients: `add_wind` with water, areas below the waterline.
 
     The velocity relative to the water is that of `point`, so the load also damps surge and sway; a turning
     vessel is not slowed (no cross-flow drag along its length). Waves and fluid memory do not see the current.
 
+    In a scene whose sea has a current (`add_sea`), leave out speed and direction: the load takes those of the
+    sea, averaged from the surface to the draught, as they are when it is added.
+
+    Parameters
+    ----------
+    speed, direction_deg
+        As of `add_wind`; default: those of the sea's current.
+    draught : float
+        m, over which the sea's current is averaged; default 0: that at the surface.
+
+    Raises
+    ------
+    SceneError
+        For a speed or direction beside those of the sea, or none at all.
+
     Warns
     -----
     DoubleCountedDampingWarning
         The vessel has viscous damping in surge, sway or yaw already.
     """
+    speed, direction_deg = _flow_of(scene, f"flow force {name!r}", speed, direction_deg, draught)
     element = add_wind(
         scene,
         coefficients=coefficients,
@@ -183,3 +208,23 @@ def add_current(
                 DoubleCountedDampingWarning,
             )
     return element
+
+
+def _flow_of(
+    scene: Description,
+    what: str,
+    speed: float | _core.Curve | None,
+    direction_deg: float | None,
+    draught: float,
+) -> tuple[float | _core.Curve, float]:
+    """Speed and direction (deg) of a current: the sea's, or in a scene without one those given."""
+    of_sea = None if scene.waves is None else scene.waves.current
+    if of_sea is None:
+        if speed is None or direction_deg is None:
+            raise SceneError(f"{what}: has no speed or no direction_deg; give both, or add_sea a current")
+        return speed, direction_deg
+    if speed is not None or direction_deg is not None:
+        raise SceneError(
+            f"{what}: the sea has a current, and a scene has one; leave out speed and direction_deg"
+        )
+    return of_sea.mean(not_negative_of(f"{what}: draught", draught, "m"))

@@ -3,6 +3,7 @@
 from seacrane.sea.systems import SeaState as SeaState
 from seacrane.sea.systems import WaveSystem as WaveSystem
 from seacrane.sea.measured import MeasuredWaves as MeasuredWaves
+from seacrane.sea.current import Current as Current
 from seacrane.sea.spectra import jonswap as jonswap
 from seacrane._core import pierson_moskowitz as pierson_moskowitz
 from seacrane.sea.spectra import bretschneider as bretschneider

@@ -206,7 +206,7 @@ class SeaState:
             RealisedSystem(name=system.name, components=slice(int(end - len(part)), int(end)), m0=part.m0)
             for system, part, end in zip(self.systems, parts, ends, strict=True)
         )
-        arrays = {
+        arrays: dict[str, Any] = {
             name: np.concatenate([getattr(part, name) for part in parts])
             for name in ("omega", "amplitude", "phase", "direction")
         }

@@ -17,6 +17,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import bodies_of
 from seacrane.description.provenance import VesselProvenance
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
@@ -204,7 +205,7 @@ def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     if len(scene.vessels) != 1:
         raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")
     (vessel,) = scene.vessels.values()
-    out = scene.copy(waves=None)
+    out = scene.copy(waves=calm_water(scene.waves))
     out.replace(vessel.name, kind="vessel", memory=[])
     curves = {name: spline_curve(times=times, values=motion[:, i]) for i, name in enumerate(SIX)}
     hold_vessel(out, vessel.body, curves)

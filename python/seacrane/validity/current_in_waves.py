@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description
+from seacrane.description.waves import Waves
 from seacrane.validity.energy import Finding
 from seacrane.validity.hull_range import LARGEST_SHIFT, peak_of
 from seacrane.warnings import CurrentInWavesWarning
@@ -32,15 +33,19 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
         peak = peak_of(scene)
         shift = float(peak.phase(flow)[0]) / peak.omega
         if shift > LARGEST_SHIFT:
-            found.append((CurrentInWavesWarning, _told(name, load.body, speed, shift)))
+            found.append((CurrentInWavesWarning, _told(name, load.body, speed, shift, waves)))
     return found
 
 
-def _told(name: str, body: str, speed: float, shift: float) -> str:
+def _told(name: str, body: str, speed: float, shift: float, waves: Waves) -> str:
+    lengths = (
+        "with the wave lengths of still water, which are off by about twice that share; wave loads"
+        if waves.current is None
+        else "with its wave lengths on the current; wave loads"
+    )
     return (
         f"current {name!r}: {speed:.3g} m/s on vessel {body!r} shift the frequency of waves at the peak by "
         f"{shift:.0%} between the water and a fixed place. The sea is taken as a fixed observer sees it, "
-        "with the wave lengths of still water, which are off by about twice that share; wave loads, added "
-        "mass and damping are those without flow. Give the spectrum as measured at a fixed place, and take "
-        "motions in this current as an estimate"
+        f"{lengths}, added mass and damping are those without flow. Give the spectrum as measured at a fixed "
+        "place, and take motions in this current as an estimate"
     )

@@ -11,6 +11,8 @@
 
 namespace seacrane {
 
+class SeaView;
+
 /// What a load may look at. `bodies` holds all bodies and, last, the ground.
 template <class T>
 struct LoadInput {
@@ -20,6 +22,7 @@ struct LoadInput {
   const double* slots;               // zero-order-held inputs
   const T* states;                   // of all loads
   const double* inertial = nullptr;  // tensions that follow from accelerations, see InertialTensions
+  const SeaView* sea = nullptr;      // of a run; see sea_view.hpp
 };
 
 /// A differential state that a load has of its own, which it asks its context for when it is compiled.

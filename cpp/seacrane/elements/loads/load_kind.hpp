@@ -10,6 +10,7 @@
 namespace seacrane {
 
 struct CompiledLoads;
+struct FlowStencil;
 struct Followed;
 
 /// What a load asks for while it is compiled.
@@ -29,6 +30,8 @@ class LoadContext {
   virtual int input(const std::string& name, int count = 1) = 0;
   /// A place among the inertial tensions.
   virtual int inertial_tension() = 0;
+  /// The number of a stencil of points at which the load looks at the sea, see SeaView.
+  virtual int stencil(const FlowStencil& stencil) = 0;
   /// What a load of a kind follows, of those that were compiled before.
   virtual Followed followed(const std::string& kind, const std::string& name) const = 0;
   virtual void lead(const std::string& as, const std::string& name, const Followed& signal) = 0;

@@ -60,6 +60,10 @@ const Axis xyz{"axis", {"x", "y", "z"}};
 const Axis wxyz{"wxyz", {"w", "x", "y", "z"}};
 const Axis motion{"motion", {"surge", "sway", "heave", "roll", "pitch", "yaw"}};
 
+const Axis water{"water",
+                 {"elevation", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y",
+                  "acceleration_z", "pressure"}};
+
 const Axis body{"body", {}, [](const Model& m) { return names_of_all(m.bodies); }};
 const Axis vessel{"vessel", {}, [](const Model& m) { return names_of_all(m.description.vessels); }, true};
 const Axis joint{"joint", {}, [](const Model& m) { return names_of_all(m.description.joints); }};

@@ -4,7 +4,7 @@
 
 namespace seacrane::axes {
 
-extern const Axis xyz, wxyz, motion;
+extern const Axis xyz, wxyz, motion, water;
 extern const Axis body, vessel, joint, joint_coordinate, actuator, driver, link, limit, point, load;
 
 }  // namespace seacrane::axes

@@ -49,6 +49,23 @@ void write_drift_force(const Output& o, double* out) {
       o, [&](const WaveForces& waves, std::size_t vessel) { view<6>(out + 6 * vessel) = waves.drift(); });
 }
 
+bool has_sea(const Model& m) { return m.sea != nullptr; }
+
+/// What the water does at every named point; in air the elevation alone.
+void write_point_wave(const Output& o, double* out) {
+  for (const Attachment& at : o.system.model().points) {
+    const BodyKinematics<double>& k = o.terms.bodies()[idx(at.body)];
+    const Vec3d place = k.position + k.rotation * at.point;
+    const LocalFlow<double> flow = o.terms.sea().at<double>(o.time, place);
+    const double wet = place.z() <= flow.elevation ? 1.0 : 0.0;
+    out[0] = flow.elevation;
+    view<3>(out + 1) = wet * flow.velocity;
+    view<3>(out + 4) = wet * flow.acceleration;
+    out[7] = wet * flow.pressure;
+    out += 8;
+  }
+}
+
 constexpr const char* kWrench = "N (surge, sway, heave), N m (roll, pitch, yaw)";
 
 }  // namespace
@@ -76,6 +93,13 @@ std::vector<Channel> sea_channels() {
        .needs = {.loads = true},
        .offered = has_drift,
        .write = write_drift_force},
+      {.name = "point_wave",
+       .axes = {&axes::point, &axes::water},
+       .unit = "m (elevation), m/s, m/s2, m2/s2 (dynamic pressure over density)",
+       .text = "undisturbed sea at the named point, the current included; in air the elevation alone",
+       .by_default = false,
+       .offered = has_sea,
+       .write = write_point_wave},
   };
 }
 

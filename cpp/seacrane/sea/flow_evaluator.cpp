@@ -1,0 +1,155 @@
+#include "seacrane/sea/flow_evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "seacrane/sea/require.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double rounding = 0x1p-53;
+
+std::string shown(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+/// The first components, in whole packs, behind which none is felt.
+std::size_t felt(const std::vector<double>& amplitude) {
+  std::size_t count = amplitude.size();
+  while (count > 0 && amplitude[count - 1] == 0.0) --count;
+  return (count + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
+}
+
+/// A line from its highest point downwards, so that decays only become smaller.
+struct Descent {
+  std::size_t last;
+  bool rises;
+  Vec3d top, down;
+
+  Descent(const Vec3d& first, const Vec3d& step, std::size_t last_point)
+      : last(last_point),
+        rises(step.z() > 0.0),
+        top(rises ? Vec3d(first + static_cast<double>(last) * step) : first),
+        down(rises ? Vec3d(-step) : step) {}
+  double z(std::size_t n) const { return top.z() + static_cast<double>(n) * down.z(); }
+};
+
+/// Phasors at the highest point, and what turns them; how many components are felt at all.
+std::size_t start(const SeaField& field, double t, const Descent& way, bool whole, sea::FlowScratch& s) {
+  s.amplitude = field.arrays().amplitude;
+  if (whole) sea::filter_amplitudes(field, field.padded(), way.down.x(), way.down.y(), s);
+  const std::size_t count = felt(s.amplitude);
+  sea::set_phasors(field, count, t, way.top.x(), way.top.y(), s);
+  if (way.last > 0) sea::set_turns(field, count, way.down.x(), way.down.y(), s);
+  return count;
+}
+
+/// Without stretching, below the still water: decays follow from those of the point before.
+void descend(const SeaField& field, std::size_t reached, std::size_t n, const Descent& way, double cut,
+             bool first_below, sea::FlowScratch& s) {
+  if (!first_below) return sea::step_decays(reached, s);
+  s.images = field.images(way.z(way.last), cut);
+  sea::set_decays(field, reached, way.z(n), s);
+  sea::set_decay_steps(field, reached, way.down.z(), s);
+}
+
+}  // namespace
+
+FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil)
+    : field_(std::move(field)),
+      stencil_(std::move(stencil)),
+      scratch_(field_ ? field_->padded() : 0),
+      flow_(stencil_.count) {
+  sea::require(stencil_.count > 0, stencil_.name, "number of points", stencil_.count, "give at least one");
+  sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
+               "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
+}
+
+void FlowEvaluator::require_above_floor(double z) const {
+  constexpr double give = 1.01;  // what lies on the sea floor may sink into it a little
+  if (!(z < -give * field_->depth())) return;
+  throw std::domain_error(stencil_.name + ": is at z = " + shown(z) +
+                          " m, below the sea floor at z = " + shown(-field_->depth()) +
+                          " m; make the sea deeper, or stop the load above its floor");
+}
+
+void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
+  sea::add_interior(*field_, count, scratch_, out);
+  const auto current = field_->current().at<double>(level);
+  out.velocity += Vec3d(current.x, current.y, 0.0);
+}
+
+void FlowEvaluator::take(std::size_t count, double z, LocalFlow<double>& out) {
+  const double level = field_->level(z, out.elevation);
+  const std::size_t reached = std::min(count, field_->reach(level, stencil_.cut));
+  scratch_.images = field_->images(level, stencil_.cut);
+  sea::set_decays(*field_, reached, level, scratch_);
+  interior(reached, level, out);
+}
+
+std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<const FlowPoint> points) {
+  for (std::size_t n = 0; n < flow_.size(); ++n) {
+    LocalFlow<double>& out = flow_[n] = {};
+    if (!field_) continue;
+    const FlowPoint& at = points[n];
+    require_above_floor(at.position.z());
+    scratch_.amplitude = field_->arrays().amplitude;
+    for (int j = 0; j < 3; ++j) {
+      const double x = at.extents(0, j), y = at.extents(1, j);
+      if (x != 0.0 || y != 0.0) sea::filter_amplitudes(*field_, field_->padded(), x, y, scratch_);
+    }
+    const std::size_t count = felt(scratch_.amplitude);
+    sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), scratch_);
+    sea::add_surface(*field_, count, scratch_, out);
+    take(count, at.position.z(), out);
+  }
+  return flow_;
+}
+
+std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& first, const Vec3d& step,
+                                                       bool whole) {
+  std::fill(flow_.begin(), flow_.end(), LocalFlow<double>());
+  if (!field_) return flow_;
+  const Descent way(first, step, flow_.size() - 1);
+  require_above_floor(way.z(way.last));
+  const std::size_t count = start(*field_, t, way, whole, scratch_);
+  const bool straight = field_->stretching() == Stretching::none;
+  bool first_below = true;
+  for (std::size_t n = 0; n <= way.last; ++n) {
+    LocalFlow<double>& out = flow_[way.rises ? way.last - n : n];
+    const double z = way.z(n);
+    if (n > 0) sea::turn(count, scratch_);
+    sea::add_surface(*field_, count, scratch_, out);
+    if (straight && z < 0.0 && z >= -field_->depth()) {
+      const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
+      descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), scratch_);
+      interior(reached, z, out);
+    } else {
+      take(count, z, out);
+    }
+  }
+  return flow_;
+}
+
+LocalFlow<double> FlowEvaluator::error_bound(double t, double x, double y) const {
+  LocalFlow<double> out;
+  if (!field_) return out;
+  const double points = static_cast<double>(stencil_.count), terms = static_cast<double>(field_->size());
+  const double share = rounding * (8.0 * points + terms + 16.0 + 4.0 * field_->largest_angle(t, x, y));
+  const LocalFlow<double> size = field_->magnitude();
+  LocalFlow<double>::each(size, out, [&](double from, double& to) { to = share * from; });
+  for (int i = 0; i < 3; ++i) {
+    out.velocity[i] += stencil_.cut * size.velocity[i];
+    out.acceleration[i] += stencil_.cut * size.acceleration[i];
+  }
+  out.pressure += stencil_.cut * size.pressure;
+  return out;
+}
+
+}  // namespace seacrane

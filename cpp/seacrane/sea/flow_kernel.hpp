@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "seacrane/sea/sea_field.hpp"
+
+/// Sums over the components of a sea, SeaField::lanes of them side by side. Every number of components is in
+/// whole packs, and sums are added up in one order, so that results do not depend on the processor.
+namespace seacrane::sea {
+
+/// What one stencil keeps for each component, at the point that it is at.
+struct FlowScratch {
+  std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
+  std::vector<double> cosine, sine;            // amplitude times those of the phase angle
+  std::vector<double> turn_cosine, turn_sine;  // of the phase from point to point
+  std::vector<double> decay, image;            // exp(k level), exp(-k (level + 2 depth))
+  std::vector<double> decay_step, image_step;  // their factors from point to point
+
+  std::size_t images = 0;  // how many of the first have an image, whole packs
+
+  explicit FlowScratch(std::size_t padded) {
+    for (auto* array : {&amplitude, &angle, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image,
+                        &decay_step, &image_step}) {
+      array->assign(padded, 0.0);
+    }
+  }
+};
+
+/// Filtered amplitudes: times sin(h) / h, h half the phase between the ends of an extent (x, y), in place.
+void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y, FlowScratch& s);
+void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s);
+void set_turns(const SeaField& field, std::size_t count, double dx, double dy, FlowScratch& s);
+void turn(std::size_t count, FlowScratch& s);
+/// Elevation, its rate, and its slopes.
+void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
+void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s);
+void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s);
+void step_decays(std::size_t count, FlowScratch& s);
+/// Velocity, acceleration and pressure of the waves.
+void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
+
+}  // namespace seacrane::sea

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace seacrane {
+
+/// What an element asks for, fixed when the scene is compiled.
+struct FlowStencil {
+  std::string name;       // the element's own, such as "part 'frame'"
+  std::size_t count = 1;  // of points
+  /// Components that a point hardly feels at its depth are left out: what is lost is at most this share of
+  /// SeaField::magnitude(), in each number. Coefficients of drag and inertia are known to some 20 %.
+  double cut = 1e-5;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,98 @@
+#include "seacrane/sea/sea_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace seacrane {
+namespace {
+
+constexpr double no_floor = 20.0;  // k depth beyond which the sea floor is not felt: exp(-2 * 20) is rounding
+
+std::size_t whole_packs(std::size_t n) {
+  return (n + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
+}
+
+}  // namespace
+
+SeaField::SeaField(const WaveComponents& waves, Stretching stretching)
+    : size_(waves.size()),
+      depth_(waves.depth()),
+      gravity_(waves.gravity()),
+      current_(waves.current()),
+      stretching_(stretching) {
+  std::vector<std::size_t> order(size_);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return waves.wavenumber()[a] < waves.wavenumber()[b];
+  });
+  Arrays& f = arrays_;
+  for (const std::size_t i : order) {
+    const double w = waves.omega()[i], k = waves.wavenumber()[i], sigma = waves.intrinsic()[i];
+    const double x = waves.direction_x()[i], y = waves.direction_y()[i];
+    const bool floor = k * depth_ < no_floor;
+    f.omega.push_back(w);
+    f.sigma.push_back(sigma);
+    f.k.push_back(k);
+    f.kx.push_back(k * x);
+    f.ky.push_back(k * y);
+    f.x.push_back(x);
+    f.y.push_back(y);
+    f.amplitude.push_back(waves.amplitude()[i]);
+    f.phase.push_back(waves.phase()[i]);
+    f.speed.push_back(floor ? sigma / -std::expm1(-2.0 * k * depth_) : sigma);
+    f.pressure.push_back(sigma / k);
+    crest_ += waves.amplitude()[i];
+    largest_omega_ = std::max(largest_omega_, w);
+    largest_phase_ = std::max(largest_phase_, std::fabs(waves.phase()[i]));
+    if (floor) ++with_floor_;
+  }
+  largest_k_ = f.k.back();
+  with_floor_ = whole_packs(with_floor_);
+  for (auto* array :
+       {&f.omega, &f.sigma, &f.kx, &f.ky, &f.x, &f.y, &f.amplitude, &f.phase, &f.speed, &f.pressure}) {
+    array->resize(whole_packs(size_), 0.0);
+  }
+  f.k.resize(whole_packs(size_), largest_k_);
+}
+
+double SeaField::largest_angle(double t, double x, double y) const {
+  return largest_omega_ * std::fabs(t) + largest_k_ * (std::fabs(x) + std::fabs(y)) + largest_phase_;
+}
+
+std::size_t SeaField::reach(double level, double cut) const {
+  if (!(level < 0.0)) return padded();
+  const double largest = std::log(0.5 * cut) / level;
+  const auto end = std::upper_bound(arrays_.k.begin(), arrays_.k.end(), largest);
+  return whole_packs(static_cast<std::size_t>(end - arrays_.k.begin()));
+}
+
+LocalFlow<double> SeaField::magnitude() const {
+  LocalFlow<double> out;
+  const Arrays& f = arrays_;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double a = f.amplitude[i], floor = i < with_floor_ ? std::exp(-2.0 * f.k[i] * depth_) : 0.0;
+    const double along = a * f.speed[i] * (1.0 + floor), up = a * f.speed[i] * (1.0 - floor);
+    out.elevation += a;
+    out.elevation_rate += a * f.omega[i];
+    out.slope[0] += a * std::fabs(f.kx[i]);
+    out.slope[1] += a * std::fabs(f.ky[i]);
+    out.velocity += Vec3d(along * std::fabs(f.x[i]), along * std::fabs(f.y[i]), up);
+    out.acceleration += f.sigma[i] * Vec3d(along * std::fabs(f.x[i]), along * std::fabs(f.y[i]), up);
+    out.pressure += f.pressure[i] * along;
+  }
+  return out;
+}
+
+double SeaField::share_beyond(double length) const {
+  double whole = 0.0, beyond = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double part = std::pow(arrays_.amplitude[i] * arrays_.sigma[i] * arrays_.sigma[i], 2);
+    whole += part;
+    if (arrays_.k[i] * length > 2.0 * std::numbers::pi) beyond += part;
+  }
+  return whole > 0.0 ? beyond / whole : 0.0;
+}
+
+}  // namespace seacrane

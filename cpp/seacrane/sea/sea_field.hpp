@@ -1,0 +1,142 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "seacrane/math/exponential.hpp"
+#include "seacrane/math/sinc_lane.hpp"
+#include "seacrane/sea/local_flow.hpp"
+#include "seacrane/sea/stretching.hpp"
+#include "seacrane/sea/wave_components.hpp"
+
+namespace seacrane {
+
+/// The waves and the current of a scene as sums over components take them: by wavenumber, so that those that
+/// reach a depth are the first ones, and in whole packs of `lanes`, filled up by waves of no height.
+/// Immutable.
+///
+/// With c = cosh k(z + d), s = sinh k(z + d), S = sinh kd, each component of amplitude a, frequency omega for
+/// a fixed observer and sigma = omega - k U for the water, phase angle theta, adds to first order
+///   elevation a cos theta, velocity along it a sigma c/S cos theta and upwards -a sigma s/S sin theta,
+///   accelerations -a sigma^2 c/S sin theta and -a sigma^2 s/S cos theta,
+///   pressure over density a sigma^2 / k c/S cos theta.
+class SeaField {
+ public:
+  static constexpr std::size_t lanes = 4;
+
+  explicit SeaField(const WaveComponents& waves, Stretching stretching = Stretching::wheeler);
+
+  /// One number for each component, padded.
+  struct Arrays {
+    std::vector<double> omega, sigma, k, kx, ky, x, y;  // x, y: cosine and sine of the direction
+    std::vector<double> amplitude, phase;
+    std::vector<double> speed;     // sigma d: c/S = d (exp kz + exp -k(z + 2 depth)), in deep water d = 1
+    std::vector<double> pressure;  // sigma / k
+  };
+  const Arrays& arrays() const { return arrays_; }
+  std::size_t size() const { return size_; }  // without padding
+  std::size_t padded() const { return arrays_.k.size(); }
+  double depth() const { return depth_; }
+  double gravity() const { return gravity_; }
+  const Current& current() const { return current_; }
+  Stretching stretching() const { return stretching_; }
+  /// Sum of all amplitudes, m: no crest is higher.
+  double crest() const { return crest_; }
+  /// A bound of |phase angle| at a time and place.
+  double largest_angle(double t, double x, double y) const;
+
+  /// Where a point at z counts in linear theory, -depth <= level <= 0.
+  template <class T>
+  T level(const T& z, const T& elevation) const {
+    const T own =
+        stretching_ == Stretching::wheeler ? T((z - elevation) / (T(1) + elevation / T(depth_))) : z;
+    return clamped(own, T(-depth_), T(0));
+  }
+
+  /// How many components count at a level: those with exp(k level) >= cut / 2; and of how many the image
+  /// below the sea floor does. Whole packs. What is left out is at most `cut` of magnitude().
+  std::size_t reach(double level, double cut) const;
+  std::size_t images(double level, double cut) const {
+    return std::min(with_floor_, reach(-(level + 2.0 * depth_), cut));
+  }
+
+  /// Share of component i that an element feels whose extents (m) along three of its axes are the columns:
+  /// its mean over the element, the product of sin(x) / x with x = k (extent along the wave) / 2, and nothing
+  /// beyond the first zero of any, where the element is longer than the wave.
+  template <class T>
+  T filter(std::size_t i, const Mat3<T>& extents) const {
+    T out(1);
+    for (int j = 0; j < 3; ++j) {
+      const T half = T(0.5 * arrays_.kx[i]) * extents(0, j) + T(0.5 * arrays_.ky[i]) * extents(1, j);
+      const T square = half * half;
+      T sinc;
+      sinc_lane<T>(square, sinc);
+      out *= select(square < T(sinc_end), sinc, T(0));
+    }
+    return out;
+  }
+
+  /// The flow at a point, component by component: what stencils are faster than, and their slopes.
+  template <class T>
+  LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents = Mat3<T>::Zero()) const;
+
+  /// Bounds of all numbers of a flow: sums of the magnitudes of the components at z = 0.
+  LocalFlow<double> magnitude() const;
+
+  /// Share of the variance of the acceleration that is of waves shorter than an element of this length (m),
+  /// which no filtered stencil feels where they run along it.
+  double share_beyond(double length) const;
+
+ private:
+  /// exp(kz) and its image below the sea floor, of component i.
+  template <class T>
+  std::array<T, 2> decay(std::size_t i, const T& level) const {
+    const T down = exponential(T(arrays_.k[i]) * level);
+    if (i >= with_floor_) return {down, T(0)};
+    return {down, exponential(T(-arrays_.k[i]) * (level + T(2.0 * depth_)))};
+  }
+
+  Arrays arrays_;
+  std::size_t size_ = 0, with_floor_ = 0;
+  double depth_, gravity_, crest_ = 0.0;
+  double largest_omega_ = 0.0, largest_k_ = 0.0, largest_phase_ = 0.0;
+  Current current_;
+  Stretching stretching_;
+};
+
+template <class T>
+LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+  LocalFlow<T> out;
+  const Arrays& f = arrays_;
+  const auto phasor = [&](std::size_t i) {
+    const T angle = T(f.omega[i] * t + f.phase[i]) - (T(f.kx[i]) * point.x() + T(f.ky[i]) * point.y());
+    const CosSin<T> turn = cos_sin(angle);
+    const T amplitude = T(f.amplitude[i]) * filter<T>(i, extents);
+    return CosSin<T>{amplitude * turn.cosine, amplitude * turn.sine};
+  };
+  for (std::size_t i = 0; i < size_; ++i) {
+    const CosSin<T> wave = phasor(i);
+    out.elevation += wave.cosine;
+    out.elevation_rate -= T(f.omega[i]) * wave.sine;
+    out.slope[0] += T(f.kx[i]) * wave.sine;
+    out.slope[1] += T(f.ky[i]) * wave.sine;
+  }
+  const T level = this->level(point.z(), out.elevation);
+  for (std::size_t i = 0; i < size_; ++i) {
+    const CosSin<T> wave = phasor(i);
+    const auto [down, image] = decay(i, level);
+    const T along = T(f.speed[i]) * (down + image), up = T(f.speed[i]) * (down - image);
+    const Vec3<T> direction(T(f.x[i]), T(f.y[i]), T(0));
+    out.velocity += direction * T(along * wave.cosine);
+    out.velocity.z() -= up * wave.sine;
+    out.acceleration -= direction * T(T(f.sigma[i]) * (along * wave.sine));
+    out.acceleration.z() -= T(f.sigma[i]) * (up * wave.cosine);
+    out.pressure += T(f.pressure[i]) * (along * wave.cosine);
+  }
+  const auto current = current_.at<T>(level);
+  out.velocity += Vec3<T>(current.x, current.y, T(0));
+  return out;
+}
+
+}  // namespace seacrane

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "seacrane/sea/flow_evaluator.hpp"
+
+namespace seacrane {
+
+/// What the loads of one run see of the sea: the stencils that they asked for when the scene was compiled, by
+/// the numbers that they got. Const to loads; its scratch belongs to the run, and nothing is allocated.
+class SeaView {
+ public:
+  /// Without a field: deep water, still and at rest.
+  SeaView(std::shared_ptr<const SeaField> field, const std::vector<FlowStencil>& stencils)
+      : field_(std::move(field)) {
+    for (const FlowStencil& one : stencils) evaluators_.emplace_back(field_, one);
+  }
+
+  const SeaField* field() const { return field_.get(); }
+  double depth() const { return field_ ? field_->depth() : std::numeric_limits<double>::infinity(); }
+
+  /// FlowEvaluator::line and cloud; what they return holds until the stencil is evaluated again.
+  std::span<const LocalFlow<double>> line(int stencil, double t, const Vec3d& first, const Vec3d& step,
+                                          bool whole = true) const {
+    return evaluators_[idx(stencil)].line(t, first, step, whole);
+  }
+  std::span<const LocalFlow<double>> cloud(int stencil, double t, std::span<const FlowPoint> points) const {
+    return evaluators_[idx(stencil)].cloud(t, points);
+  }
+
+  /// The flow at the point of a stencil that has one, over an element whose extents are the columns; with
+  /// slopes where T is a Dual.
+  template <class T>
+  LocalFlow<T> one(int stencil, double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+    if constexpr (std::is_same_v<T, double>) {
+      const FlowPoint here{point, extents};
+      return cloud(stencil, t, {&here, 1}).front();
+    } else {
+      return at<T>(t, point, extents);
+    }
+  }
+
+  /// The flow at one point component by component, with slopes where T is a Dual: what Jacobians take.
+  template <class T>
+  LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+    return field_ ? field_->at<T>(t, point, extents) : LocalFlow<T>();
+  }
+  /// The same for a point without extent, whose slopes cost less.
+  template <class T>
+  LocalFlow<T> at(double t, const Vec3<T>& point) const {
+    if (!field_) return {};
+    if constexpr (std::is_same_v<T, double>) {
+      return field_->at<double>(t, point);
+    } else {
+      Vec3<Dual<3>> here;
+      for (int i = 0; i < 3; ++i) here[i] = Dual<3>::variable(point[i].value, i);
+      return along(field_->at<Dual<3>>(t, here), point);
+    }
+  }
+
+ private:
+  std::shared_ptr<const SeaField> field_;
+  mutable std::vector<FlowEvaluator> evaluators_;
+};
+
+}  // namespace seacrane
