@@ -104,17 +104,18 @@ void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
-void RecursiveSystem::evaluate_inertia() {
+void RecursiveSystem::evaluate_inertia(double t, const double* y) {
+  const std::vector<Mat6d>& added = terms_->evaluate_added_inertia(t, y + layout_.memory);
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyModel& body = model_.bodies[idx(b)];
-    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
-    if (body.vessel < 0) {
+    if (!body.full) {
       evaluate_compact(b);
-    } else {
-      bias_[idx(b)] = vessel_terms(body, model_.vessels[idx(body.vessel)], k,
-                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
-      articulated_.set_inertia(b, mass_[idx(b)]);
+      continue;
     }
+    Mat6d& mass = mass_[idx(b)];
+    bias_[idx(b)] = full_terms(model_, body, terms_->bodies()[idx(b)], terms_->frames(), mass);
+    if (!added.empty()) mass += added[idx(b)];
+    articulated_.set_inertia(b, mass);
   }
 }
 
@@ -128,8 +129,8 @@ void RecursiveSystem::evaluate_compact(int body) {
   bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
-void RecursiveSystem::factor(double t) {
-  evaluate_inertia();
+void RecursiveSystem::factor(double t, const double* y) {
+  evaluate_inertia(t, y);
   articulated_.factor();
   if (loops_.rows() == 0) return;
   evaluate_constraints(model_, t, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
@@ -141,7 +142,7 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) { eval
 void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
   y = place(t, y);
   terms_->follow_yaw();
-  factor(t);
+  factor(t, y);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
   read_drives(drive_power_);
@@ -281,7 +282,7 @@ bool RecursiveSystem::follow_drivers(double t, double* y) {
 void RecursiveSystem::strike(double t, double* y) {
   place_as_given(y);
   terms_->follow_yaw();
-  factor(t);
+  factor(t, y);
   for (auto& load : load_) load.setZero();
   articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data(), nullptr, jump_.data());
   for (const Cluster& c : tree_.clusters) {
@@ -297,7 +298,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
   if (!evaluated_here || moved_before) {
     place(t, y);
     terms_->follow_yaw();
-    factor(t);
+    factor(t, y);
   }
   const auto open = [&] {
     loops_.position_residual(blocks_.data(), residual_);
@@ -316,7 +317,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
     move_positions(y, acceleration_.data());
     place(t, y);
     terms_->follow_yaw();
-    factor(t);
+    factor(t, y);
     return open();
   });
   const bool turned = projection::close_rates(
