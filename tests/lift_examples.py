@@ -6,7 +6,7 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
 from seacrane.scene import gust_curve, spline_curve
-from seacrane.water import Box, Sphere
+from seacrane.water import BoxPart, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
@@ -550,7 +550,7 @@ def every_table() -> Scene:
         name="sling", hook="ground", load="box", hook_point=(0, 0, 9), EA=[1e6],
         points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
     )  # fmt: skip
-    parts = [Sphere(diameter=0.4), Box(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
+    parts = [SpherePart(diameter=0.4), BoxPart(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
     scene.add_immersed("bob", parts=parts)
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)

@@ -14,7 +14,15 @@ from scipy.spatial.transform import Rotation
 from seacrane import Scene, SceneError, _core, simulate
 from seacrane.run import Run
 from seacrane.run.lanes import module_of
-from seacrane.water import Box, Cylinder, Plate, Sphere, Table, circle_added_mass, perforation_factor
+from seacrane.water import (
+    BoxPart,
+    CylinderPart,
+    PlatePart,
+    SpherePart,
+    TablePart,
+    circle_added_mass,
+    perforation_factor,
+)
 from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
@@ -75,7 +83,7 @@ def test_perforation_takes_from_the_added_mass_and_its_two_branches_meet() -> No
 
 def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
     side = 2.0
-    piece = next(Box(size=(side, side, 3.0)).pieces(RHO))
+    piece = next(BoxPart(size=(side, side, 3.0)).pieces(RHO))
     up = np.asarray(piece.added_masses)[:, 2]
     first = 0.5 * 0.579 * np.pi / 4.0 * RHO * side**3
     delta = 0.0909 * side
@@ -85,16 +93,16 @@ def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
     assert np.diff(up[early]) / np.diff(piece.depths[early]) == pytest.approx(
         0.5 * RHO * 5.0 * side**2, rel=1e-9
     )
-    stronger = next(Box(size=(side, side, 3.0), slam=10.0).pieces(RHO))
+    stronger = next(BoxPart(size=(side, side, 3.0), slam=10.0).pieces(RHO))
     assert np.interp(3.0, stronger.depths, stronger.added_masses[:, 2]) == pytest.approx(first, rel=1e-4)
 
 
 @pytest.mark.parametrize(
     "part",
     [
-        Box(size=(3.0, 2.0, 1.5), strips=(3, 2)),
-        Plate(size=(4.0, 2.5), thickness=0.05, perforation=0.2, strips=(2, 2)),
-        Cylinder(length=7.0, diameter=1.2),
+        BoxPart(size=(3.0, 2.0, 1.5), strips=(3, 2)),
+        PlatePart(size=(4.0, 2.5), thickness=0.05, perforation=0.2, strips=(2, 2)),
+        CylinderPart(length=7.0, diameter=1.2),
     ],
     ids=lambda part: part.kind,
 )
@@ -132,7 +140,7 @@ DROPS = {
 @pytest.mark.parametrize("formulation", FORMS)
 @pytest.mark.parametrize("mass", DROPS)
 def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(mass: float, formulation: str) -> None:
-    result = run(dropped(Cylinder(length=1.0, diameter=1.0, drag=0.0), mass=mass), 0.3, 0.01, formulation)
+    result = run(dropped(CylinderPart(length=1.0, diameter=1.0, drag=0.0), mass=mass), 0.3, 0.01, formulation)
     z, rate = heights(result)
     loss = np.asarray(result["load_state"]).reshape(-1)
     at = [int(np.argmin(np.abs(np.asarray(result.time) - t))) for t in TIMES]
@@ -145,7 +153,7 @@ def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(mass: float, form
 
 def sunk_and_risen() -> Scene:
     """A light cylinder that goes in, comes out and falls in again."""
-    return dropped(Cylinder(length=1.0, diameter=1.0, drag=0.0), mass=150.0, depth=-0.2, speed=6.0)
+    return dropped(CylinderPart(length=1.0, diameter=1.0, drag=0.0), mass=150.0, depth=-0.2, speed=6.0)
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -172,7 +180,7 @@ def test_momentum_closes_through_entry_exit_and_entry(formulation: str) -> None:
 
 
 def test_touch_and_awash_are_events() -> None:
-    scene = dropped(Cylinder(length=1.0, diameter=1.0), mass=2000.0, depth=-0.1, speed=2.0)
+    scene = dropped(CylinderPart(length=1.0, diameter=1.0), mass=2000.0, depth=-0.1, speed=2.0)
     result = simulate(scene, t_end=1.5, integrator="dopri5", rtol=1e-9)
     named = [event.name for event in result.events]
     assert [name for name in named if name.startswith("load.1")] == ["load.1.touch", "load.1.awash"]
@@ -186,7 +194,7 @@ def test_touch_and_awash_are_events() -> None:
 @pytest.mark.parametrize("formulation", FORMS)
 @pytest.mark.parametrize(
     ("part", "share"),
-    [(Sphere(diameter=2.0, drag=0.0), 0.5), (Cylinder(length=2.0, diameter=1.0, drag=0.0), 1.0)],
+    [(SpherePart(diameter=2.0, drag=0.0), 0.5), (CylinderPart(length=2.0, diameter=1.0, drag=0.0), 1.0)],
     ids=["sphere", "cylinder"],
 )
 def test_a_deep_body_moves_as_its_mass_and_added_mass(part: Part, share: float, formulation: str) -> None:
@@ -209,7 +217,7 @@ def test_a_slender_body_turns_broadside_by_the_moment_of_munk() -> None:
         name="load", mass=mass, inertia=(100.0, inertia, inertia), position=(0.0, 0.0, -200.0),
         velocity=(2.0, 0.3, 0.0),
     )  # fmt: skip
-    scene.add_immersed("load", parts=[Cylinder(length=length, diameter=diameter, drag=0.0, strips=6)])
+    scene.add_immersed("load", parts=[CylinderPart(length=length, diameter=diameter, drag=0.0, strips=6)])
     result = run(scene, 6.0, 0.5)
 
     def rates(_t: float, y: Array) -> list[float]:
@@ -256,12 +264,12 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
     turn = Rotation.random(random_state=seed)
     if kind == "box":
         size = rng.uniform(1.0, 3.0, 3)
-        part: Part = Box(size=size, drag=0.0, added_mass=(0.0, 0.0, 0.0), source="none")
+        part: Part = BoxPart(size=size, drag=0.0, added_mass=(0.0, 0.0, 0.0), source="none")
         inside = lambda p: np.ones(len(p), dtype=bool)  # noqa: E731
     else:
         length, diameter = rng.uniform(1.0, 3.0, 2)
         size = np.array([length, diameter, diameter])
-        part = Cylinder(length=length, diameter=diameter, strips=1, drag=0.0)
+        part = CylinderPart(length=length, diameter=diameter, strips=1, drag=0.0)
         inside = lambda p: p[:, 1] ** 2 + p[:, 2] ** 2 < 0.25 * diameter**2  # noqa: E731
     center = float(rng.uniform(-0.5, 0.5))
     x, y, z, w = turn.as_quat()
@@ -282,7 +290,7 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
 
 def test_an_upright_box_floats_where_its_weight_is_that_of_the_water() -> None:
     mass = 0.37 * RHO * 6.0
-    scene = dropped(Box(size=(3.0, 2.0, 1.0), slam=6.0, drag=20.0), mass=mass, depth=0.3, speed=0.0)
+    scene = dropped(BoxPart(size=(3.0, 2.0, 1.0), slam=6.0, drag=20.0), mass=mass, depth=0.3, speed=0.0)
     result = simulate(scene, t_end=300.0, dt_out=300.0, channels=["position"])
     assert 0.5 - np.asarray(result.select("position", body="load", axis="z"))[-1] == pytest.approx(
         0.37, abs=2e-3
@@ -297,11 +305,11 @@ def random_parts(rng: np.random.Generator) -> Iterator[Part]:
         turn = Rotation.random(random_state=int(rng.integers(1 << 30))).as_matrix()
         return {"point": rng.uniform(-1.0, 1.0, 3), "axes": turn}
 
-    yield Box(size=rng.uniform(0.5, 2.0, 3), strips=(2, 1), perforation=0.15, fill=0.6, **place())
-    yield Cylinder(length=3.0, diameter=0.7, end_drag=0.8, slam=5.15, **place())
-    yield Sphere(diameter=1.3, **place())
-    yield Plate(size=(2.0, 1.5), thickness=0.1, **place())
-    yield Table(
+    yield BoxPart(size=rng.uniform(0.5, 2.0, 3), strips=(2, 1), perforation=0.15, fill=0.6, **place())
+    yield CylinderPart(length=3.0, diameter=0.7, end_drag=0.8, slam=5.15, **place())
+    yield SpherePart(diameter=1.3, **place())
+    yield PlatePart(size=(2.0, 1.5), thickness=0.1, **place())
+    yield TablePart(
         height=1.0, depths=(0.0, 0.4, 1.0, 2.0), volumes=(0.0, 0.3, 0.8, 0.8), drag_area=(1.0, 2.0, 3.0),
         added_masses=((0.0, 0.0, 0.0), (50.0, 60.0, 200.0), (110.0, 150.0, 350.0), (120.0, 180.0, 400.0)),
         source="this test", **place(),
@@ -385,7 +393,7 @@ def test_the_mass_of_a_body_holds_that_of_its_parts() -> None:
         center_of_mass=(0.1, 0.2, -0.3), quaternion=(w, x, y, z),
     )  # fmt: skip
     parts = scene.add_immersed(
-        "load", parts=[Box(size=(2.0, 1.0, 0.5), point=(1.0, 0.0, 0.4), strips=(2, 1))]
+        "load", parts=[BoxPart(size=(2.0, 1.0, 0.5), point=(1.0, 0.0, 0.4), strips=(2, 1))]
     )
     model = scene.compile()
     mass = np.asarray(_core.Evaluator(model, "redundant").terms(0.0, model.initial_state)["mass"])
@@ -423,8 +431,8 @@ def test_a_load_welded_on_a_body_brings_its_added_mass_to_the_carrier() -> None:
         out.add_body(name="box", mass=700.0, inertia=(200.0, 300.0, 300.0), position=(1.5, 0.5, 0.2),
                      velocity=(0.0, 0.0, 0.0))  # fmt: skip
         out.add_joint(kind="weld", name="seafastening", first="deck", second="box", point=(1.0, 0.4, 0.3))
-        out.add_immersed("box", parts=[Box(size=(2.0, 1.0, 1.5))], density=RHO)
-        out.add_immersed("deck", parts=[Sphere(diameter=1.8)], density=RHO)
+        out.add_immersed("box", parts=[BoxPart(size=(2.0, 1.0, 1.5))], density=RHO)
+        out.add_immersed("deck", parts=[SpherePart(diameter=1.8)], density=RHO)
         return out
 
     found = []
@@ -446,7 +454,7 @@ def test_a_load_welded_on_a_body_brings_its_added_mass_to_the_carrier() -> None:
 def test_a_part_of_no_size_moves_nothing() -> None:
     bodies = []
     for parts in (
-        [Box(size=(0.0, 0.0, 0.0)), Sphere(diameter=0.0), Cylinder(length=0.0, diameter=1.0)],
+        [BoxPart(size=(0.0, 0.0, 0.0)), SpherePart(diameter=0.0), CylinderPart(length=0.0, diameter=1.0)],
         None,
     ):
         scene = Scene(name="nothing", gravity=G)
@@ -460,21 +468,21 @@ def test_a_part_of_no_size_moves_nothing() -> None:
 @pytest.mark.parametrize(
     ("made", "message"),
     [
-        (lambda: Box(size=(1.0, 1.0, 1.0), slam=4.0), "slam is 4"),
-        (lambda: Cylinder(length=1.0, diameter=1.0, slam=2.5), "slam is 2.5"),
-        (lambda: Box(size=(1.0, -1.0, 1.0)), "size"),
-        (lambda: Box(size=(1.0, 1.0, 1.0), perforation=0.7), "perforation"),
-        (lambda: Box(size=(1.0, 1.0, 1.0), added_mass=(1.0, 1.0, 1.0)), "source"),
-        (lambda: Box(size=(1.0, 1.0, 1.0), strips=(0, 1)), "strips"),
-        (lambda: Sphere(diameter=-1.0), "diameter"),
+        (lambda: BoxPart(size=(1.0, 1.0, 1.0), slam=4.0), "slam is 4"),
+        (lambda: CylinderPart(length=1.0, diameter=1.0, slam=2.5), "slam is 2.5"),
+        (lambda: BoxPart(size=(1.0, -1.0, 1.0)), "size"),
+        (lambda: BoxPart(size=(1.0, 1.0, 1.0), perforation=0.7), "perforation"),
+        (lambda: BoxPart(size=(1.0, 1.0, 1.0), added_mass=(1.0, 1.0, 1.0)), "source"),
+        (lambda: BoxPart(size=(1.0, 1.0, 1.0), strips=(0, 1)), "strips"),
+        (lambda: SpherePart(diameter=-1.0), "diameter"),
         (
-            lambda: Table(
+            lambda: TablePart(
                 height=1.0, depths=(-1.0, 1.0), volumes=(0.0, 1.0), added_masses=np.zeros((2, 3)), source="t"
             ),
             "depths",
         ),
         (
-            lambda: Table(height=1.0, depths=(0.0, 1.0), volumes=(0.0, 1.0), added_masses=np.zeros((2, 3))),
+            lambda: TablePart(height=1.0, depths=(0.0, 1.0), volumes=(0.0, 1.0), added_masses=np.zeros((2, 3))),
             "source",
         ),
     ],
@@ -493,8 +501,8 @@ def body_only() -> Scene:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"parts": [Sphere(diameter=1.0)], "density": 1.025}, "t/m3"),
-        ({"parts": [Sphere(diameter=1.0, point=(1200.0, 0.0, 0.0))]}, "more than 10 times the size"),
+        ({"parts": [SpherePart(diameter=1.0)], "density": 1.025}, "t/m3"),
+        ({"parts": [SpherePart(diameter=1.0, point=(1200.0, 0.0, 0.0))]}, "more than 10 times the size"),
         ({"parts": []}, "give a list of parts"),
         ({"parts": [3.0]}, "seacrane.water"),
         ({"parts": [{"kind": "pyramid"}]}, "kind"),
@@ -507,7 +515,7 @@ def test_bad_calls_are_refused(given: dict[str, Any], message: str) -> None:
 
 
 def test_added_mass_that_falls_with_depth_is_refused() -> None:
-    falls = Table(
+    falls = TablePart(
         height=1.0, depths=(0.0, 1.0, 2.0), volumes=(0.0, 1.0, 1.0), source="t",
         added_masses=((0.0, 0.0, 0.0), (10.0, 10.0, 10.0), (5.0, 10.0, 10.0)),
     )  # fmt: skip
@@ -519,6 +527,8 @@ def test_added_mass_that_falls_with_depth_is_refused() -> None:
 
 def test_sources_say_what_nobody_verified() -> None:
     scene = body_only()
-    added = scene.add_immersed("load", parts=[Box(size=(1.0, 1.0, 1.0)), {"kind": "sphere", "diameter": 1.0}])
+    added = scene.add_immersed(
+        "load", parts=[BoxPart(size=(1.0, 1.0, 1.0)), {"kind": "sphere", "diameter": 1.0}]
+    )
     assert all("unverified" in part.source for part in added)
     assert [part.name for part in added] == ["load.1", "load.2"]

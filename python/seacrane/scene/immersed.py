@@ -39,7 +39,7 @@ def add_immersed(
     body : str
         Name of the body. Its weight stays as it is.
     parts : sequence
-        `seacrane.water.Box`, `Plate`, `Cylinder`, `Sphere` or `Table`, or tables {"kind": "box", ...} with
+        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, or tables {"kind": "box", ...} with
         their entries.
     density : float
         kg/m3, of the water.
@@ -99,9 +99,9 @@ def _part(what: str, given: Any) -> Part:
     kind = entries.pop("kind", None)
     if kind not in PARTS:
         raise SceneError(f"{what}: kind is {shown(kind)}; choose one of {', '.join(PARTS)}")
-    if "strips" in entries:
-        strips = tuple(entries["strips"]) if isinstance(entries["strips"], Sequence) else entries["strips"]
-        entries["strips"] = strips[0] if isinstance(strips, tuple) and len(strips) == 1 else strips
+    if isinstance(entries.get("strips"), Sequence):  # numbers of a file
+        strips = tuple(int(one) if float(one).is_integer() else one for one in entries["strips"])
+        entries["strips"] = strips[0] if len(strips) == 1 else strips
     try:
         return PARTS[kind](**entries)
     except TypeError as error:

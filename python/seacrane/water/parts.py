@@ -98,7 +98,7 @@ class _Part:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Box(_Part):
+class BoxPart(_Part):
     """A box, flat below: height along its z, upright where that is vertical.
 
     Parameters
@@ -199,7 +199,7 @@ class Box(_Part):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plate(_Part):
+class PlatePart(_Part):
     """A flat plate, thin along its z: a mudmat, a grating, a stiffened panel.
 
     Parameters
@@ -209,7 +209,7 @@ class Plate(_Part):
     thickness : float
         m; 0 keeps no water out.
     strips, slam, drag, perforation, added_mass
-        As of `Box`.
+        As of `BoxPart`.
     point, axes, source
         As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
     """
@@ -230,9 +230,9 @@ class Plate(_Part):
         not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
         self._box()
 
-    def _box(self) -> Box:
+    def _box(self) -> BoxPart:
         size = (*np.asarray(self.size, dtype=float), self.thickness)
-        return Box(
+        return BoxPart(
             point=self.point, axes=self.axes, source=self.source, size=size, strips=self.strips,
             slam=self.slam, drag=self.drag, perforation=self.perforation, fill=1.0 - self.perforation,
             added_mass=self.added_mass,
@@ -251,7 +251,7 @@ class Plate(_Part):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cylinder(_Part):
+class CylinderPart(_Part):
     """A circular cylinder along its x.
 
     Parameters
@@ -326,7 +326,7 @@ class Cylinder(_Part):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sphere(_Part):
+class SpherePart(_Part):
     """A sphere.
 
     Parameters
@@ -370,7 +370,7 @@ class Sphere(_Part):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Table(_Part):
+class TablePart(_Part):
     """A part of any shape by tables over the depth of its lowest point, at whatever attitude.
 
     Parameters
@@ -428,8 +428,10 @@ class Table(_Part):
         )  # fmt: skip
 
 
-Part = Box | Plate | Cylinder | Sphere | Table
-PARTS: dict[str, type[Part]] = {kind.kind: kind for kind in (Box, Plate, Cylinder, Sphere, Table)}
+Part = BoxPart | PlatePart | CylinderPart | SpherePart | TablePart
+PARTS: dict[str, type[Part]] = {
+    kind.kind: kind for kind in (BoxPart, PlatePart, CylinderPart, SpherePart, TablePart)
+}
 
 
 def _wetted_at(shares: Array, faster: float) -> Array:
