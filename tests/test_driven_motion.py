@@ -47,12 +47,7 @@ def given_ship() -> Scene:
     scene.add_driver("slew", curve=moved(0.0, 0.8))
     scene.add_body("load", mass=3e4, inertia=(1e4, 1e4, 1e4), position=(16.0, 0.0, 2.0))
     scene.add_joint(
-        "rod",
-        kind="distance",
-        first="jib",
-        second="load",
-        point=(16.0, 0.0, 12.0),
-        second_point=(16.0, 0.0, 2.0),
+        "rod", kind="distance", first="jib", second="load", point=(16.0, 0.0, 12.0), second_point=(16.0, 0.0, 2.0)
     )
     return scene
 
@@ -69,12 +64,7 @@ def reversed_slide() -> Scene:
     scene.add_body("door", mass=30.0, inertia=(4.0, 4.0, 1.0), position=(0.8, 0.1, 0.5))
     for name, height in (("upper", 1.0), ("lower", 0.0)):
         scene.add_joint(
-            name,
-            kind="revolute",
-            first="wheel",
-            second="door",
-            point=(0.3, 0.1, height),
-            axis=(0.1, 0.0, 1.0),
+            name, kind="revolute", first="wheel", second="door", point=(0.3, 0.1, height), axis=(0.1, 0.0, 1.0)
         )
     return scene
 
@@ -158,9 +148,7 @@ def struck() -> Scene:
     runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
     scene.add_driver("rail", curve=rest.then(time=1.0, curve=runs))
     scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
-    scene.add_joint(
-        "pin", kind="revolute", first="cart", second="bob", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     return scene
 
 
@@ -210,22 +198,16 @@ def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
     scene.add_driver("main_cylinder", curve=moved(0.0, 30.0))
     scene.add_driver("knuckle_cylinder", curve=0.0)
     scene.ranges.clear()
-    with pytest.raises(
-        SeacraneError, match="driver 'main_cylinder.*asks for a stroke of .* its hinge allows"
-    ):
+    with pytest.raises(SeacraneError, match="driver 'main_cylinder.*asks for a stroke of .* its hinge allows"):
         simulate(scene, 9.0, integrator="rk4", dt=0.05)
 
 
 def test_a_stop_that_holds_leaves_one_unknown_less_and_the_same_motion() -> None:
     scene = Scene(name="stop")
     scene.add_body("bar", mass=5.0, inertia=(1.0, 2.0, 1.0), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        "pin", kind="revolute", first="ground", second="bar", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("pin", kind="revolute", first="ground", second="bar", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(2.0, 0.0, -1.0))
-    scene.add_joint(
-        "knee", kind="revolute", first="bar", second="bob", point=(2.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("knee", kind="revolute", first="bar", second="bob", point=(2.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     scene.add_end_stop("pin", minimum=-3.0, maximum=0.4)
     rows, driven = (recorded(scene, 2.0, formulation=form, rtol=1e-9, dt_out=0.25) for form in FORMULATIONS)
     assert np.abs(driven["position"] - rows["position"]).max() < 1e-6

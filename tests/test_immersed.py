@@ -482,7 +482,9 @@ def test_a_part_of_no_size_moves_nothing() -> None:
             "depths",
         ),
         (
-            lambda: TablePart(height=1.0, depths=(0.0, 1.0), volumes=(0.0, 1.0), added_masses=np.zeros((2, 3))),
+            lambda: TablePart(
+                height=1.0, depths=(0.0, 1.0), volumes=(0.0, 1.0), added_masses=np.zeros((2, 3))
+            ),
             "source",
         ),
     ],

@@ -25,12 +25,7 @@ def lift(*, seed: int = 1, mass: float = 60e3, EA: float = 4e8, rung: str = "ela
     scene.add_vessel(shipped_database())
     scene.add_crane(slew=-1.2, s1=1.4, s2=1.0)
     scene.add_hoist(
-        mass=mass,
-        size=(4.0, 4.0, 4.0),
-        length=14.0,
-        EA=EA,
-        rung=rung,
-        winch={"lag": 0.3, "maximum_rate": 1.0} | winch,
+        mass=mass, size=(4.0, 4.0, 4.0), length=14.0, EA=EA, rung=rung, winch={"lag": 0.3, "maximum_rate": 1.0} | winch
     )
     scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=seed, count=40)
     return scene
@@ -78,12 +73,7 @@ def worst(scenes: list[Scene], spread: float) -> float:
     for t in (0.0, 0.7, 4.1):
         state = start + spread * rng.normal(size=start.shape)
         alone = evaluator.scalar_derivative(t, state)
-        off = max(
-            off,
-            float(
-                np.abs((evaluator.derivative(t, state) - alone) / np.abs(alone).max(axis=1)[:, None]).max()
-            ),
-        )
+        off = max(off, float(np.abs((evaluator.derivative(t, state) - alone) / np.abs(alone).max(axis=1)[:, None]).max()))
     return off
 
 
@@ -97,7 +87,7 @@ def test_an_evaluation_is_that_of_each_lane(kind: str) -> None:
 )
 @pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
 def test_lanes_may_differ_in_masses_and_loads(over: dict[str, tuple[float, ...]], rung: str) -> None:
-    ((name, values),) = over.items()
+    (name, values), = over.items()
     scenes = [lift(rung=rung, **{name: value}) for value in values]
     runs = [Run(scene, 1.0, formulation="recursive", rtol=1e-3) for scene in scenes]
     assert _core.kept_apart([run.core for run in runs]) == ""

@@ -39,8 +39,8 @@ def add_immersed(
     body : str
         Name of the body. Its weight stays as it is.
     parts : sequence
-        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, or tables {"kind": "box", ...} with
-        their entries.
+        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, or tables
+        {"kind": "box", ...} with their entries.
     density : float
         kg/m3, of the water.
     name : str, optional
