@@ -14,7 +14,7 @@ from seacrane.description.forces import add_load
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, positive_of
 from seacrane.inputs.shown import shown
-from seacrane.water.parts import PARTS, Part
+from seacrane.water.parts import PARTS, BoxPart, CylinderPart, Part, PlatePart, SpherePart, TablePart
 
 Array = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ def add_immersed(
     made = [_part(what, one) for one in parts]
     for part in made:
         _check_place(what, scene.bodies[owner], part)
-    out = []
+    out: list[_core.ImmersedPart] = []
     for part in made:
         axes = np.asarray(part.axes, dtype=float)
         for piece in part.pieces(density):
@@ -90,9 +90,8 @@ def add_immersed(
 
 
 def _part(what: str, given: Any) -> Part:
-    if isinstance(given, tuple(PARTS.values())):
-        part: Part = given
-        return part
+    if isinstance(given, BoxPart | PlatePart | CylinderPart | SpherePart | TablePart):
+        return given
     if not isinstance(given, Mapping):
         raise SceneError(f"{what}: parts holds {shown(given)}; give parts of seacrane.water")
     entries = dict(given)

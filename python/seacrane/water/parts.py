@@ -463,9 +463,10 @@ def _cells(size: Array, strips: tuple[int, int]) -> Iterator[Array]:
 
 
 def _check_strips(kind: str, strips: Any, count: int) -> None:
-    whole = isinstance(strips, tuple | list) and len(strips) == count
-    for one in strips if whole else ():
-        whole = whole and not isinstance(one, bool) and isinstance(one, int | np.integer) and one > 0
+    numbers = strips if isinstance(strips, tuple | list) else ()
+    whole = len(numbers) == count and all(
+        isinstance(one, int | np.integer) and not isinstance(one, bool) and int(one) > 0 for one in numbers
+    )
     if not whole or int(np.prod(strips)) > MOST_STRIPS:
         asked = strips[0] if count == 1 else strips
         raise SceneError(
