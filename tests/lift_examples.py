@@ -6,6 +6,7 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
 from seacrane.scene import gust_curve, spline_curve
+from seacrane.water import BoxPart, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
@@ -303,6 +304,13 @@ settling_s = 0.3
 diameter_m = 0.02
 flow_m_per_s = [1, 0, 0]
 
+[[immersed]]
+body = "bob"
+parts = [
+    { kind = "sphere", diameter_m = 0.4 },
+    { kind = "box", size_m = [1, 2, 0.5], strips = [2, 1], point_m = [0, 0, 0.1], slam = 6 },
+]
+
 [pendulum_damping]
 name = "swing"
 first = "ground"
@@ -542,6 +550,8 @@ def every_table() -> Scene:
         name="sling", hook="ground", load="box", hook_point=(0, 0, 9), EA=[1e6],
         points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
     )  # fmt: skip
+    parts = [SpherePart(diameter=0.4), BoxPart(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
+    scene.add_immersed("bob", parts=parts)
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))

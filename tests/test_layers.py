@@ -24,7 +24,7 @@ FLOORS = """
     hydro.hull
     hydro
     description
-    series
+    series water
     validity
     crane
     analysis

@@ -22,6 +22,7 @@ from seacrane import scene as scene
 from seacrane import crane as crane
 from seacrane import hydro as hydro
 from seacrane import sea as sea
+from seacrane import water as water
 from seacrane import cases as cases
 
 # Run it

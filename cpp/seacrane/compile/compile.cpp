@@ -130,6 +130,7 @@ class Compiler final : private LoadContext {
       BodyModel body = merged_body(b);
       const auto vessel = vessel_on.find(body.name);
       body.vessel = vessel == vessel_on.end() ? -1 : vessel->second;
+      body.full = body.vessel >= 0;
       body.state_point = body.vessel < 0 ? body.center_of_mass : Vec3d::Zero();
       weigh(b, body);
       body.center_of_mass -= body.state_point;
@@ -269,6 +270,7 @@ class Compiler final : private LoadContext {
   void loads() {
     for (const auto& list : scene_.loads.lists) list->compile(*this, model_.loads);
     check_quasi_static();
+    take_added_inertia();
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
     for (const auto& d : scene_.points) model_.points.push_back(attach(d.body, d.point));
   }
@@ -288,6 +290,22 @@ class Compiler final : private LoadContext {
         throw SceneError(what + "vessel '" + v.name +
                          "' has kinematics 'paper', whose mass is not symmetric; "
                          "choose 'yaw_following', or rung 'elastic'");
+      }
+    });
+  }
+
+  /// Bodies to which loads add inertia have a full mass, which the paper's kinematics do not know.
+  void take_added_inertia() {
+    model_.loads.for_each([&](const LoadList& list, std::size_t i) {
+      if (!list.kind.adds_inertia) return;
+      for (const VesselDescription& v : scene_.vessels) {
+        if (v.kinematics != VesselKinematics::paper) continue;
+        throw SceneError(std::string(list.kind.name) + " '" + list.names[i] +
+                         "': it adds inertia, and vessel '" + v.name +
+                         "' has kinematics 'paper', whose mass is not symmetric; choose 'yaw_following'");
+      }
+      for (const int b : list.bodies[i]) {
+        if (b != ground()) model_.bodies[idx(b)].full = true;
       }
     });
   }

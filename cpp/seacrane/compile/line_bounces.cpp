@@ -45,7 +45,7 @@ class BounceFinder {
     system_.emplace(std::shared_ptr<const Model>(&model_, [](const Model*) {}));
     Terms& terms = system_->terms();
     terms.read(0.0, y);
-    terms.evaluate_inertia();
+    terms.evaluate_inertia(0.0, y + model_.layout.memory);
     terms.evaluate_rows(0.0);
     system_->solver().factor();
   }

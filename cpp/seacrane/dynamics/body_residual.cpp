@@ -59,6 +59,9 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   inertial_.resize(idx(model.inertial_tensions));
   wave_slopes_.resize(model.vessels.size());
   touched_.reserve(bodies_.size());
+  const bool adds =
+      std::ranges::any_of(model.loads.lists, [](const auto& list) { return list->kind.adds_inertia; });
+  if (adds) added_.resize(bodies_.size());
 }
 
 void BodyResidual::start(const Terms& terms, double t, const Held& held) {
@@ -110,8 +113,21 @@ void BodyResidual::differentiate_states(int first) {
 
 void BodyResidual::add_load(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input) {
   list.apply(i, input, sum_);
+  if (list.kind.adds_inertia) add_added_inertia(list, i, input);
   const int place = list.inertial_place(i);
   if (place >= 0) inertial_[idx(place)] = list.inertial(i, input, held_.acceleration);
+}
+
+/// -(what the load adds to M) vdot.
+void BodyResidual::add_added_inertia(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input) {
+  for (const int b : list.bodies[i]) added_[idx(b)].setZero();
+  list.add_inertia(i, input, added_.data());
+  for (const int b : list.bodies[i]) {
+    const Vec6<Scalar> fluid = added_[idx(b)] * held_.acceleration[b].cast<Scalar>();
+    BodyLoad<Scalar>& out = wrench(b);
+    out.force -= fluid.head<3>();
+    out.moment -= fluid.tail<3>();
+  }
 }
 
 BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {

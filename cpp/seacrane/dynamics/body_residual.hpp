@@ -76,6 +76,7 @@ class BodyResidual {
   void add_inertia(int body);
   void add_loads(int body, const LoadInput<Scalar>& input);
   void add_load(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input);
+  void add_added_inertia(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input);
   void add_differences(const LoadList& list, std::size_t i);
   void add_hydrodynamics(int body, const LoadInput<Scalar>& input);
   void add_waves(int body);
@@ -92,6 +93,7 @@ class BodyResidual {
   std::vector<BodyLoad<Scalar>> wrench_, second_wrench_;
   std::vector<BodyLoad<double>> moved_wrench_;
   std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_, state_, state_rate_, inertial_;
+  std::vector<Mat6<Scalar>> added_;      // by body, inertia of one load
   std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;
   LoadSum<Scalar> sum_{};

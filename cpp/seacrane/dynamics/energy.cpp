@@ -23,7 +23,7 @@ double mechanical_energy(const Terms& terms, double t, const double* y) {
 
 double mechanical_energy_at(Terms& terms, double t, const double* y) {
   terms.read(t, y);
-  terms.evaluate_inertia();
+  terms.evaluate_inertia(t, y + terms.model().layout.memory);
   return mechanical_energy(terms, t, y);
 }
 

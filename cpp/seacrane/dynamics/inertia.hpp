@@ -10,7 +10,7 @@ namespace seacrane {
 struct BodyInertia {
   double inverse_mass = 0.0;
   Mat3d inverse_inertia;  // compact bodies: about the centre of mass
-  Mat6d mass, inverse;    // bodies with hydrodynamics: full 6 x 6
+  Mat6d mass, inverse;    // of a full 6 x 6
   bool full = false;
 };
 
@@ -53,27 +53,34 @@ inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
   return rigid_mass_matrix(body, rotation, body.shape) / body.mass;
 }
 
+/// Rigid body about its state point. Returns b.
+template <class T>
+Vec6<T> rigid_terms(const BodyModel& body, const BodyKinematics<T>& k, Mat6<T>& mass) {
+  mass = rigid_mass_matrix<T>(body, k.rotation);
+  const Vec3<T>& w = k.angular_velocity;
+  const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
+  const Vec3<T> angular = mass.template bottomRightCorner<3, 3>() * w;
+  Vec6<T> bias;
+  bias.template head<3>() = T(body.mass) * cross<T>(w, cross<T>(w, c));
+  bias.template tail<3>() = cross<T>(w, angular);
+  return bias;
+}
+
 /// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
 template <class T>
 Vec6<T> vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKinematics<T>& k,
                      const YawFrame<T>& frame, Mat6<T>& mass) {
-  const Mat6<T> rigid = rigid_mass_matrix<T>(body, k.rotation);
-  mass = rigid + frame.to_inertial(vessel.added_mass);
-  const Vec3<T>& w = k.angular_velocity;
-  const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
-  const Vec3<T> angular = rigid.template bottomRightCorner<3, 3>() * w;
-  Vec6<T> bias;
-  bias.template head<3>() = T(body.mass) * cross<T>(w, cross<T>(w, c));
-  bias.template tail<3>() = cross<T>(w, angular);
+  const Vec6<T> bias = rigid_terms(body, k, mass);
+  mass += frame.to_inertial(vessel.added_mass);
   return bias + vessel.added_mass_bias(frame);
 }
 
-inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
-                            const YawFrame<double>& frame, BodyInertia& out) {
-  out.full = true;
-  const Vec6d bias = vessel_terms(body, vessel, k, frame, out.mass);
-  out.inverse = spd_inverse(out.mass);
-  return bias;
+/// A body with a full mass, without what loads add to it. Returns b.
+inline Vec6d full_terms(const Model& model, const BodyModel& body, const BodyKinematics<double>& k,
+                        const std::vector<YawFrame<double>>& frames, Mat6d& mass) {
+  if (body.vessel < 0) return rigid_terms(body, k, mass);
+  const auto v = idx(body.vessel);
+  return vessel_terms(body, model.vessels[v], k, frames[v], mass);
 }
 
 inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {

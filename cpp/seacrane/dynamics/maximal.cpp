@@ -121,7 +121,7 @@ bool MaximalSystem::project(double t, double* y, bool evaluated_here) {
   if (m.rows() == 0) return false;
   if (!evaluated_here) {
     terms_->read(t, y);
-    terms_->evaluate_inertia();
+    terms_->evaluate_inertia(t, y + m.layout.memory);
     terms_->evaluate_rows(t);
     solver_.factor();
   }
@@ -138,7 +138,7 @@ bool MaximalSystem::project(double t, double* y, bool evaluated_here) {
     terms_->read(t, y);
     terms_->evaluate_rows(t);
     if (i >= 2) {  // the frozen factorisation converges too slowly
-      terms_->evaluate_inertia();
+      terms_->evaluate_inertia(t, y + m.layout.memory);
       solver_.factor();
     }
     return position_residual(*terms_);
@@ -156,7 +156,7 @@ double MaximalSystem::take_residual_before_projection() { return std::exchange(b
 
 ConstraintRank MaximalSystem::rank(double t, const double* y, int skipped) {
   terms_->read(t, y);
-  terms_->evaluate_inertia();
+  terms_->evaluate_inertia(t, y + model_.layout.memory);
   terms_->evaluate_rows(t);
   return solver_.rank(skipped);
 }

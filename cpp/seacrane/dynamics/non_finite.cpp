@@ -82,7 +82,7 @@ std::string name_non_finite(MaximalSystem& system, double t, const double* y) {
   if (bad < size) return system.describe(bad) + ": it is " + to_text(y[bad]);
   Terms& terms = system.terms();
   terms.read(t, y);
-  terms.evaluate_inertia();
+  terms.evaluate_inertia(t, y + terms.model().layout.memory);
   terms.evaluate_rows(t);
   std::string found = non_finite_load(terms, t, y);
   if (found.empty()) found = bad_rows(terms);

@@ -31,6 +31,10 @@ Terms::Terms(std::shared_ptr<const Model> model)
   for (auto* vectors : {&bias_, &load_}) vectors->assign(bodies + 1, Vec6d::Zero());
   blocks_.resize(m.elements.size());
   for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
+  for (const auto& list : m.loads.lists) {
+    if (list->kind.adds_inertia) adding_inertia_.push_back(&*list);
+  }
+  if (!adding_inertia_.empty()) added_inertia_.assign(bodies + 1, Mat6d::Zero());
 }
 
 void Terms::read(double t, const double* y) {
@@ -63,18 +67,30 @@ void Terms::follow_yaw() {
   }
 }
 
-void Terms::evaluate_inertia() {
+void Terms::evaluate_inertia(double t, const double* memory) {
   const Model& m = *model_;
+  const std::vector<Mat6d>& added = evaluate_added_inertia(t, memory);
   for (int b = 0; b < m.body_count(); ++b) {
     const BodyModel& body = m.bodies[idx(b)];
     const BodyKinematics<double>& k = bodies_[idx(b)];
-    if (body.vessel < 0) {
-      bias_[idx(b)] = compact_inertia(body, k, inertia_[idx(b)]);
-    } else {
-      const auto v = idx(body.vessel);
-      bias_[idx(b)] = vessel_inertia(body, m.vessels[v], k, frames_[v], inertia_[idx(b)]);
+    BodyInertia& out = inertia_[idx(b)];
+    if (!body.full) {
+      bias_[idx(b)] = compact_inertia(body, k, out);
+      continue;
     }
+    out.full = true;
+    bias_[idx(b)] = full_terms(m, body, k, frames_, out.mass);
+    if (!added.empty()) out.mass += added[idx(b)];
+    out.inverse = spd_inverse(out.mass);
   }
+}
+
+const std::vector<Mat6d>& Terms::evaluate_added_inertia(double t, const double* memory) {
+  if (adding_inertia_.empty()) return added_inertia_;
+  for (Mat6d& added : added_inertia_) added.setZero();
+  const LoadInput<double> input = load_input(t, memory);
+  for (const LoadList* const list : adding_inertia_) list->add_inertia(input, added_inertia_.data());
+  return added_inertia_;
 }
 
 void Terms::evaluate_rows(double t) {
@@ -171,7 +187,7 @@ void Terms::evaluate_loads(double t, const double* y, double* ydot) {
 
 void Terms::evaluate(double t, const double* y, double* ydot) {
   read(t, y);
-  evaluate_inertia();
+  evaluate_inertia(t, y + model_->layout.memory);
   evaluate_rows(t);
   evaluate_loads(t, y, ydot);
 }
@@ -183,7 +199,7 @@ Mat6d Terms::mass_matrix(int body) const {
 
 Mat6d Terms::symmetric_mass(int body) const {
   const BodyModel& b = model_->bodies[idx(body)];
-  return b.vessel >= 0 ? inertia_[idx(body)].mass : rigid_mass_matrix(b, bodies_[idx(body)].rotation);
+  return b.full ? inertia_[idx(body)].mass : rigid_mass_matrix(b, bodies_[idx(body)].rotation);
 }
 
 }  // namespace seacrane

@@ -49,7 +49,10 @@ class Terms {
   /// renews the yaw frames.
   BodyKinematics<double>* kinematics() { return bodies_.data(); }
   void follow_yaw();
-  void evaluate_inertia();
+  /// `memory`: the memory part of a state, with the states of loads.
+  void evaluate_inertia(double t, const double* memory);
+  /// What loads add to the masses of bodies, about their state points, inertial axes; empty: nothing ever.
+  const std::vector<Mat6d>& evaluate_added_inertia(double t, const double* memory);
   void evaluate_rows(double t);
   /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
   /// of a state, from the fluid's states to those of loads.
@@ -114,6 +117,8 @@ class Terms {
   std::vector<BodyKinematics<double>> bodies_;
   std::vector<YawFrame<double>> frames_;
   std::vector<BodyInertia> inertia_;
+  std::vector<const LoadList*> adding_inertia_;
+  std::vector<Mat6d> added_inertia_;
   std::vector<Mat6d> paper_mass_;  // of the paper's vessels
   std::vector<BodyLoad<double>> wrench_;
   std::vector<Vec6d> bias_, load_;

@@ -11,7 +11,7 @@ std::vector<std::pair<std::string, double>> time_parts(MaximalSystem& system, do
   const auto later = [&](long i) { return t + 1e-3 * static_cast<double>(i); };
   system.derivative(t, y, rate.data());
   out.measure("kinematics", [&](long) { terms.read(t, y); });
-  out.measure("inertia", [&](long) { terms.evaluate_inertia(); });
+  out.measure("inertia", [&](long) { terms.evaluate_inertia(t, y + memory); });
   out.measure("constraint rows", [&](long) { terms.evaluate_rows(t); });
   out.measure("loads, waves, memory",
               [&](long i) { terms.evaluate_wrenches(later(i), y + memory, rate.data() + memory); });

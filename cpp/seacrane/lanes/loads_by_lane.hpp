@@ -33,6 +33,7 @@ class LoadsByLane {
         rates_(states, 0.0) {
     for (const Lists& list : lists_) {
       look_at(list);
+      if (list[0]->kind.adds_inertia) adding_inertia_.push_back(list);
       for (std::size_t i = 0; i < list[0]->size(); ++i) {
         const StateRange own = list[0]->states(i);
         for (int k = own.first; k < own.first + own.count; ++k) own_states_.push_back(idx(k));
@@ -43,6 +44,7 @@ class LoadsByLane {
     bodies_.erase(std::ranges::unique(bodies_).begin(), bodies_.end());
     for (auto& lane : kinematics_) lane.assign(idx(bodies) + 1, BodyKinematics<double>::ground());
     for (auto& lane : states_) lane.assign(states, 0.0);
+    if (adds_inertia()) mass_.assign(idx(bodies) + 1, Mat6d::Zero());
   }
 
   const std::vector<Lists>& lists() const { return lists_; }
@@ -50,6 +52,7 @@ class LoadsByLane {
   bool any() const { return !bodies_.empty(); }
   /// Those on which the loads act, or look.
   const std::vector<int>& bodies() const { return bodies_; }
+  bool adds_inertia() const { return !adding_inertia_.empty(); }
   void freeze(std::size_t lane) { frozen_[lane] = true; }
 
   /// Takes what the loads look at. Call it before the others.
@@ -81,6 +84,25 @@ class LoadsByLane {
         fail(lane);
       }
     }
+  }
+
+  /// Sets what loads add to the masses of the bodies on which they act, `mass` by body. Lanes that are frozen
+  /// keep what they have.
+  void evaluate_inertia(Mat6<T>* mass) {
+    for_each_lane(
+        [&](int lane) {
+          const LoadInput<double> in = input(lane, nullptr);
+          for_each_inertial_body([&](int b) { mass_[idx(b)].setZero(); });
+          for (const Lists& list : adding_inertia_) list[idx(lane)]->add_inertia(in, mass_.data());
+          for_each_inertial_body([&](int b) {
+            for (int i = 0; i < 36; ++i) mass[b](i).set(lane, mass_[idx(b)](i));
+          });
+        },
+        [&](int lane) {
+          for_each_inertial_body([&](int b) {
+            for (int i = 0; i < 36; ++i) mass[b](i).set(lane, std::numeric_limits<double>::quiet_NaN());
+          });
+        });
   }
 
   /// Adds the loads, with inertial tensions of zero.
@@ -127,6 +149,15 @@ class LoadsByLane {
   }
 
  private:
+  template <class F>
+  void for_each_inertial_body(F&& f) const {
+    for (const Lists& list : adding_inertia_) {
+      for (const std::vector<int>& on : list[0]->bodies) {
+        for (const int b : on) f(b);
+      }
+    }
+  }
+
   void look_at(const Lists& list) {
     for (const std::vector<int>& on : list[0]->bodies) bodies_.insert(bodies_.end(), on.begin(), on.end());
   }
@@ -140,7 +171,7 @@ class LoadsByLane {
     for (int i = 0; i < 9; ++i) to.rotation(i) = from.rotation(i)[lane];
   }
 
-  std::vector<Lists> lists_;
+  std::vector<Lists> lists_, adding_inertia_;
   std::vector<SeaView> seas_;
   std::vector<int> bodies_;
   std::vector<std::size_t> own_states_;
@@ -149,6 +180,7 @@ class LoadsByLane {
   std::array<std::vector<BodyKinematics<double>>, L> kinematics_;
   std::array<std::vector<double>, L> states_;
   std::vector<BodyLoad<double>> wrench_;
+  std::vector<Mat6d> mass_;
   std::vector<std::array<T, 6>> total_;  // by body
   std::vector<double> rates_;
 };

@@ -64,6 +64,7 @@ class PackedSystem final : public LaneSystem {
       weights_.push_back(weight);
     }
     wrench_.resize(bodies + 1);
+    if (by_lane_.adds_inertia()) added_inertia_.assign(bodies + 1, Mat6<T>::Zero());
     for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
     for (const auto& list : actuators_.front().others().lists) {
       if (is_packed(models, *list)) applied_.emplace_back(packed(*list), &*list);
@@ -97,7 +98,7 @@ class PackedSystem final : public LaneSystem {
     std::memcpy(state_.data(), y, size() * sizeof(double));
     const T *const q = state_.data(), *const u = q + speeds_;
     if (driven_.any()) read_drivers(t);
-    factor();
+    factor(t);
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
     solve_acceleration();
@@ -210,10 +211,14 @@ class PackedSystem final : public LaneSystem {
   }
 
   /// Places the bodies, and factors their inertias.
-  void factor() {
+  void factor(double t) {
     articulated_.place(state_.data(), state_.data() + speeds_, bodies_.data());
     for (std::size_t v = 0; v < frames_.size(); ++v) {
       frames_[v] = YawFrame<T>(bodies_[idx(model_->vessels[v].body)]);
+    }
+    if (by_lane_.adds_inertia()) {
+      by_lane_.read(input(t));
+      by_lane_.evaluate_inertia(added_inertia_.data());
     }
     evaluate_inertia();
     articulated_.factor();
@@ -250,7 +255,7 @@ class PackedSystem final : public LaneSystem {
     read_leading();
     const bool jumps = driven_.jump(t, curve_limit_, positions_.data(), speed_.data(), jump_.data());
     follow_drivers(t);
-    if (jumps) strike();
+    if (jumps) strike(t);
     std::memcpy(y, state_.data(), size() * sizeof(double));
   }
 
@@ -276,8 +281,8 @@ class PackedSystem final : public LaneSystem {
     driven_.for_each_power(articulated_, [&](const T& one) { power.push_back(one); });
   }
 
-  void strike() {
-    factor();
+  void strike(double t) {
+    factor(t);
     for (int b = 0; b < model_->body_count(); ++b) articulated_.set_load(b, Wrench<T>::zero());
     for (std::size_t k = 0; k < jump_.size(); ++k) driven_rate_[k] = T(jump_[k]);
     articulated_.solve(false, rate_.data() + speeds_, nullptr, driven_rate_.data());
@@ -327,13 +332,20 @@ class PackedSystem final : public LaneSystem {
       if (body.vessel < 0) {
         const BodyOfLanes& of = bodies_of_lanes_[idx(b)];
         const CompactInertia<T> inertia{of.mass, of.at(k.rotation)};
-        articulated_.set_inertia(b, inertia);
         begin.force = Vec3<T>(T(0.0), T(0.0), T(0.0));
         begin.moment = cross<T>(inertia.turning * k.angular_velocity, k.angular_velocity);
+        if (!body.full) {
+          articulated_.set_inertia(b, inertia);
+          continue;
+        }
+        Mat6<T> mass = SpatialInertia<T>(inertia).matrix();
+        mass += added_inertia_[idx(b)];
+        articulated_.set_inertia(b, mass);
       } else {
         Mat6<T> mass;
         const Vec6<T> bias =
             vessel_terms<T>(body, model_->vessels[idx(body.vessel)], k, frames_[idx(body.vessel)], mass);
+        if (!added_inertia_.empty()) mass += added_inertia_[idx(b)];
         articulated_.set_inertia(b, mass);
         begin.force = -bias.template head<3>();
         begin.moment = -bias.template tail<3>();
@@ -341,12 +353,15 @@ class PackedSystem final : public LaneSystem {
     }
   }
 
+  LoadInput<T> input(double t) const {
+    return {t, curve_limit_, bodies_.data(), slots_.data(), state_.data() + loads_};
+  }
+
   void evaluate_loads(double t, LoadSum<T>& sum) {
-    const T* const states = state_.data() + loads_;
-    const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
+    const LoadInput<T> input = this->input(t);
     for (std::size_t g = 0; g < weights_.size(); ++g) weigh(model_->gravity[g], weights_[g], input);
     for (const auto& [kind, list] : applied_) kind->apply(*list, input, sum);
-    if (by_lane_.any()) by_lane_.read(input);
+    if (by_lane_.any() && !by_lane_.adds_inertia()) by_lane_.read(input);
     if (!by_lane_.lists().empty()) by_lane_.apply(tensions_.none(), sum);
     std::fill(torque_.begin(), torque_.end(), T(0.0));
     actuators_.front().apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
@@ -424,6 +439,7 @@ class PackedSystem final : public LaneSystem {
   std::vector<BodyOfLanes> bodies_of_lanes_;
   std::vector<T> weights_;  // of Model::gravity
   std::vector<BodyLoad<T>> wrench_;
+  std::vector<Mat6<T>> added_inertia_;  // by body, of loads
   std::vector<Waves> waves_;
   std::vector<std::pair<const PackedLoad<L>*, const LoadList*>> applied_;
   std::vector<const PackedLoad<L>*> along_;  // by load along the tree; null: by lane

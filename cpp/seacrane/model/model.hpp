@@ -31,6 +31,7 @@ struct BodyModel {
   Vec3d center_of_mass;        // from the state point, body axes
   Vec3d state_point;           // from the body origin, body axes
   int vessel = -1;             // index of the vessel element on this body
+  bool full = false;           // its mass is a full 6 x 6: a vessel's, or one to which loads add
 };
 
 struct ElementModel {

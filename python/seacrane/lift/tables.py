@@ -32,7 +32,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.lift.vessel_keys import given_vessel_keys, sea_keys, vessel_keys
+from seacrane.lift.vessel_keys import given_vessel_keys, part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -42,6 +42,7 @@ from seacrane.scene import (
     heave,
     hoist,
     hydraulics,
+    immersed,
     limits,
     lines,
     luffing,
@@ -318,6 +319,10 @@ _ALL = (
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
         rung={"choices": lines.STRETCHING}, breaking_load={"unit": "N"},
+    ),
+    _call(
+        "immersed", immersed.add_immersed, _core.ImmersedPart,
+        parts={"type": "tables", "keys": part_keys()},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),

@@ -8,12 +8,13 @@ from typing import Any, get_overloads
 from seacrane.description.waves import STRETCHING
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.key_shapes import CHOSEN, LENGTH, NUMBER, POINT, TIME
+from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, keys_of
 from seacrane.scene import given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.sea import Current, SeaState, WaveSystem
+from seacrane.water.parts import PARTS
 
 READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
 
@@ -90,6 +91,22 @@ def _rao_keys() -> tuple[Key, ...]:
     table = keys_of(MotionRaos, more={"omega": omega, "depth": LENGTH}, without=("heading", "values", "g"))
     headings = Key(name="headings", type="tables", keys=at_heading, required=True, text="Of the table.")
     return (*table, headings)
+
+
+def part_keys() -> tuple[Key, ...]:
+    """The keys of a part in the water: its kind, and those of all kinds."""
+    more = {
+        "point": POINT, "axes": {"type": "array", "shapes": ((3, 3),)}, "length": LENGTH, "diameter": LENGTH,
+        "thickness": LENGTH, "height": LENGTH, "depths": ROW | {"unit": "m"}, "volumes": ROW | {"unit": "m3"},
+        "size": {"type": "array", "unit": "m", "shapes": ((3,), (2,))},
+        "added_mass": DIRECTION | {"unit": "kg"},
+        "added_masses": {"type": "array", "unit": "kg", "shapes": ((-1, 3),)},
+        "strips": {"type": "array", "shapes": ((2,), (1,))},
+        "drag_area": {"type": "array", "unit": "m2", "shapes": ((3,),)},
+    }  # fmt: skip
+    found = {key.name: key for kind in PARTS.values() for key in keys_of(kind, more=more)}
+    kind = Key(name="kind", type="text", required=True, choices=tuple(PARTS), text="What it is.")
+    return (kind, *(replace(key, required=False) for key in found.values()))
 
 
 def sea_keys() -> tuple[Key, ...]:

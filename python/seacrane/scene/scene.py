@@ -40,6 +40,7 @@ from seacrane.scene import (
     heave,
     hoist,
     hydraulics,
+    immersed,
     limits,
     lines,
     luffing,
@@ -146,6 +147,7 @@ class Scene(Description):
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel
     add_slack_tank = slack_tank.add_slack_tank
+    add_immersed = immersed.add_immersed
     add_sea = sea.add_sea
     sea_at = sea_at
     add_ballast = add_ballast

@@ -403,7 +403,7 @@ class TreeBuilder {
     std::set<int> parents;
     for (const Cluster& c : tree_.clusters) parents.insert(c.parent);
     for (Cluster& c : tree_.clusters) {
-      for (Member& m : c.members) m.leaf = model_.bodies[idx(m.body)].vessel < 0 && !parents.count(m.body);
+      for (Member& m : c.members) m.leaf = !model_.bodies[idx(m.body)].full && !parents.count(m.body);
     }
   }
 

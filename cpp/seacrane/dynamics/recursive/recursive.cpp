@@ -98,17 +98,18 @@ void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
-void RecursiveSystem::evaluate_inertia() {
+void RecursiveSystem::evaluate_inertia(double t, const double* y) {
+  const std::vector<Mat6d>& added = terms_->evaluate_added_inertia(t, y + layout_.memory);
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyModel& body = model_.bodies[idx(b)];
-    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
-    if (body.vessel < 0) {
+    if (!body.full) {
       evaluate_compact(b);
-    } else {
-      bias_[idx(b)] = vessel_terms(body, model_.vessels[idx(body.vessel)], k,
-                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
-      articulated_.set_inertia(b, mass_[idx(b)]);
+      continue;
     }
+    Mat6d& mass = mass_[idx(b)];
+    bias_[idx(b)] = full_terms(model_, body, terms_->bodies()[idx(b)], terms_->frames(), mass);
+    if (!added.empty()) mass += added[idx(b)];
+    articulated_.set_inertia(b, mass);
   }
 }
 
@@ -122,8 +123,8 @@ void RecursiveSystem::evaluate_compact(int body) {
   bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
-void RecursiveSystem::factor(double t) {
-  evaluate_inertia();
+void RecursiveSystem::factor(double t, const double* y) {
+  evaluate_inertia(t, y);
   articulated_.factor();
   if (loops_.rows() == 0) return;
   evaluate_constraints(model_, t, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
@@ -138,7 +139,7 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   followed(t, y);
   place_as_given(y);
   terms_->follow_yaw();
-  factor(t);
+  factor(t, y);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
   read_drives(drive_power_);
@@ -278,7 +279,7 @@ bool RecursiveSystem::follow_drivers(double t, double* y) {
 void RecursiveSystem::strike(double t, double* y) {
   place_as_given(y);
   terms_->follow_yaw();
-  factor(t);
+  factor(t, y);
   for (auto& load : load_) load.setZero();
   articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data(), nullptr, jump_.data());
   for (const Cluster& c : tree_.clusters) {
@@ -294,7 +295,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
   if (!evaluated_here || moved_before) {
     place(t, y);
     terms_->follow_yaw();
-    factor(t);
+    factor(t, y);
   }
   const auto open = [&] {
     loops_.position_residual(blocks_.data(), residual_);
@@ -313,7 +314,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
     move_positions(y, acceleration_.data());
     place(t, y);
     terms_->follow_yaw();
-    factor(t);
+    factor(t, y);
     return open();
   });
   const bool turned = projection::close_rates(

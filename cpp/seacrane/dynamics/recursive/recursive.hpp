@@ -71,9 +71,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void read_drives(std::vector<double>& power) const;
   void evaluate(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
-  void evaluate_inertia();
+  void evaluate_inertia(double t, const double* y);
   void evaluate_compact(int body);
-  void factor(double t);
+  void factor(double t, const double* y);
   void choose_rows();
   void solve_acceleration(double* u_rate);
   void solve_with_loops(double* u_rate);

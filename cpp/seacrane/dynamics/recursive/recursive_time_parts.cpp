@@ -13,7 +13,7 @@ std::vector<std::pair<std::string, double>> RecursiveSystem::time_parts(double t
     place(t, y);
     terms_->follow_yaw();
   });
-  out.measure("inertia", [&](long) { evaluate_inertia(); });
+  out.measure("inertia", [&](long) { evaluate_inertia(t, y); });
   out.measure("articulated inertias", [&](long) { articulated_.factor(mass_.data()); });
   out.measure("loads, waves, memory", [&](long i) { evaluate_wrenches(later(i), y, rate.data(), true); });
   out.measure("solution", [&](long) { solve_acceleration(rate.data() + layout_.speeds); });

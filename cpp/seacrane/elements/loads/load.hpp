@@ -62,6 +62,14 @@ concept StiffLoad = requires(const Load& load, const LoadInput<double>& in, Vec6
   load.add_unit(0, in, wrenches);
 };
 
+/// A load that adds inertia to its bodies: a 6 x 6 mass about the state point, inertial axes, by body, which
+/// may depend on poses, time and states. The wrench -mass * acceleration is then not a part of apply(); all
+/// that goes with velocities is, and half of velocity^T (d mass/dt) velocity is a part of its power.
+template <class Load>
+concept AddsInertia = requires(const Load& load, const LoadInput<double>& in, Mat6d* mass) {
+  load.template add_inertia<double>(in, mass);
+};
+
 /// Whether a load looks at some of the states from `first` to before `last`: its own, or those of what it
 /// follows, which a load that follows something tells by followed().
 template <class Load>

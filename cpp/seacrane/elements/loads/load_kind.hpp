@@ -73,6 +73,7 @@ struct LoadKind {
   const char* follows_as;  // what a heave compensator leads it as; empty: it follows nothing
   bool packs;              // apply() takes packs
   bool by_differences;     // apply() knows no scalar but double
+  bool adds_inertia;       // to its bodies, before masses are factored
   std::unique_ptr<DescribedLoads> (*describe)();
 };
 

@@ -74,6 +74,15 @@ class LoadListOf final : public LoadsOf<Load> {
   void apply(Place i, const LoadInput<Slopes>& in, LoadSum<Slopes>& sum) const override {
     if constexpr (!ByDifferences<Load>) items[i].template apply<Slopes>(in, sum);
   }
+  void add_inertia(const LoadInput<double>& in, Mat6d* mass) const override {
+    if constexpr (AddsInertia<Load>) {
+      for (const Load& load : items) load.template add_inertia<double>(in, mass);
+    }
+  }
+  void add_inertia(Place i, const LoadInput<Slopes>& in, Mat6<Slopes>* mass) const override {
+    static_assert(!(AddsInertia<Load> && ByDifferences<Load>), "inertia is differentiated by dual numbers");
+    if constexpr (AddsInertia<Load>) items[i].template add_inertia<Slopes>(in, mass);
+  }
   void add_potential(const LoadInput<double>& in, double& sum) const override {
     if constexpr (requires(const Load& load) { load.potential(in); }) {
       for (const Load& load : items) sum += load.potential(in);
@@ -242,6 +251,7 @@ const LoadKind& load_kind() {
           }(),
       .packs = TakesPacks<Load>,
       .by_differences = ByDifferences<Load>,
+      .adds_inertia = AddsInertia<Load>,
       .describe = []() -> std::unique_ptr<DescribedLoads> {
         return std::make_unique<DescribedLoadsOf<Load>>();
       },

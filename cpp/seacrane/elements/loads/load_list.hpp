@@ -60,6 +60,9 @@ class LoadList {
   virtual void apply(const LoadInput<double>& in, LoadSum<double>& sum) const = 0;
   virtual void apply(Place i, const LoadInput<double>& in, LoadSum<double>& sum) const = 0;
   virtual void apply(Place i, const LoadInput<Slopes>& in, LoadSum<Slopes>& sum) const = 0;
+  /// Adds to the masses of bodies, see AddsInertia.
+  virtual void add_inertia(const LoadInput<double>& in, Mat6d* mass) const = 0;
+  virtual void add_inertia(Place i, const LoadInput<Slopes>& in, Mat6<Slopes>* mass) const = 0;
   virtual void add_potential(const LoadInput<double>& in, double& sum) const = 0;
   virtual bool looks_at_states(Place i, int first, int last) const = 0;
   /// Its own, whose rates it sets.

@@ -10,6 +10,6 @@ namespace seacrane {
 using LoadTypes = std::tuple<struct HeaveCompensator, struct Actuator, struct PointForce, struct SpringDamper,
                              struct ForceTable, struct FunctionForce, struct FlowForce, struct Friction,
                              struct SoftStop, struct Line, struct GasSpring, struct PendulumDamping,
-                             struct SpanDrag, struct HydraulicCylinder>;
+                             struct SpanDrag, struct HydraulicCylinder, struct ImmersedPart>;
 
 }  // namespace seacrane

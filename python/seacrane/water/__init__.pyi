@@ -1,0 +1,9 @@
+"""Water on a load: parts with buoyancy, added mass over depth, slam and drag, for `Scene.add_immersed`."""
+
+from seacrane.water.parts import BoxPart as BoxPart
+from seacrane.water.parts import PlatePart as PlatePart
+from seacrane.water.parts import CylinderPart as CylinderPart
+from seacrane.water.parts import SpherePart as SpherePart
+from seacrane.water.parts import TablePart as TablePart
+from seacrane.water.added_mass import circle_added_mass as circle_added_mass
+from seacrane.water.added_mass import perforation_factor as perforation_factor

@@ -1,0 +1,487 @@
+"""Parts of a load in the water: shapes with the coefficients of their added mass, slam and drag."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import (
+    finite_of,
+    not_negative_of,
+    number_of,
+    positive_of,
+    shaped_of,
+    text_of,
+    vector_of,
+)
+from seacrane.water.added_mass import (
+    CIRCLE_SOURCE,
+    PLATE_SOURCE,
+    ROUNDING,
+    SPHERE_SOURCE,
+    box_deep,
+    circle_table,
+    perforation_factor,
+    plate_factor,
+    ramp,
+    sphere_table,
+    step,
+)
+
+Array = NDArray[np.float64]
+
+LEAST_SLAM_ROUND, LEAST_SLAM = 3.0, 5.0  # DNV-RP-N103 (unverified)
+CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it touches
+MOST_PERFORATION = 0.5  # where the factor ends
+RAMP_KNOTS = 40
+MOST_STRIPS = 1000
+SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """What the engine is told of a strip of a part: as `ImmersedPart`, its point in axes of the part."""
+
+    shape: str
+    offset: Array
+    size: Array
+    depths: Array
+    added_masses: Array
+    drag: Array
+    fill: float = 1.0
+    volumes: Array = field(default_factory=lambda: np.zeros(0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Part:
+    """What all parts have.
+
+    Parameters
+    ----------
+    point : array_like, shape (3,)
+        Its centre, m, body coordinates.
+    axes : array_like, shape (3, 3)
+        Columns are its axes, in those of the body. Default: those of the body.
+    source : str
+        Where its coefficients are from; reports show it beside the defaults that it keeps.
+    """
+
+    point: Any = (0.0, 0.0, 0.0)
+    axes: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    source: str = ""
+
+    kind: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        shaped_of(f"{self.kind}: point", self.point, (3,))
+        shaped_of(f"{self.kind}: axes", self.axes, (3, 3))
+        text_of(f"{self.kind}: source", self.source, "")
+
+    @property
+    def extent(self) -> float:
+        """Its longest side, m."""
+        raise NotImplementedError
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        """Its strips in water of a density, kg/m3."""
+        raise NotImplementedError
+
+    @property
+    def sources(self) -> str:
+        """Where its coefficients are from."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxPart(_Part):
+    """A box, flat below: height along its z, upright where that is vertical.
+
+    Parameters
+    ----------
+    size : array_like, shape (3,)
+        m, along its axes.
+    strips : tuple of int
+        Into how many it is cut along x and y, each with a depth of its own: what turning adds follows.
+    slam : float
+        C_S of its bottom, at least 5: the added mass of the wet bottom is gained over the depth
+        2 A_1 / (density C_S area).
+    drag : float
+        C_D along each axis, of the area across it. DNV-RP-N103 has 2.5 at least in waves (unverified).
+    perforation : float
+        Share of its faces that is open, 0 to 0.5: takes from its added mass.
+    fill : float
+        Share of its volume that keeps water out: 0 of an open frame.
+    added_mass : array_like, shape (3,), optional
+        kg along its axes in an unbounded fluid, before perforation, in place of that of its size.
+    point, axes, source
+        As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
+
+    Notes
+    -----
+    Along z half of a plate's added mass is gained over that depth, the rest from awash on over the root of
+    the area; along x and y all of it while the sides become wet. Both growths are assumed (unverified).
+    """
+
+    size: Any
+    strips: tuple[int, int] = (1, 1)
+    slam: float = 5.0
+    drag: float = 2.5
+    perforation: float = 0.0
+    fill: float = 1.0
+    added_mass: Any = None
+
+    kind: ClassVar[str] = "box"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        size = shaped_of(f"{self.kind}: size", self.size, (3,))
+        for value in size:
+            not_negative_of(f"{self.kind}: size", value, "m")
+        _check_strips(self.kind, self.strips, 2)
+        _check_slam(self.kind, self.slam, LEAST_SLAM)
+        not_negative_of(f"{self.kind}: drag", self.drag)
+        _share_of(f"{self.kind}: perforation", self.perforation, MOST_PERFORATION)
+        _share_of(f"{self.kind}: fill", self.fill, 1.0)
+        if self.added_mass is not None:
+            for value in shaped_of(f"{self.kind}: added_mass", self.added_mass, (3,)):
+                not_negative_of(f"{self.kind}: added_mass", value, "kg")
+            if not self.source:
+                raise SceneError(f"{self.kind}: added_mass has no source; say in source where it is from")
+
+    @property
+    def extent(self) -> float:
+        return float(np.max(np.asarray(self.size, dtype=float)))
+
+    @property
+    def sources(self) -> str:
+        own = self.source or PLATE_SOURCE
+        return f"{own}; C_S {self.slam:g}, C_D {self.drag:g}: DNV-RP-N103 (unverified)"
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        size = np.asarray(self.size, dtype=float)
+        if not np.any(size):
+            return
+        depths, whole = self._growth(size, density)
+        count = int(np.prod(self.strips))
+        cut = size / np.array([*self.strips, 1.0])
+        areas = np.array([size[1] * size[2], size[0] * size[2], size[0] * size[1]])
+        for place in _cells(size, self.strips):
+            yield Piece(
+                shape="box", offset=place, size=cut, depths=depths, added_masses=whole / count,
+                drag=0.5 * density * self.drag * areas / count, fill=self.fill,
+            )  # fmt: skip
+
+    def _growth(self, size: Array, density: float) -> tuple[Array, Array]:
+        """Depths, and added masses (n, 3) of the whole at them."""
+        holes = perforation_factor(self.perforation)
+        deep = holes * (
+            density * box_deep(size) if self.added_mass is None else np.asarray(self.added_mass, dtype=float)
+        )
+        area, height = size[0] * size[1], size[2]
+        short, long = sorted(size[:2])
+        plate = density * plate_factor(short / long if long else 1.0) * np.pi / 4.0 * short**2 * long
+        bottom = min(0.5 * holes * plate, deep[2])
+        over = 2.0 * bottom / (density * self.slam * area) if area else 0.0
+        root = float(np.sqrt(area)) or self.extent
+        over = over or 1e-3 * root
+        awash = max(height, (1.0 + ROUNDING) * over)
+        sides = max(height, over)
+        ends = [(1.0 + ROUNDING) * over, (1.0 + ROUNDING) * sides, awash, awash + root]
+        depths = _knots([(0.0, ends[0]), (0.0, ends[1]), (awash, ends[3])])
+        upright = bottom * ramp(depths, over) + (deep[2] - bottom) * step(depths, awash, root)
+        along = ramp(depths, sides)
+        return depths, np.stack([deep[0] * along, deep[1] * along, upright], axis=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlatePart(_Part):
+    """A flat plate, thin along its z: a mudmat, a grating, a stiffened panel.
+
+    Parameters
+    ----------
+    size : array_like, shape (2,)
+        m, along its x and y.
+    thickness : float
+        m; 0 keeps no water out.
+    strips, slam, drag, perforation, added_mass
+        As of `BoxPart`.
+    point, axes, source
+        As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
+    """
+
+    size: Any
+    thickness: float = 0.0
+    strips: tuple[int, int] = (1, 1)
+    slam: float = 5.0
+    drag: float = 2.5
+    perforation: float = 0.0
+    added_mass: Any = None
+
+    kind: ClassVar[str] = "plate"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        shaped_of(f"{self.kind}: size", self.size, (2,))
+        not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
+        self._box()
+
+    def _box(self) -> BoxPart:
+        size = (*np.asarray(self.size, dtype=float), self.thickness)
+        return BoxPart(
+            point=self.point, axes=self.axes, source=self.source, size=size, strips=self.strips,
+            slam=self.slam, drag=self.drag, perforation=self.perforation, fill=1.0 - self.perforation,
+            added_mass=self.added_mass,
+        )  # fmt: skip
+
+    @property
+    def extent(self) -> float:
+        return self._box().extent
+
+    @property
+    def sources(self) -> str:
+        return self._box().sources
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        yield from self._box().pieces(density)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CylinderPart(_Part):
+    """A circular cylinder along its x.
+
+    Parameters
+    ----------
+    length, diameter : float
+        m.
+    strips : int, optional
+        Into how many it is cut along its length. Default: as many as make them as long as wide.
+    slam : float
+        C_S as it touches, pi (von Karman) or more: the first part of the added mass is then gained that
+        much faster, within a tenth of the radius.
+    drag : float
+        C_D across, of diameter times length. Default 1.2: below its critical Reynolds number, DNV-RP-C205.
+    end_drag : float
+        C_D along it, of the area of its end.
+    point, axes, source
+        As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
+
+    Notes
+    -----
+    The added mass across is that of a circle at each depth, the same in all directions across, none along.
+    """
+
+    length: float
+    diameter: float
+    strips: int | None = None
+    slam: float = CIRCLE_SLAM
+    drag: float = 1.2
+    end_drag: float = 0.0
+
+    kind: ClassVar[str] = "cylinder"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        not_negative_of("cylinder: length", self.length, "m")
+        not_negative_of("cylinder: diameter", self.diameter, "m")
+        if self.strips is not None:
+            _check_strips("cylinder", (self.strips,), 1)
+        _check_slam("cylinder", self.slam, LEAST_SLAM_ROUND)
+        not_negative_of("cylinder: drag", self.drag)
+        not_negative_of("cylinder: end_drag", self.end_drag)
+
+    @property
+    def extent(self) -> float:
+        return float(max(self.length, self.diameter))
+
+    @property
+    def sources(self) -> str:
+        own = (
+            f"C_S {self.slam:.4g}, C_D {self.drag:g}, {self.end_drag:g} at its ends: DNV-RP-C205 (unverified)"
+        )
+        return f"{self.source or CIRCLE_SOURCE}; {own}"
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        if self.length == 0.0 or self.diameter == 0.0:
+            return
+        radius = 0.5 * self.diameter
+        count = self.strips or min(MOST_STRIPS, max(1, round(self.length / self.diameter)))
+        shares, values = circle_table()
+        faster = max(self.slam / CIRCLE_SLAM, 1.0)
+        depths = radius * _wetted_at(shares, faster)
+        across = density * radius**2 * self.length / count * values
+        size = np.array([self.length / count, self.diameter, self.diameter])
+        side = 0.5 * density * self.drag * self.diameter * self.length
+        end = 0.5 * density * self.end_drag * np.pi * radius**2
+        for place in _cells(np.array([self.length, 0.0, 0.0]), (count, 1)):
+            yield Piece(
+                shape="cylinder", offset=place, size=size, depths=depths,
+                added_masses=np.stack([np.zeros_like(across), across, across], axis=1),
+                drag=np.array([end, side, side]) / count,
+            )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpherePart(_Part):
+    """A sphere.
+
+    Parameters
+    ----------
+    diameter : float
+        m.
+    drag : float
+        C_D, of its cross-section. Default 0.5: below its critical Reynolds number (unverified).
+    point, axes, source
+        As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
+    """
+
+    diameter: float
+    drag: float = 0.5
+
+    kind: ClassVar[str] = "sphere"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        not_negative_of("sphere: diameter", self.diameter, "m")
+        not_negative_of("sphere: drag", self.drag)
+
+    @property
+    def extent(self) -> float:
+        return float(self.diameter)
+
+    @property
+    def sources(self) -> str:
+        return f"{self.source or SPHERE_SOURCE}; C_D {self.drag:g} (unverified)"
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        if self.diameter == 0.0:
+            return
+        radius = 0.5 * self.diameter
+        shares, values = sphere_table()
+        yield Piece(
+            shape="sphere", offset=np.zeros(3), size=np.full(3, self.diameter), depths=radius * shares,
+            added_masses=np.outer(2.0 / 3.0 * np.pi * density * radius**3 * values, np.ones(3)),
+            drag=np.full(3, 0.5 * density * self.drag * np.pi * radius**2),
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class TablePart(_Part):
+    """A part of any shape by tables over the depth of its lowest point, at whatever attitude.
+
+    Parameters
+    ----------
+    height : float
+        m, of which half is above its centre.
+    depths : array_like, shape (n,)
+        m, of its lowest point below the surface, from 0; the last values hold below.
+    volumes : array_like, shape (n,)
+        m3 that are wet.
+    added_masses : array_like, shape (n, 3)
+        kg along its axes; none may fall with depth.
+    drag_area : array_like, shape (3,)
+        C_D times area along its axes, m2.
+    point, axes, source
+        As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from;
+        `source` is required.
+    """
+
+    height: float
+    depths: Any
+    volumes: Any
+    added_masses: Any
+    drag_area: Any = (0.0, 0.0, 0.0)
+
+    kind: ClassVar[str] = "table"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive_of("table: height", self.height, "m")
+        depths = vector_of("table: depths", self.depths)
+        for name in ("depths", "volumes"):
+            for value in vector_of(f"table: {name}", getattr(self, name)):
+                not_negative_of(f"table: {name}", value, "m" if name == "depths" else "m3")
+        shaped_of("table: added_masses", self.added_masses, (len(depths), 3))
+        for value in shaped_of("table: drag_area", self.drag_area, (3,)):
+            not_negative_of("table: drag_area", value, "m2")
+        if not self.source:
+            raise SceneError("table: has no source; say where its coefficients are from")
+
+    @property
+    def extent(self) -> float:
+        return float(self.height)
+
+    @property
+    def sources(self) -> str:
+        return self.source
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        yield Piece(
+            shape="table", offset=np.zeros(3), size=np.full(3, float(self.height)),
+            depths=np.asarray(self.depths, dtype=float), volumes=np.asarray(self.volumes, dtype=float),
+            added_masses=np.asarray(self.added_masses, dtype=float),
+            drag=0.5 * density * np.asarray(self.drag_area, dtype=float),
+        )  # fmt: skip
+
+
+Part = BoxPart | PlatePart | CylinderPart | SpherePart | TablePart
+PARTS: dict[str, type[Part]] = {
+    kind.kind: kind for kind in (BoxPart, PlatePart, CylinderPart, SpherePart, TablePart)
+}
+
+
+def _wetted_at(shares: Array, faster: float) -> Array:
+    """Depths at which a circle has the added mass that it has by itself at `shares`, radii: as if the first
+    of its depth were wetted `faster` times as deep."""
+    if faster == 1.0:
+        return shares
+    more = (faster - 1.0) * SETTLED
+    out = np.array(shares)
+    for _ in range(60):  # Newton's method for h + more (1 - exp(-h / SETTLED)) = share
+        left = out + more * (1.0 - np.exp(-out / SETTLED)) - shares
+        out -= left / (1.0 + (faster - 1.0) * np.exp(-out / SETTLED))
+    out[0] = 0.0
+    return np.asarray(out)
+
+
+def _knots(stretches: list[tuple[float, float]]) -> Array:
+    """Depths for a spline that is smooth over each of the stretches."""
+    return np.unique(np.round(np.concatenate([np.linspace(*one, RAMP_KNOTS + 1) for one in stretches]), 12))
+
+
+def _cells(size: Array, strips: tuple[int, int]) -> Iterator[Array]:
+    """Centres of the cells of a part that is cut along x and y."""
+    for i in range(strips[0]):
+        for j in range(strips[1]):
+            yield np.array(
+                [size[0] * ((i + 0.5) / strips[0] - 0.5), size[1] * ((j + 0.5) / strips[1] - 0.5), 0.0]
+            )
+
+
+def _check_strips(kind: str, strips: Any, count: int) -> None:
+    numbers = strips if isinstance(strips, tuple | list) else ()
+    whole = len(numbers) == count and all(
+        isinstance(one, int | np.integer) and not isinstance(one, bool) and int(one) > 0 for one in numbers
+    )
+    if not whole or int(np.prod(strips)) > MOST_STRIPS:
+        asked = strips[0] if count == 1 else strips
+        raise SceneError(
+            f"{kind}: strips is {asked!r}; give whole numbers from 1, {MOST_STRIPS} in all at most"
+        )
+
+
+def _check_slam(kind: str, value: Any, least: float) -> None:
+    if finite_of(f"{kind}: slam", value) < least:
+        raise SceneError(
+            f"{kind}: slam is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
+            f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})"
+        )
+
+
+def _share_of(what: str, value: Any, most: float) -> None:
+    if not 0.0 <= number_of(what, value) <= most:
+        raise SceneError(f"{what} is {value!r}; give a share from 0 to {most:g}")
