@@ -85,11 +85,14 @@ void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>&
   out.velocity += Vec3d(current.x, current.y, 0.0);
 }
 
-void FlowEvaluator::take(std::size_t count, double z, LocalFlow<double>& out) {
-  const double level = field_->level(z, out.elevation);
-  const std::size_t reached = std::min(count, field_->reach(level, stencil_.cut));
-  scratch_.images = field_->images(level, stencil_.cut);
+void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<double>& out) {
+  const WetHeight<double> wet = wet_height(z, height, out.elevation);
+  const double level = field_->level(wet.middle, out.elevation);
+  const double top = std::min(level + 0.5 * wet.height, 0.0);
+  const std::size_t reached = std::min(count, field_->reach(top, stencil_.cut));
+  scratch_.images = field_->images(level - 0.5 * wet.height, stencil_.cut);
   sea::set_decays(*field_, reached, level, scratch_);
+  if (wet.height > 0.0) sea::take_means(*field_, reached, wet.height, scratch_);
   interior(reached, level, out);
 }
 
@@ -107,9 +110,19 @@ std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<cons
     const std::size_t count = felt(scratch_.amplitude);
     sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), scratch_);
     sea::add_surface(*field_, count, scratch_, out);
-    take(count, at.position.z(), out);
+    take(count, at.position.z(), at.height, out);
   }
   return flow_;
+}
+
+const LocalFlow<double>& FlowEvaluator::one(double t, const FlowPoint& point) {
+  if (!(t == time_ && point == point_)) {
+    time_ = std::numeric_limits<double>::quiet_NaN();
+    cloud(t, {&point, 1});
+    time_ = t;
+    point_ = point;
+  }
+  return flow_.front();
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& first, const Vec3d& step,
@@ -131,7 +144,7 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
       descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), scratch_);
       interior(reached, z, out);
     } else {
-      take(count, z, out);
+      take(count, z, 0.0, out);
     }
   }
   return flow_;

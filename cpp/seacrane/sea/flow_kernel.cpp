@@ -77,6 +77,17 @@ SEACRANE_FLOW_LOOP void write_exponentials(Read k, std::size_t count, double z, 
   for (std::size_t i = 0; i < count; ++i) exp_lane<double, std::uint64_t>(k[i] * z, out[i]);
 }
 
+/// Times the mean of exp(k z) over a height, over its value in the middle: sinh x / x with x = k height / 2,
+/// as sin x / x of an imaginary x. Where k height is far above 2 pi it comes out too small, never too large.
+SEACRANE_FLOW_LOOP void write_means(Read k, std::size_t count, double height, Write decay) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double half = 0.5 * k[i] * height;
+    double mean;
+    sinc_lane(-half * half, mean);
+    decay[i] *= mean;
+  }
+}
+
 SEACRANE_FLOW_LOOP void write_products(Read factor, std::size_t count, Write out) {
   for (std::size_t i = 0; i < count; ++i) out[i] *= factor[i];
 }
@@ -106,6 +117,12 @@ void set_decays(const SeaField& field, std::size_t count, double level, FlowScra
   const double* k = field.arrays().k.data();
   write_exponentials(k, count, level, s.decay.data());
   write_exponentials(k, std::min(count, s.images), -(level + 2.0 * field.depth()), s.image.data());
+}
+
+void take_means(const SeaField& field, std::size_t count, double height, FlowScratch& s) {
+  const double* k = field.arrays().k.data();
+  write_means(k, count, height, s.decay.data());
+  write_means(k, std::min(count, s.images), height, s.image.data());
 }
 
 void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s) {

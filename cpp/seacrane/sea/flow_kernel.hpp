@@ -35,6 +35,8 @@ void turn(std::size_t count, FlowScratch& s);
 /// Elevation, its rate, and its slopes.
 void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
 void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s);
+/// Times the mean over a height around the level.
+void take_means(const SeaField& field, std::size_t count, double height, FlowScratch& s);
 void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s);
 void step_decays(std::size_t count, FlowScratch& s);
 /// Velocity, acceleration and pressure of the waves.

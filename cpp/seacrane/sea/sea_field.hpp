@@ -12,6 +12,21 @@
 
 namespace seacrane {
 
+/// What is below the surface of an upright element.
+template <class T>
+struct WetHeight {
+  T middle, height;
+};
+
+/// Of an element of a height with its middle at z; of one in air, none.
+template <class T>
+WetHeight<T> wet_height(const T& z, const T& height, const T& elevation) {
+  const T half = T(0.5) * height, emerged = z + half - elevation;
+  if (!(height > T(0)) || !(emerged > T(0))) return {z, height};
+  const T dry = emerged < height ? emerged : height;
+  return {z - T(0.5) * dry, height - dry};
+}
+
 /// The waves and the current of a scene as sums over components take them: by wavenumber, so that those that
 /// reach a depth are the first ones, and in whole packs of `lanes`, filled up by waves of no height.
 /// Immutable.
@@ -79,7 +94,8 @@ class SeaField {
 
   /// The flow at a point, component by component: what stencils are faster than, and their slopes.
   template <class T>
-  LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents = Mat3<T>::Zero()) const;
+  LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents = Mat3<T>::Zero(),
+                  const T& height = T(0)) const;
 
   /// Bounds of all numbers of a flow: sums of the magnitudes of the components at z = 0.
   LocalFlow<double> magnitude() const;
@@ -106,7 +122,7 @@ class SeaField {
 };
 
 template <class T>
-LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents, const T& height) const {
   LocalFlow<T> out;
   const Arrays& f = arrays_;
   const auto phasor = [&](std::size_t i) {
@@ -122,10 +138,18 @@ LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents
     out.slope[0] += T(f.kx[i]) * wave.sine;
     out.slope[1] += T(f.ky[i]) * wave.sine;
   }
-  const T level = this->level(point.z(), out.elevation);
+  const WetHeight<T> wet = wet_height<T>(point.z(), height, out.elevation);
+  const T level = this->level(wet.middle, out.elevation);
   for (std::size_t i = 0; i < size_; ++i) {
     const CosSin<T> wave = phasor(i);
-    const auto [down, image] = decay(i, level);
+    auto [down, image] = decay(i, level);
+    if (wet.height > T(0)) {
+      const T half = T(0.5 * f.k[i]) * wet.height;
+      T mean;
+      sinc_lane<T>(-(half * half), mean);  // sinh half / half
+      down *= mean;
+      image *= mean;
+    }
     const T along = T(f.speed[i]) * (down + image), up = T(f.speed[i]) * (down - image);
     const Vec3<T> direction(T(f.x[i]), T(f.y[i]), T(0));
     out.velocity += direction * T(along * wave.cosine);

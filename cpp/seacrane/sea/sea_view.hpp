@@ -32,17 +32,19 @@ class SeaView {
     return evaluators_[idx(stencil)].cloud(t, points);
   }
 
-  /// The flow at the point of a stencil that has one, over an element whose extents are the columns; with
-  /// slopes where T is a Dual.
+  /// The flow at the point of a stencil that has one, over an element whose extents are the columns, averaged
+  /// over what of its height is wet; with slopes where T is a Dual.
   template <class T>
-  LocalFlow<T> one(int stencil, double t, const Vec3<T>& point, const Mat3<T>& extents) const {
+  LocalFlow<T> one(int stencil, double t, const Vec3<T>& point, const Mat3<T>& extents,
+                   const T& height) const {
     if constexpr (std::is_same_v<T, double>) {
-      const FlowPoint here{point, extents};
-      return cloud(stencil, t, {&here, 1}).front();
+      return evaluators_[idx(stencil)].one(t, {point, extents, height});
     } else {
-      return at<T>(t, point, extents);
+      return field_ ? field_->at<T>(t, point, extents, height) : LocalFlow<T>();
     }
   }
+  /// No crest is higher, m.
+  double crest() const { return field_ ? field_->crest() : 0.0; }
 
   /// The flow at one point component by component, with slopes where T is a Dual: what Jacobians take.
   template <class T>

@@ -29,7 +29,8 @@ def add_immersed(
 ) -> list[_core.ImmersedPart]:  # fmt: skip
     """Let water act on parts of a body: buoyancy, added mass, slam and drag of what is below the surface.
 
-    The water is still, its surface at z = 0. The added mass of a part is a mass, which depends on its depth:
+    The water is that of the scene's sea, its waves and its current; without one it is still, its surface at
+    z = 0. The added mass of a part is a mass, which depends on its depth:
     it is taken into the body's own before accelerations are solved for, so that light bodies of great added
     mass do not become unstable. What slam takes is the state "<part>.slam_loss" (J); parts touch the water
     at the events "<part>.touch", and go under at "<part>.awash".

@@ -10,10 +10,10 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
-#include "seacrane/elements/loads/local_flow.hpp"
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/elements/loads/wet_volume.hpp"
 #include "seacrane/math/monotone_spline.hpp"
+#include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 
@@ -54,16 +54,18 @@ struct ImmersedPartDescription {
   bool is(const char* name) const { return shape == name; }
 };
 
-/// Water on a part of a body with frame at its centre P, its lowest point at a depth h. With u the
-/// undisturbed flow, v the velocity of P over it, A(h) the added mass along the part's axes, V the volume
-/// that is wet,
+/// Water on a part of a body with frame at its centre P, its lowest point at a depth h below the surface at
+/// P. With u the undisturbed flow, its mean over the part, v the velocity of P over it, A(h) the added mass
+/// along the part's axes, V the volume that is wet,
 ///
 ///   F = rho V (Du/Dt + g e_z) - A (a - Du/Dt) - s A' h' v - (d/dt of A by turning) v - drag,
 ///   M = -v x (A v) and the moment of buoyancy,   s = 1 on entry (h' > 0), 0 on exit.
 ///
 /// Momentum A v is brought in on entry; half of |A' h'| v^2 goes with the jet, and as much remains in the
-/// water on exit. The moment is Munk's (Kirchhoff's equations; H. Lamb, Hydrodynamics, art. 124). Still
-/// water.
+/// water on exit. The moment is Munk's (Kirchhoff's equations; H. Lamb, Hydrodynamics, art. 124).
+///
+/// The energies of the ledger are those of still water: v_b^T A v_b / 2 with the body's own velocity v_b, and
+/// that of buoyancy at the depth; the power of the sea is what changes them.
 struct ImmersedPart {
   static constexpr const char* kind = "immersed part";
   using Description = ImmersedPartDescription;
@@ -80,6 +82,8 @@ struct ImmersedPart {
   MonotoneSpline<3> added;
   MonotoneSpline<1> wet_volume;  // of a table
   StateRange states;             // what slam has taken, J
+  Mat3d widths = Mat3d::Zero();  // columns: over which the flow is averaged, its axes
+  int stencil = -1;              // its point in the sea
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.body);
@@ -138,6 +142,8 @@ struct ImmersedPart {
     if (d.is("table")) out.wet_volume = MonotoneSpline<1>(d.depths, rows(d.volumes));
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
+    out.widths = widths_of(out.shape, d.size).asDiagonal();
+    out.stencil = context.stencil({"immersed part '" + d.name + "'", 1});
     out.states = {context.state({d.name + ".slam_loss", "J", 0.0, scale}), 1};
     return out;
   }
@@ -195,9 +201,11 @@ struct ImmersedPart {
   struct Place {
     Vec3<T> lever;     // from the state point to its centre
     Mat3<T> axes;      // its own
-    Vec3<T> velocity;  // of its centre, over the water
+    Vec3<T> own;       // velocity of its centre
+    Vec3<T> velocity;  // and over the water
     Vec3<T> turning;
     LocalFlow<T> flow;
+    T rise;                 // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
     T below;                // its lowest point under its centre
   };
@@ -227,11 +235,8 @@ struct ImmersedPart {
     at.lever = k.rotation * point.cast<T>();
     at.axes = k.rotation * axes.cast<T>();
     at.turning = k.angular_velocity;
-    at.flow = still_water<T>();
-    const Vec3<T> velocity = k.velocity + cross<T>(at.turning, at.lever);
-    at.velocity = velocity - at.flow.velocity;
-    at.center = at.flow.elevation - (k.position.z() + at.lever.z());
-    at.rate = at.flow.elevation_rate - velocity.z();
+    at.own = k.velocity + cross<T>(at.turning, at.lever);
+    at.rate = -at.own.z();
     at.below = T(0);
     const auto reach = [&](double half, const T& square, const T& square_rate) {
       const Rounded<T> share(square);
@@ -249,8 +254,31 @@ struct ImmersedPart {
     } else {
       at.below = T(0.5 * d.size[2]);
     }
-    at.depth = at.center + at.below;
+    float_in<T>(in, k.position + at.lever, at);
     return at;
+  }
+
+  /// The sea at a part; above all crests there is none.
+  template <class T>
+  void float_in(const LoadInput<T>& in, const Vec3<T>& center, Place<T>& at) const {
+    using std::sqrt;
+    if (center.z() - at.below < T(in.sea->crest())) {
+      const Mat3<T> over = at.axes * widths.cast<T>();
+      const T height = sqrt(over.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
+      at.flow = in.sea->template one<T>(stencil, in.time, center, over, height);
+    }
+    at.velocity = at.own - at.flow.velocity;
+    at.rise = at.flow.elevation_rate + at.flow.slope[0] * at.own.x() + at.flow.slope[1] * at.own.y();
+    at.center = at.flow.elevation - center.z();
+    at.depth = at.center + at.below;
+    at.rate += at.rise;
+  }
+
+  /// Widths of a box with the second moments of the shape: a mean over it errs from the fourth order on.
+  static Vec3d widths_of(Shape shape, const Vec3d& size) {
+    const double disc = std::sqrt(0.75), ball = std::sqrt(0.6);
+    if (shape == Shape::cylinder) return size.cwiseProduct(Vec3d(1.0, disc, disc));
+    return shape == Shape::sphere ? Vec3d(ball * size) : size;
   }
 
   /// Half of a size along the vertical, from the square of its cosine.
@@ -285,8 +313,9 @@ struct ImmersedPart {
   template <class T>
   void float_on(const Place<T>& at, const WetShare<T>& wet, LoadSum<T>& out) const {
     const Vec3<T> up(T(0), T(0), T(weight) * wet.share);
-    const Vec3<T> force = up + at.flow.acceleration * (T(d.density * volume) * wet.share);
-    out.wrench[body].add(force, at.lever);
+    const Vec3<T> pushed = at.flow.acceleration * (T(d.density * volume) * wet.share);
+    out.wrench[body].add(up + pushed, at.lever);
+    out.add_power(up.z() * at.rise + pushed.dot(at.own));
     const auto turn = [&](int i, const T& over_cosine) {
       const T energy = T(weight) * over_cosine;  // times axis x e_z
       out.wrench[body].moment[0] -= energy * at.axes(1, i);
@@ -327,7 +356,7 @@ struct ImmersedPart {
     }
     const Vec3<T> force = at.axes * drag;
     out.wrench[body].add(force, at.lever);
-    out.add_power(drag.dot(v));
+    out.add_power(force.dot(at.own));
   }
 
   /// What the added mass does beside -A a. Returns the power that slam takes.
@@ -335,24 +364,26 @@ struct ImmersedPart {
   T add_momentum(const Place<T>& at, LoadSum<T>& out) const {
     const auto here = added.at(at.depth);
     const auto local = [&](const Vec3<T>& x) -> Vec3<T> { return at.axes.transpose() * x; };
-    const Vec3<T> v = local(at.velocity);
-    const Vec3<T> own = here.value.cwiseProduct(v), gained = here.slope.cwiseProduct(v);
-    const Vec3<T> momentum = at.axes * own;
-    const Vec3<T> swept = cross<T>(at.turning, at.lever);
-    const Vec3<T> swing =
-        cross<T>(at.turning, swept) - cross<T>(at.turning, at.velocity) - at.flow.acceleration;
+    const Vec3<T> v = local(at.velocity), own = local(at.own);
+    const Vec3<T> momentum = at.axes * here.value.cwiseProduct(v);
+    const Vec3<T> swept = cross<T>(at.turning, cross<T>(at.turning, at.lever));
+    const Vec3<T> swing = swept - cross<T>(at.turning, at.velocity) - at.flow.acceleration;
     Vec3<T> along = here.value.cwiseProduct(local(swing));
-    T loss = T(0);
+    T loss = T(0), stored = T(0);  // what the ledger's energy of A gains beside that of A a
+    const Vec3<T> turned = here.value.cwiseProduct(local(swept - cross<T>(at.turning, at.own)));
     for (int i = 0; i < 3; ++i) {
-      const T taken = at.rate * gained[i], power = T(0.5) * taken * v[i];
-      const bool enters = at.rate * here.slope[i] > T(0);
-      if (enters) along[i] += taken;
+      const T gain = at.rate * here.slope[i];
+      const bool enters = gain > T(0);
+      if (enters) along[i] += gain * v[i];
+      const T power = T(0.5) * gain * v[i] * v[i];
       loss += enters ? power : T(-power);
+      stored += own[i] * (turned[i] + T(0.5) * gain * own[i]);
     }
     const Vec3<T> force = -(at.axes * along + cross<T>(at.turning, momentum));
+    const Vec3<T> moment = -cross<T>(at.velocity, momentum);
     out.wrench[body].add(force, at.lever);
-    out.wrench[body].moment -= cross<T>(at.velocity, momentum);
-    out.add_power(-loss);
+    out.wrench[body].moment += moment;
+    out.add_power(force.dot(at.own) + moment.dot(at.turning) + stored);
     return loss;
   }
 
