@@ -302,6 +302,9 @@ TEST_CASE("the force of the undisturbed wave on a box, as a filtered sum and as 
   const double quarter = 2.0;
   CHECK(std::hypot(force(0.0).z(), force(quarter).z()) == doctest::Approx(expected).epsilon(1e-8));
   CHECK(std::hypot(force(0.0).x(), force(quarter).x()) == doctest::Approx(expected).epsilon(1e-8));
+  FlowEvaluator whole(sea, {"box", 1});
+  const Vec3d at_once = whole.one(1.1, {Vec3d(0.0, 0.0, -4.0), extents, height}).acceleration;
+  CHECK((rho * length * breadth * height * at_once - force(1.1)).norm() < 1e-8 * expected);
 
   // Pressures alone: top and bottom in strips along the wave, ends in strips over the height.
   const auto pressures = [&](double t) {
@@ -317,6 +320,37 @@ TEST_CASE("the force of the undisturbed wave on a box, as a filtered sum and as 
   };
   for (const double t : {0.0, 1.1, quarter}) {
     CHECK((pressures(t) - force(t)).norm() < 2e-6 * expected);
+  }
+}
+
+TEST_CASE("over a height the flow is its mean over what of it is wet") {
+  RandomSea random{std::mt19937_64(20)};
+  for (const double depth : {deep, 15.0}) {
+    for (const Stretching stretching : {Stretching::none, Stretching::wheeler}) {
+      const auto sea = std::make_shared<const SeaField>(random.waves(12, depth), stretching);
+      FlowEvaluator evaluator(sea, {"part", 1, 1e-14});
+      for (const double z : {-6.0, -0.8, 0.6}) {
+        CAPTURE(z);
+        constexpr double height = 3.0;
+        const Vec3d place(4.0, -3.0, z);
+        const LocalFlow<double> flow = evaluator.one(8.0, {place, Mat3d::Zero(), height});
+        const double bottom = z - 0.5 * height, top = std::min(z + 0.5 * height, flow.elevation);
+        LocalFlow<double> mean;
+        constexpr int steps = 400;
+        for (int i = 0; i < steps; ++i) {
+          const double at = bottom + (top - bottom) * (i + 0.5) / steps;
+          const LocalFlow<double> one = sea->at<double>(8.0, Vec3d(4.0, -3.0, at));
+          LocalFlow<double>::each(one, mean, [](double from, double& to) { to += from / steps; });
+        }
+        // Where a part is near the still water, levels above it count as that: what stretching "none" says.
+        const double close = stretching == Stretching::none && top > 0.0 ? 0.2 : 1e-3;
+        CHECK(worst(flow, mean, sea->magnitude()) < close);
+        LocalFlow<double> again = evaluator.one(8.0, {place, Mat3d::Zero(), height});
+        CHECK(worst(flow, again, LocalFlow<double>()) == 0.0);
+        const LocalFlow<double> plain = sea->at<double>(8.0, place, Mat3d::Zero(), height);
+        CHECK(worst(flow, plain, sea->magnitude()) < 1e-12);
+      }
+    }
   }
 }
 
@@ -377,9 +411,9 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
   const SeaView view(sea, {{"other", 4}, {"part", 1, 1e-9}});
   const Vec3d place(4.0, -3.0, -2.7);
   const Mat3d extents = Mat3d::Identity() * 3.0;
-  const LocalFlow<double> flow = view.one<double>(1, 8.0, place, extents);
+  const LocalFlow<double> flow = view.one<double>(1, 8.0, place, extents, 2.0);
   const LocalFlow<Dual<3>> slopes =
-      view.one<Dual<3>>(1, 8.0, variables(place), extents.cast<Dual<3>>().eval());
+      view.one<Dual<3>>(1, 8.0, variables(place), extents.cast<Dual<3>>().eval(), Dual<3>(2.0));
   LocalFlow<double> off = flow;
   LocalFlow<double>::each(slopes, off, [](const Dual<3>& a, double& b) { b = std::fabs(a.value - b); });
   LocalFlow<double>::each(sea->magnitude(), off, [](double size, double& b) { CHECK(b <= 2e-9 * size); });
@@ -389,12 +423,13 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
 TEST_CASE("stencils allocate nothing when they are evaluated") {
   RandomSea random{std::mt19937_64(19)};
   const auto sea = std::make_shared<const SeaField>(random.waves(200, 40.0, shear()));
-  FlowEvaluator evaluator(sea, {"line", 20});
+  FlowEvaluator evaluator(sea, {"line", 20}), part(sea, {"part", 1});
   const std::vector<FlowPoint> points(20, FlowPoint{Vec3d(1.0, 2.0, -3.0), Mat3d::Identity()});
   const long before = test::allocation_count();
   for (int i = 0; i < 10; ++i) {
     evaluator.line(0.1 * i, Vec3d(0.0, 0.0, -1.0), Vec3d(0.5, 0.0, -0.3));
     evaluator.cloud(0.1 * i, points);
+    part.one(0.1 * i, {points.front().position, points.front().extents, 1.0});
   }
   CHECK(test::allocation_count() == before);
 }
