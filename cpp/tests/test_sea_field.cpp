@@ -303,7 +303,7 @@ TEST_CASE("the force of the undisturbed wave on a box, as a filtered sum and as 
   CHECK(std::hypot(force(0.0).z(), force(quarter).z()) == doctest::Approx(expected).epsilon(1e-8));
   CHECK(std::hypot(force(0.0).x(), force(quarter).x()) == doctest::Approx(expected).epsilon(1e-8));
   FlowEvaluator whole(sea, {"box", 1});
-  const Vec3d at_once = whole.one(1.1, {Vec3d(0.0, 0.0, -4.0), extents, height}).acceleration;
+  const Vec3d at_once = whole.row(1.1, {Vec3d(0.0, 0.0, -4.0), extents, Vec3d::Zero(), height}, Vec3d::Zero()).front().acceleration;
   CHECK((rho * length * breadth * height * at_once - force(1.1)).norm() < 1e-8 * expected);
 
   // Pressures alone: top and bottom in strips along the wave, ends in strips over the height.
@@ -333,7 +333,7 @@ TEST_CASE("over a height the flow is its mean over what of it is wet") {
         CAPTURE(z);
         constexpr double height = 3.0;
         const Vec3d place(4.0, -3.0, z);
-        const LocalFlow<double> flow = evaluator.one(8.0, {place, Mat3d::Zero(), height});
+        const LocalFlow<double> flow = evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
         const double bottom = z - 0.5 * height, top = std::min(z + 0.5 * height, flow.elevation);
         LocalFlow<double> mean;
         constexpr int steps = 400;
@@ -345,13 +345,52 @@ TEST_CASE("over a height the flow is its mean over what of it is wet") {
         // Where a part is near the still water, levels above it count as that: what stretching "none" says.
         const double close = stretching == Stretching::none && top > 0.0 ? 0.2 : 1e-3;
         CHECK(worst(flow, mean, sea->magnitude()) < close);
-        LocalFlow<double> again = evaluator.one(8.0, {place, Mat3d::Zero(), height});
+        LocalFlow<double> again = evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
         CHECK(worst(flow, again, LocalFlow<double>()) == 0.0);
         const LocalFlow<double> plain = sea->at<double>(8.0, place, Mat3d::Zero(), height);
         CHECK(worst(flow, plain, sea->magnitude()) < 1e-12);
       }
     }
   }
+}
+
+TEST_CASE("the surface over an element that turns changes by its turning too") {
+  RandomSea random{std::mt19937_64(21)};
+  const auto sea = std::make_shared<const SeaField>(random.waves(30, 40.0));
+  FlowEvaluator evaluator(sea, {"part", 1, 1e-14});
+  const Vec3d place(4.0, -3.0, -1.0), turning(0.3, -0.5, 0.8);
+  const Mat3d extents = Eigen::AngleAxisd(0.7, Vec3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix() *
+                        Vec3d(6.0, 3.0, 2.0).asDiagonal();
+  const auto turned = [&](double angle) -> Mat3d {
+    return Eigen::AngleAxisd(angle * turning.norm(), turning.normalized()).toRotationMatrix() * extents;
+  };
+  constexpr double h = 1e-4;
+  const auto elevation = [&](double s) { return sea->at<double>(8.0 + s, place, turned(s)).elevation; };
+  const double rate = (elevation(h) - elevation(-h)) / (2.0 * h);
+  CHECK(evaluator.row(8.0, {place, extents, turning, 0.0}, Vec3d::Zero()).front().elevation_rate ==
+        doctest::Approx(rate).epsilon(1e-6));
+  CHECK(sea->at<double>(8.0, place, extents, 0.0, turning).elevation_rate ==
+        doctest::Approx(rate).epsilon(1e-6));
+  CHECK(std::fabs(evaluator.row(8.0, {place, extents}, Vec3d::Zero()).front().elevation_rate - rate) > 1e-3 * std::fabs(rate));
+}
+
+TEST_CASE("a row of elements is that of each by itself, and is kept") {
+  RandomSea random{std::mt19937_64(22)};
+  const auto sea = std::make_shared<const SeaField>(random.waves(60, 30.0, shear()), Stretching::wheeler);
+  FlowEvaluator evaluator(sea, {"row", 7, 1e-14});
+  const FlowPoint first{Vec3d(2.0, 1.0, -2.0), Vec3d(3.0, 2.0, 1.0).asDiagonal(), Vec3d(0.1, -0.3, 0.2), 1.5};
+  const Vec3d step(1.1, -0.4, 0.35);
+  const auto row = evaluator.row(8.0, first, step);
+  const std::vector<LocalFlow<double>> kept(row.begin(), row.end());
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    CAPTURE(n);
+    const Vec3d at = first.position + static_cast<double>(n) * step;
+    const auto alone = sea->at<double>(8.0, at, first.extents, first.height, first.turning);
+    CHECK(worst(row[n], alone, sea->magnitude()) < 1e-12);
+  }
+  evaluator.row(9.0, first, step);
+  const auto again = evaluator.row(8.0, first, step);
+  for (std::size_t n = 0; n < kept.size(); ++n) CHECK(worst(again[n], kept[n], LocalFlow<double>()) == 0.0);
 }
 
 TEST_CASE("an element feels its mean over the wave, and no wave shorter than itself") {
@@ -411,9 +450,13 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
   const SeaView view(sea, {{"other", 4}, {"part", 1, 1e-9}});
   const Vec3d place(4.0, -3.0, -2.7);
   const Mat3d extents = Mat3d::Identity() * 3.0;
-  const LocalFlow<double> flow = view.one<double>(1, 8.0, place, extents, 2.0);
+  const Vec3d turning(0.2, -0.1, 0.4), step = Vec3d::Zero();
+  const LocalFlow<double> flow = view.in_row<double>(1, 0, 8.0, {place, extents, turning, 2.0}, step);
   const LocalFlow<Dual<3>> slopes =
-      view.one<Dual<3>>(1, 8.0, variables(place), extents.cast<Dual<3>>().eval(), Dual<3>(2.0));
+      view.in_row<Dual<3>>(1, 0, 8.0,
+                           {variables(place), extents.cast<Dual<3>>().eval(),
+                            turning.cast<Dual<3>>().eval(), Dual<3>(2.0)},
+                           step.cast<Dual<3>>().eval());
   LocalFlow<double> off = flow;
   LocalFlow<double>::each(slopes, off, [](const Dual<3>& a, double& b) { b = std::fabs(a.value - b); });
   LocalFlow<double>::each(sea->magnitude(), off, [](double size, double& b) { CHECK(b <= 2e-9 * size); });
@@ -423,13 +466,13 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
 TEST_CASE("stencils allocate nothing when they are evaluated") {
   RandomSea random{std::mt19937_64(19)};
   const auto sea = std::make_shared<const SeaField>(random.waves(200, 40.0, shear()));
-  FlowEvaluator evaluator(sea, {"line", 20}), part(sea, {"part", 1});
+  FlowEvaluator evaluator(sea, {"line", 20}), row(sea, {"row", 20});
   const std::vector<FlowPoint> points(20, FlowPoint{Vec3d(1.0, 2.0, -3.0), Mat3d::Identity()});
   const long before = test::allocation_count();
   for (int i = 0; i < 10; ++i) {
     evaluator.line(0.1 * i, Vec3d(0.0, 0.0, -1.0), Vec3d(0.5, 0.0, -0.3));
     evaluator.cloud(0.1 * i, points);
-    part.one(0.1 * i, {points.front().position, points.front().extents, 1.0});
+    row.row(0.1 * i, {Vec3d(0.0, 0.0, -1.0), Mat3d::Identity(), Vec3d(0.1, 0.2, 0.3), 1.0}, Vec3d(0.5, 0.0, -0.3));
   }
   CHECK(test::allocation_count() == before);
 }

@@ -96,6 +96,8 @@ class Compiler final : private LoadContext {
   int ground() const override { return static_cast<int>(model_.merge.carriers.size()); }
   int inertial_tension() override { return model_.inertial_tensions++; }
   int stencil(const FlowStencil& stencil) override {
+    const auto same = std::ranges::find(model_.stencils, stencil);
+    if (same != model_.stencils.end()) return static_cast<int>(same - model_.stencils.begin());
     model_.stencils.push_back(stencil);
     return static_cast<int>(model_.stencils.size()) - 1;
   }

@@ -6,10 +6,10 @@
 
 namespace seacrane {
 
-/// sin x / x from y = x^2 <= pi^2: Taylor polynomial whose first omitted term is pi^28 / 29! = 1e-17. Without
-/// branches, so that a loop over it becomes SIMD code.
+/// sin x / x from y = x^2 <= pi^2, and its derivative in y: Taylor polynomial whose first omitted term is
+/// pi^28 / 29! = 1e-17. Without branches, so that a loop over it becomes SIMD code.
 template <class T>
-void sinc_lane(const T& y, T& out) {
+void sinc_lane(const T& y, T& out, T& slope) {
   constexpr std::size_t count = 14;
   constexpr std::array<double, count> coefficient = [] {
     std::array<double, count> c{};
@@ -20,9 +20,18 @@ void sinc_lane(const T& y, T& out) {
     }
     return c;
   }();
-  T sum = y * 0.0 + coefficient[count - 1];
-  for (std::size_t n = count - 1; n-- > 0;) sum = y * sum + coefficient[n];
+  T sum = y * 0.0 + coefficient[count - 1], rise = y * 0.0;
+  for (std::size_t n = count - 1; n-- > 0;) {
+    rise = y * rise + sum;
+    sum = y * sum + coefficient[n];
+  }
   out = sum;
+  slope = rise;
+}
+template <class T>
+void sinc_lane(const T& y, T& out) {
+  T slope;
+  sinc_lane(y, out, slope);
 }
 
 inline constexpr double sinc_end = std::numbers::pi * std::numbers::pi;  // of its main lobe, in x^2

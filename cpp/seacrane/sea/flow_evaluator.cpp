@@ -96,38 +96,69 @@ void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<d
   interior(reached, level, out);
 }
 
+std::size_t FlowEvaluator::feel(const FlowPoint& at) {
+  const bool turns = !at.turning.isZero(0.0);
+  const Mat3d rate = skew<double>(at.turning) * at.extents;
+  scratch_.amplitude = field_->arrays().amplitude;
+  std::ranges::fill(scratch_.gain, 0.0);
+  for (int j = 0; j < 3; ++j) {
+    const double x = at.extents(0, j), y = at.extents(1, j);
+    if (turns) {
+      sea::filter_turning(*field_, field_->padded(), x, y, rate(0, j), rate(1, j), scratch_);
+    } else if (x != 0.0 || y != 0.0) {
+      sea::filter_amplitudes(*field_, field_->padded(), x, y, scratch_);
+    }
+  }
+  const std::size_t count = felt(scratch_.amplitude);
+  if (turns) sea::take_quotients(count, scratch_);
+  return count;
+}
+
+void FlowEvaluator::write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out) {
+  sea::add_surface(*field_, count, scratch_, out);
+  if (!at.turning.isZero(0.0)) sea::add_gains(count, scratch_, out);
+  take(count, z, at.height, out);
+}
+
 std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<const FlowPoint> points) {
+  time_ = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t n = 0; n < flow_.size(); ++n) {
     LocalFlow<double>& out = flow_[n] = {};
     if (!field_) continue;
     const FlowPoint& at = points[n];
     require_above_floor(at.position.z());
-    scratch_.amplitude = field_->arrays().amplitude;
-    for (int j = 0; j < 3; ++j) {
-      const double x = at.extents(0, j), y = at.extents(1, j);
-      if (x != 0.0 || y != 0.0) sea::filter_amplitudes(*field_, field_->padded(), x, y, scratch_);
-    }
-    const std::size_t count = felt(scratch_.amplitude);
+    const std::size_t count = feel(at);
     sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), scratch_);
-    sea::add_surface(*field_, count, scratch_, out);
-    take(count, at.position.z(), at.height, out);
+    write(count, at.position.z(), at, out);
   }
   return flow_;
 }
 
-const LocalFlow<double>& FlowEvaluator::one(double t, const FlowPoint& point) {
-  if (!(t == time_ && point == point_)) {
-    time_ = std::numeric_limits<double>::quiet_NaN();
-    cloud(t, {&point, 1});
-    time_ = t;
-    point_ = point;
+std::span<const LocalFlow<double>> FlowEvaluator::row(double t, const FlowPoint& first, const Vec3d& step) {
+  if (t == time_ && first == first_ && step == step_) return flow_;
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  std::ranges::fill(flow_, LocalFlow<double>());
+  if (field_) {
+    const auto z = [&](std::size_t n) { return first.position.z() + static_cast<double>(n) * step.z(); };
+    require_above_floor(std::min(z(0), z(flow_.size() - 1)));
+    const std::size_t count = feel(first);
+    sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), scratch_);
+    if (flow_.size() > 1) sea::set_turns(*field_, count, step.x(), step.y(), scratch_);
+    for (std::size_t n = 0; n < flow_.size(); ++n) {
+      if (n > 0) sea::turn(count, scratch_);
+      write(count, z(n), first, flow_[n]);
+    }
   }
-  return flow_.front();
+  time_ = t;
+  first_ = first;
+  step_ = step;
+  return flow_;
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& first, const Vec3d& step,
                                                        bool whole) {
-  std::fill(flow_.begin(), flow_.end(), LocalFlow<double>());
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  std::ranges::fill(flow_, LocalFlow<double>());
   if (!field_) return flow_;
   const Descent way(first, step, flow_.size() - 1);
   require_above_floor(way.z(way.last));

@@ -12,17 +12,20 @@
 
 namespace seacrane {
 
-/// One point of a cloud.
-struct FlowPoint {
-  Vec3d position = Vec3d::Zero();  // m, inertial frame
-  Mat3d extents = Mat3d::Zero();   // m, inertial frame: of its element along three axes, in columns; 0: none
-  double height =
-      0.0;  // m, of its element, over what of which is wet the flow is averaged; the point its middle
+/// A point, as the middle of an element that is as wide as its extents.
+template <class T>
+struct FlowPlace {
+  Vec3<T> position = Vec3<T>::Zero();  // m, inertial frame
+  Mat3<T> extents = Mat3<T>::Zero();   // m, inertial frame: of the element along three axes, in columns
+  Vec3<T> turning = Vec3<T>::Zero();   // rad/s, of the element
+  T height = T(0);                     // m, of the element: the flow is averaged over what of it is wet
 
-  bool operator==(const FlowPoint& other) const {
-    return position == other.position && extents == other.extents && height == other.height;
+  bool operator==(const FlowPlace& other) const {
+    return position == other.position && extents == other.extents && turning == other.turning &&
+           height == other.height;
   }
 };
+using FlowPoint = FlowPlace<double>;
 
 /// The sea at a stencil of points, and its scratch; one for each run. Without a field the water is still and
 /// at rest. Results depend on the arguments alone, whatever was evaluated before.
@@ -36,8 +39,9 @@ class FlowEvaluator {
   std::span<const LocalFlow<double>> line(double t, const Vec3d& first, const Vec3d& step, bool whole = true);
   /// At any points, `count` of them.
   std::span<const LocalFlow<double>> cloud(double t, std::span<const FlowPoint> points);
-  /// At the one point of a stencil that has one; asked again for the same, it is not evaluated again.
-  const LocalFlow<double>& one(double t, const FlowPoint& point);
+  /// At elements that differ from the first by equal steps. Asked again for the same, they are not evaluated
+  /// again.
+  std::span<const LocalFlow<double>> row(double t, const FlowPoint& first, const Vec3d& step);
 
   const FlowStencil& stencil() const { return stencil_; }
   /// Of each number of a flow against SeaField::at: what `cut` leaves out, and rounding.
@@ -45,6 +49,10 @@ class FlowEvaluator {
 
  private:
   void require_above_floor(double z) const;
+  /// Amplitudes that an element feels, and how many components are felt at all.
+  std::size_t feel(const FlowPoint& at);
+  /// The flow at the phasors of a point at z, over an element like `at`.
+  void write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out);
   /// From the phasors of a point to its flow; `count` components are felt at all.
   void take(std::size_t count, double z, double height, LocalFlow<double>& out);
   void interior(std::size_t count, double level, LocalFlow<double>& out);
@@ -53,8 +61,9 @@ class FlowEvaluator {
   FlowStencil stencil_;
   sea::FlowScratch scratch_;
   std::vector<LocalFlow<double>> flow_;
-  double time_ = std::numeric_limits<double>::quiet_NaN();  // of one(); none
-  FlowPoint point_;
+  double time_ = std::numeric_limits<double>::quiet_NaN();  // of the last row; none
+  FlowPoint first_;
+  Vec3d step_ = Vec3d::Zero();
 };
 
 }  // namespace seacrane

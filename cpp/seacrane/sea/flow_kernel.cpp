@@ -73,6 +73,25 @@ SEACRANE_FLOW_LOOP void write_filtered(Read kx, Read ky, std::size_t count, doub
   }
 }
 
+SEACRANE_FLOW_LOOP void write_turning(Read kx, Read ky, std::size_t count, double x, double y, double x_rate,
+                                      double y_rate, Write amplitude, Write gain) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
+    const double rate = half * (kx[i] * x_rate + ky[i] * y_rate);  // of the square
+    double sinc, slope;
+    sinc_lane(square, sinc, slope);
+    sinc = where_negative(square - sinc_end, sinc);
+    slope = where_negative(square - sinc_end, slope);
+    gain[i] = gain[i] * sinc + amplitude[i] * (slope * rate);
+    amplitude[i] *= sinc;
+  }
+}
+
+/// Of amplitudes that are not felt, none.
+SEACRANE_FLOW_LOOP void write_quotients(Read amplitude, std::size_t count, Write gain) {
+  for (std::size_t i = 0; i < count; ++i) gain[i] /= amplitude[i] + 1e-300;
+}
+
 SEACRANE_FLOW_LOOP void write_exponentials(Read k, std::size_t count, double z, Write out) {
   for (std::size_t i = 0; i < count; ++i) exp_lane<double, std::uint64_t>(k[i] * z, out[i]);
 }
@@ -96,6 +115,16 @@ SEACRANE_FLOW_LOOP void write_products(Read factor, std::size_t count, Write out
 
 void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y, FlowScratch& s) {
   write_filtered(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y, s.amplitude.data());
+}
+
+void filter_turning(const SeaField& field, std::size_t count, double x, double y, double x_rate,
+                    double y_rate, FlowScratch& s) {
+  write_turning(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y, x_rate, y_rate,
+                s.amplitude.data(), s.gain.data());
+}
+
+void take_quotients(std::size_t count, FlowScratch& s) {
+  write_quotients(s.amplitude.data(), count, s.gain.data());
 }
 
 void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s) {
@@ -156,6 +185,17 @@ SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, co
   out.elevation_rate += total(rate);
   out.slope[0] += total(slope_x);
   out.slope[1] += total(slope_y);
+}
+
+SEACRANE_FLOW_LOOP void add_gains(std::size_t count, const FlowScratch& s, LocalFlow<double>& out) {
+  FlowPack sum{};
+  for (std::size_t i = 0; i < count; i += wide) {
+    FlowPack gain, c;
+    get(s.gain, i, gain);
+    get(s.cosine, i, c);
+    sum += gain * c;
+  }
+  out.elevation_rate += total(sum);
 }
 
 namespace {

@@ -12,6 +12,7 @@ namespace seacrane::sea {
 /// What one stencil keeps for each component, at the point that it is at.
 struct FlowScratch {
   std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
+  std::vector<double> gain;                    // and its rate, then over it, where the element turns
   std::vector<double> cosine, sine;            // amplitude times those of the phase angle
   std::vector<double> turn_cosine, turn_sine;  // of the phase from point to point
   std::vector<double> decay, image;            // exp(k level), exp(-k (level + 2 depth))
@@ -20,7 +21,7 @@ struct FlowScratch {
   std::size_t images = 0;  // how many of the first have an image, whole packs
 
   explicit FlowScratch(std::size_t padded) {
-    for (auto* array : {&amplitude, &angle, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image,
+    for (auto* array : {&amplitude, &angle, &gain, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image,
                         &decay_step, &image_step}) {
       array->assign(padded, 0.0);
     }
@@ -29,11 +30,18 @@ struct FlowScratch {
 
 /// Filtered amplitudes: times sin(h) / h, h half the phase between the ends of an extent (x, y), in place.
 void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y, FlowScratch& s);
+/// The same of an extent that changes at rates (x_rate, y_rate), m/s, with the rates of the amplitudes.
+void filter_turning(const SeaField& field, std::size_t count, double x, double y, double x_rate,
+                    double y_rate, FlowScratch& s);
+/// From rates to their quotients with the amplitudes.
+void take_quotients(std::size_t count, FlowScratch& s);
 void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s);
 void set_turns(const SeaField& field, std::size_t count, double dx, double dy, FlowScratch& s);
 void turn(std::size_t count, FlowScratch& s);
 /// Elevation, its rate, and its slopes.
 void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
+/// What the quotients add to the rate of the elevation.
+void add_gains(std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
 void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s);
 /// Times the mean over a height around the level.
 void take_means(const SeaField& field, std::size_t count, double height, FlowScratch& s);

@@ -15,7 +15,7 @@ namespace seacrane {
 template <class T>
 struct LocalFlow {
   T elevation = T(0);                      // m, of the surface above or below the point
-  T elevation_rate = T(0);                 // m/s, at fixed x and y
+  T elevation_rate = T(0);                 // m/s, at fixed x and y; an element that turns feels it turn
   std::array<T, 2> slope{};                // of the surface over x and y
   Vec3<T> velocity = Vec3<T>::Zero();      // m/s, of the water, the current included
   Vec3<T> acceleration = Vec3<T>::Zero();  // m/s2, of the water: u_t + (U . grad) u, first order in the waves

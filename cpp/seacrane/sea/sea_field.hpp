@@ -81,13 +81,25 @@ class SeaField {
   /// beyond the first zero of any, where the element is longer than the wave.
   template <class T>
   T filter(std::size_t i, const Mat3<T>& extents) const {
+    T rate;
+    return filter(i, extents, Mat3<T>::Zero().eval(), rate);
+  }
+  /// The same of extents that change, with its rate.
+  template <class T>
+  T filter(std::size_t i, const Mat3<T>& extents, const Mat3<T>& extents_rate, T& rate) const {
     T out(1);
+    rate = T(0);
+    const auto along = [&](const Mat3<T>& of, int j) -> T {
+      return T(0.5 * arrays_.kx[i]) * of(0, j) + T(0.5 * arrays_.ky[i]) * of(1, j);
+    };
     for (int j = 0; j < 3; ++j) {
-      const T half = T(0.5 * arrays_.kx[i]) * extents(0, j) + T(0.5 * arrays_.ky[i]) * extents(1, j);
-      const T square = half * half;
-      T sinc;
-      sinc_lane<T>(square, sinc);
-      out *= select(square < T(sinc_end), sinc, T(0));
+      const T half = along(extents, j), square = half * half;
+      const bool felt = square < T(sinc_end);
+      T sinc, slope;
+      sinc_lane<T>(square, sinc, slope);
+      if (!felt) sinc = slope = T(0);
+      rate = rate * sinc + out * slope * (T(2) * half * along(extents_rate, j));
+      out *= sinc;
     }
     return out;
   }
@@ -95,7 +107,7 @@ class SeaField {
   /// The flow at a point, component by component: what stencils are faster than, and their slopes.
   template <class T>
   LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents = Mat3<T>::Zero(),
-                  const T& height = T(0)) const;
+                  const T& height = T(0), const Vec3<T>& turning = Vec3<T>::Zero()) const;
 
   /// Bounds of all numbers of a flow: sums of the magnitudes of the components at z = 0.
   LocalFlow<double> magnitude() const;
@@ -122,19 +134,24 @@ class SeaField {
 };
 
 template <class T>
-LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents, const T& height) const {
+LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents, const T& height,
+                          const Vec3<T>& turning) const {
   LocalFlow<T> out;
   const Arrays& f = arrays_;
+  const Mat3<T> rate = skew<T>(turning) * extents;
+  T gain;  // what turning adds to the rate of the elevation
   const auto phasor = [&](std::size_t i) {
     const T angle = T(f.omega[i] * t + f.phase[i]) - (T(f.kx[i]) * point.x() + T(f.ky[i]) * point.y());
     const CosSin<T> turn = cos_sin(angle);
-    const T amplitude = T(f.amplitude[i]) * filter<T>(i, extents);
+    T filter_rate;
+    const T amplitude = T(f.amplitude[i]) * filter<T>(i, extents, rate, filter_rate);
+    gain = T(f.amplitude[i]) * filter_rate * turn.cosine;
     return CosSin<T>{amplitude * turn.cosine, amplitude * turn.sine};
   };
   for (std::size_t i = 0; i < size_; ++i) {
     const CosSin<T> wave = phasor(i);
     out.elevation += wave.cosine;
-    out.elevation_rate -= T(f.omega[i]) * wave.sine;
+    out.elevation_rate += gain - T(f.omega[i]) * wave.sine;
     out.slope[0] += T(f.kx[i]) * wave.sine;
     out.slope[1] += T(f.ky[i]) * wave.sine;
   }

@@ -32,15 +32,17 @@ class SeaView {
     return evaluators_[idx(stencil)].cloud(t, points);
   }
 
-  /// The flow at the point of a stencil that has one, over an element whose extents are the columns, averaged
-  /// over what of its height is wet; with slopes where T is a Dual.
+  /// The flow at an element of a stencil whose elements differ by equal steps, FlowEvaluator::row; with slopes
+  /// where T is a Dual.
   template <class T>
-  LocalFlow<T> one(int stencil, double t, const Vec3<T>& point, const Mat3<T>& extents,
-                   const T& height) const {
+  LocalFlow<T> in_row(int stencil, int index, double t, const FlowPlace<T>& first,
+                      const Vec3<T>& step) const {
     if constexpr (std::is_same_v<T, double>) {
-      return evaluators_[idx(stencil)].one(t, {point, extents, height});
+      return evaluators_[idx(stencil)].row(t, first, step)[idx(index)];
     } else {
-      return field_ ? field_->at<T>(t, point, extents, height) : LocalFlow<T>();
+      if (!field_) return {};
+      const Vec3<T> point = first.position + step * T(static_cast<double>(index));
+      return field_->at<T>(t, point, first.extents, first.height, first.turning);
     }
   }
   /// No crest is higher, m.

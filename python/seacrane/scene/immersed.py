@@ -77,12 +77,14 @@ def add_immersed(
     for part in made:
         _check_place(what, scene.bodies[owner], part)
     out: list[_core.ImmersedPart] = []
-    for part in made:
+    for number, part in enumerate(made, start=1):
         axes = np.asarray(part.axes, dtype=float)
         for piece in part.pieces(density):
             element = _core.ImmersedPart(
                 name=f"{label}.{len(out) + 1}", body=owner, shape=piece.shape, axes=axes,
                 point=np.asarray(part.point, dtype=float) + axes @ piece.offset, size=piece.size,
+                row=f"{label} part {number} row {piece.row + 1}" if piece.count > 1 else "",
+                place=piece.place, count=piece.count, step=axes @ piece.step,
                 fill=piece.fill, density=density, depths=piece.depths, added_masses=piece.added_masses,
                 volumes=piece.volumes, drag=piece.drag, source=part.sources,
             )  # fmt: skip

@@ -55,6 +55,10 @@ class Piece:
     drag: Array
     fill: float = 1.0
     volumes: Array = field(default_factory=lambda: np.zeros(0))
+    row: int = 0  # of which it is strip `place` of `count`, at equal steps in axes of the part
+    place: int = 0
+    count: int = 1
+    step: Array = field(default_factory=lambda: np.zeros(3))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,9 +174,9 @@ class BoxPart(_Part):
         count = int(np.prod(self.strips))
         cut = size / np.array([*self.strips, 1.0])
         areas = np.array([size[1] * size[2], size[0] * size[2], size[0] * size[1]])
-        for place in _cells(size, self.strips):
+        for cell in _cells(size, self.strips):
             yield Piece(
-                shape="box", offset=place, size=cut, depths=depths, added_masses=whole / count,
+                **cell, shape="box", size=cut, depths=depths, added_masses=whole / count,
                 drag=0.5 * density * self.drag * areas / count, fill=self.fill,
             )  # fmt: skip
 
@@ -317,9 +321,9 @@ class CylinderPart(_Part):
         size = np.array([self.length / count, self.diameter, self.diameter])
         side = 0.5 * density * self.drag * self.diameter * self.length
         end = 0.5 * density * self.end_drag * np.pi * radius**2
-        for place in _cells(np.array([self.length, 0.0, 0.0]), (count, 1)):
+        for cell in _cells(np.array([self.length, 0.0, 0.0]), (count, 1)):
             yield Piece(
-                shape="cylinder", offset=place, size=size, depths=depths,
+                **cell, shape="cylinder", size=size, depths=depths,
                 added_masses=np.stack([np.zeros_like(across), across, across], axis=1),
                 drag=np.array([end, side, side]) / count,
             )  # fmt: skip
@@ -453,13 +457,14 @@ def _knots(stretches: list[tuple[float, float]]) -> Array:
     return np.unique(np.round(np.concatenate([np.linspace(*one, RAMP_KNOTS + 1) for one in stretches]), 12))
 
 
-def _cells(size: Array, strips: tuple[int, int]) -> Iterator[Array]:
-    """Centres of the cells of a part that is cut along x and y."""
-    for i in range(strips[0]):
-        for j in range(strips[1]):
-            yield np.array(
-                [size[0] * ((i + 0.5) / strips[0] - 0.5), size[1] * ((j + 0.5) / strips[1] - 0.5), 0.0]
-            )
+def _cells(size: Array, strips: tuple[int, int]) -> Iterator[dict[str, Any]]:
+    """Where the cells of a part are that is cut along x and y, in rows along the way of more cells."""
+    along = 0 if strips[0] >= strips[1] else 1
+    count, steps = strips[along], size / np.array([*strips, 1.0])
+    step = np.where(np.arange(3) == along, steps, 0.0) if count > 1 else np.zeros(3)
+    for index in np.ndindex(*strips):
+        offset = np.array([*((np.array(index) + 0.5) * steps[:2] - 0.5 * size[:2]), 0.0])
+        yield {"offset": offset, "row": index[1 - along], "place": index[along], "count": count, "step": step}
 
 
 def _check_strips(kind: str, strips: Any, count: int) -> None:

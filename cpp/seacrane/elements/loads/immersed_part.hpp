@@ -29,6 +29,9 @@ struct ImmersedPartDescription {
   std::vector<Vec3d> added_masses;  // along its axes, at these depths
   std::vector<double> volumes;      // likewise, of a table
   Vec3d drag = Vec3d::Zero();       // rho/2 C_D S along its axes
+  std::string row;                  // strips like it at equal steps have one name
+  int place = 0, count = 1;         // its own among them
+  Vec3d step = Vec3d::Zero();       // body coordinates
   std::string source;
 
   static constexpr const char* type = "ImmersedPart";
@@ -48,6 +51,10 @@ struct ImmersedPartDescription {
         optional("volumes", &D::volumes, "m3", "of a table: what is wet, at the depths").not_negative(),
         optional("drag", &D::drag, "N s2/m2", "density / 2 times C_D times area, along its axes")
             .not_negative(),
+        optional("row", &D::row, "", "name of a row of strips at equal steps, for which the sea is summed at once"),
+        optional("place", &D::place, "", "in its row, from 0"),
+        optional("count", &D::count, "", "strips of its row"),
+        optional("step", &D::step, "m", "from strip to strip of its row, body coordinates"),
         optional("source", &D::source, "", "where its coefficients are from"));
   }
 
@@ -75,6 +82,7 @@ struct ImmersedPart {
   Shape shape = Shape::box;
   int body = 0;
   Vec3d point;  // from the state point, body axes
+  Vec3d first_point, step;  // of its row
   Mat3d axes;
   double whole = 0.0, volume = 0.0;  // m3; and of it, what keeps water out
   double weight = 0.0;               // of the water that it keeps out, N
@@ -91,6 +99,10 @@ struct ImmersedPart {
       c.fail("shape '" + d.shape + "' is unknown; choose 'box', 'cylinder', 'sphere' or 'table'");
     }
     check_size(d, c);
+    if (d.place < 0 || d.place >= d.count) {
+      c.fail("place is " + std::to_string(d.place) + " in a row of " + std::to_string(d.count) +
+             "; give 0 up to one less than count");
+    }
     if (!(d.axes.transpose() * d.axes).isIdentity(1e-9) || d.axes.determinant() < 0.0) {
       c.fail("axes are not those of a right-handed frame; give unit columns at right angles");
     }
@@ -133,6 +145,8 @@ struct ImmersedPart {
     out.shape = shape_of(d);
     out.body = on.body;
     out.point = on.point;
+    out.first_point = context.attach(d.body, d.point - d.place * d.step).point;
+    out.step = on.axes * d.step;
     out.axes = on.axes * d.axes;
     out.whole = volume_of(d);
     out.volume = d.fill * volume_of(d);
@@ -143,7 +157,8 @@ struct ImmersedPart {
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
     out.widths = widths_of(out.shape, d.size).asDiagonal();
-    out.stencil = context.stencil({"immersed part '" + d.name + "'", 1});
+    out.stencil =
+        context.stencil({"immersed part '" + (d.row.empty() ? d.name : d.row) + "'", idx(d.count)});
     out.states = {context.state({d.name + ".slam_loss", "J", 0.0, scale}), 1};
     return out;
   }
@@ -263,9 +278,11 @@ struct ImmersedPart {
   void float_in(const LoadInput<T>& in, const Vec3<T>& center, Place<T>& at) const {
     using std::sqrt;
     if (center.z() - at.below < T(in.sea->crest())) {
-      const Mat3<T> over = at.axes * widths.cast<T>();
-      const T height = sqrt(over.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
-      at.flow = in.sea->template one<T>(stencil, in.time, center, over, height);
+      const auto& k = in.bodies[body];
+      FlowPlace<T> first{k.position + k.rotation * first_point.cast<T>(), at.axes * widths.cast<T>(),
+                         at.turning, T(0)};
+      first.height = sqrt(first.extents.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
+      at.flow = in.sea->template in_row<T>(stencil, d.place, in.time, first, k.rotation * step.cast<T>());
     }
     at.velocity = at.own - at.flow.velocity;
     at.rise = at.flow.elevation_rate + at.flow.slope[0] * at.own.x() + at.flow.slope[1] * at.own.y();
