@@ -50,6 +50,7 @@ from measure import (
     two_cores,
     w_method,
     wave_loads,
+    wet_parts,
 )
 from measure.machine import machine
 from measure.section import Section
@@ -89,6 +90,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_speed.memory_speed(repeats=repeats)
     yield wave_loads.wave_loads(repeats=repeats)
     yield moving_points.moving_points(repeats=repeats)
+    yield wet_parts.wet_parts(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)
     integrators.figure(rows, folder / PICTURE)

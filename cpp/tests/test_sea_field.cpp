@@ -303,7 +303,9 @@ TEST_CASE("the force of the undisturbed wave on a box, as a filtered sum and as 
   CHECK(std::hypot(force(0.0).z(), force(quarter).z()) == doctest::Approx(expected).epsilon(1e-8));
   CHECK(std::hypot(force(0.0).x(), force(quarter).x()) == doctest::Approx(expected).epsilon(1e-8));
   FlowEvaluator whole(sea, {"box", 1});
-  const Vec3d at_once = whole.row(1.1, {Vec3d(0.0, 0.0, -4.0), extents, Vec3d::Zero(), height}, Vec3d::Zero()).front().acceleration;
+  const Vec3d at_once = whole.row(1.1, {Vec3d(0.0, 0.0, -4.0), extents, Vec3d::Zero(), height}, Vec3d::Zero())
+                            .front()
+                            .acceleration;
   CHECK((rho * length * breadth * height * at_once - force(1.1)).norm() < 1e-8 * expected);
 
   // Pressures alone: top and bottom in strips along the wave, ends in strips over the height.
@@ -333,7 +335,8 @@ TEST_CASE("over a height the flow is its mean over what of it is wet") {
         CAPTURE(z);
         constexpr double height = 3.0;
         const Vec3d place(4.0, -3.0, z);
-        const LocalFlow<double> flow = evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
+        const LocalFlow<double> flow =
+            evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
         const double bottom = z - 0.5 * height, top = std::min(z + 0.5 * height, flow.elevation);
         LocalFlow<double> mean;
         constexpr int steps = 400;
@@ -345,7 +348,8 @@ TEST_CASE("over a height the flow is its mean over what of it is wet") {
         // Where a part is near the still water, levels above it count as that: what stretching "none" says.
         const double close = stretching == Stretching::none && top > 0.0 ? 0.2 : 1e-3;
         CHECK(worst(flow, mean, sea->magnitude()) < close);
-        LocalFlow<double> again = evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
+        LocalFlow<double> again =
+            evaluator.row(8.0, {place, Mat3d::Zero(), Vec3d::Zero(), height}, Vec3d::Zero()).front();
         CHECK(worst(flow, again, LocalFlow<double>()) == 0.0);
         const LocalFlow<double> plain = sea->at<double>(8.0, place, Mat3d::Zero(), height);
         CHECK(worst(flow, plain, sea->magnitude()) < 1e-12);
@@ -371,7 +375,8 @@ TEST_CASE("the surface over an element that turns changes by its turning too") {
         doctest::Approx(rate).epsilon(1e-6));
   CHECK(sea->at<double>(8.0, place, extents, 0.0, turning).elevation_rate ==
         doctest::Approx(rate).epsilon(1e-6));
-  CHECK(std::fabs(evaluator.row(8.0, {place, extents}, Vec3d::Zero()).front().elevation_rate - rate) > 1e-3 * std::fabs(rate));
+  CHECK(std::fabs(evaluator.row(8.0, {place, extents}, Vec3d::Zero()).front().elevation_rate - rate) >
+        1e-3 * std::fabs(rate));
 }
 
 TEST_CASE("a row of elements is that of each by itself, and is kept") {
@@ -452,11 +457,10 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
   const Mat3d extents = Mat3d::Identity() * 3.0;
   const Vec3d turning(0.2, -0.1, 0.4), step = Vec3d::Zero();
   const LocalFlow<double> flow = view.in_row<double>(1, 0, 8.0, {place, extents, turning, 2.0}, step);
-  const LocalFlow<Dual<3>> slopes =
-      view.in_row<Dual<3>>(1, 0, 8.0,
-                           {variables(place), extents.cast<Dual<3>>().eval(),
-                            turning.cast<Dual<3>>().eval(), Dual<3>(2.0)},
-                           step.cast<Dual<3>>().eval());
+  const LocalFlow<Dual<3>> slopes = view.in_row<Dual<3>>(
+      1, 0, 8.0,
+      {variables(place), extents.cast<Dual<3>>().eval(), turning.cast<Dual<3>>().eval(), Dual<3>(2.0)},
+      step.cast<Dual<3>>().eval());
   LocalFlow<double> off = flow;
   LocalFlow<double>::each(slopes, off, [](const Dual<3>& a, double& b) { b = std::fabs(a.value - b); });
   LocalFlow<double>::each(sea->magnitude(), off, [](double size, double& b) { CHECK(b <= 2e-9 * size); });
@@ -472,7 +476,8 @@ TEST_CASE("stencils allocate nothing when they are evaluated") {
   for (int i = 0; i < 10; ++i) {
     evaluator.line(0.1 * i, Vec3d(0.0, 0.0, -1.0), Vec3d(0.5, 0.0, -0.3));
     evaluator.cloud(0.1 * i, points);
-    row.row(0.1 * i, {Vec3d(0.0, 0.0, -1.0), Mat3d::Identity(), Vec3d(0.1, 0.2, 0.3), 1.0}, Vec3d(0.5, 0.0, -0.3));
+    row.row(0.1 * i, {Vec3d(0.0, 0.0, -1.0), Mat3d::Identity(), Vec3d(0.1, 0.2, 0.3), 1.0},
+            Vec3d(0.5, 0.0, -0.3));
   }
   CHECK(test::allocation_count() == before);
 }

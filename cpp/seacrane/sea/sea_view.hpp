@@ -32,8 +32,8 @@ class SeaView {
     return evaluators_[idx(stencil)].cloud(t, points);
   }
 
-  /// The flow at an element of a stencil whose elements differ by equal steps, FlowEvaluator::row; with slopes
-  /// where T is a Dual.
+  /// The flow at an element of a stencil whose elements differ by equal steps, FlowEvaluator::row; with
+  /// slopes where T is a Dual.
   template <class T>
   LocalFlow<T> in_row(int stencil, int index, double t, const FlowPlace<T>& first,
                       const Vec3<T>& step) const {

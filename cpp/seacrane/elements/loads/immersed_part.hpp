@@ -30,7 +30,7 @@ struct ImmersedPartDescription {
   std::vector<double> volumes;      // likewise, of a table
   Vec3d drag = Vec3d::Zero();       // rho/2 C_D S along its axes
   std::string row;                  // strips like it at equal steps have one name
-  int place = 0, count = 1;         // its own among them
+  double place = 0.0, count = 1.0;  // its own among them; whole numbers
   Vec3d step = Vec3d::Zero();       // body coordinates
   std::string source;
 
@@ -51,7 +51,8 @@ struct ImmersedPartDescription {
         optional("volumes", &D::volumes, "m3", "of a table: what is wet, at the depths").not_negative(),
         optional("drag", &D::drag, "N s2/m2", "density / 2 times C_D times area, along its axes")
             .not_negative(),
-        optional("row", &D::row, "", "name of a row of strips at equal steps, for which the sea is summed at once"),
+        optional("row", &D::row, "",
+                 "name of a row of strips at equal steps, for which the sea is summed at once"),
         optional("place", &D::place, "", "in its row, from 0"),
         optional("count", &D::count, "", "strips of its row"),
         optional("step", &D::step, "m", "from strip to strip of its row, body coordinates"),
@@ -81,7 +82,7 @@ struct ImmersedPart {
   Description d;
   Shape shape = Shape::box;
   int body = 0;
-  Vec3d point;  // from the state point, body axes
+  Vec3d point;              // from the state point, body axes
   Vec3d first_point, step;  // of its row
   Mat3d axes;
   double whole = 0.0, volume = 0.0;  // m3; and of it, what keeps water out
@@ -89,6 +90,7 @@ struct ImmersedPart {
   double edge = 0.0;                 // m, by which edges are round: no attitude is singular
   MonotoneSpline<3> added;
   MonotoneSpline<1> wet_volume;  // of a table
+  int place_in_row = 0;
   StateRange states;             // what slam has taken, J
   Mat3d widths = Mat3d::Zero();  // columns: over which the flow is averaged, its axes
   int stencil = -1;              // its point in the sea
@@ -99,9 +101,11 @@ struct ImmersedPart {
       c.fail("shape '" + d.shape + "' is unknown; choose 'box', 'cylinder', 'sphere' or 'table'");
     }
     check_size(d, c);
-    if (d.place < 0 || d.place >= d.count) {
-      c.fail("place is " + std::to_string(d.place) + " in a row of " + std::to_string(d.count) +
-             "; give 0 up to one less than count");
+    const bool whole = d.place == std::floor(d.place) && d.count == std::floor(d.count);
+    if (!whole || d.place < 0.0 || d.place >= d.count || d.count > kMostStrips) {
+      c.fail("place is " + to_text(d.place) + " in a row of " + to_text(d.count) +
+             "; give whole numbers, 0 up to " + "one less than count, which is " + to_text(kMostStrips) +
+             " at most");
     }
     if (!(d.axes.transpose() * d.axes).isIdentity(1e-9) || d.axes.determinant() < 0.0) {
       c.fail("axes are not those of a right-handed frame; give unit columns at right angles");
@@ -147,6 +151,7 @@ struct ImmersedPart {
     out.point = on.point;
     out.first_point = context.attach(d.body, d.point - d.place * d.step).point;
     out.step = on.axes * d.step;
+    out.place_in_row = static_cast<int>(d.place);
     out.axes = on.axes * d.axes;
     out.whole = volume_of(d);
     out.volume = d.fill * volume_of(d);
@@ -157,8 +162,8 @@ struct ImmersedPart {
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
     out.widths = widths_of(out.shape, d.size).asDiagonal();
-    out.stencil =
-        context.stencil({"immersed part '" + (d.row.empty() ? d.name : d.row) + "'", idx(d.count)});
+    out.stencil = context.stencil(
+        {"immersed part '" + (d.row.empty() ? d.name : d.row) + "'", static_cast<std::size_t>(d.count)});
     out.states = {context.state({d.name + ".slam_loss", "J", 0.0, scale}), 1};
     return out;
   }
@@ -210,6 +215,7 @@ struct ImmersedPart {
  private:
   using Sides = std::array<Margin, 2>;
   static constexpr double kRound = 1e-3;  // of half a size, or of a cosine
+  static constexpr double kMostStrips = 1000.0;
 
   /// Where a part is, inertial axes.
   template <class T>
@@ -282,7 +288,8 @@ struct ImmersedPart {
       FlowPlace<T> first{k.position + k.rotation * first_point.cast<T>(), at.axes * widths.cast<T>(),
                          at.turning, T(0)};
       first.height = sqrt(first.extents.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
-      at.flow = in.sea->template in_row<T>(stencil, d.place, in.time, first, k.rotation * step.cast<T>());
+      at.flow =
+          in.sea->template in_row<T>(stencil, place_in_row, in.time, first, k.rotation * step.cast<T>());
     }
     at.velocity = at.own - at.flow.velocity;
     at.rise = at.flow.elevation_rate + at.flow.slope[0] * at.own.x() + at.flow.slope[1] * at.own.y();
