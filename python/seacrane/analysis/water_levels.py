@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,21 +34,22 @@ def leveled(scene: Description, model: _core.Model, *, time: float) -> Callable[
         out = np.array(values)
         for name, water in waters.items():
             place = places[f"{name}.volume"]
-            now = flow(out, place, out[place])
-            end = 0.0 if now < 0.0 else water.area * water.height
-            if now != 0.0:
-                out[place] = _last(lambda v, at=place, now=now: flow(out, at, v) * now > 0.0, out[place], end)
+            out[place] = _settled(partial(flow, out, place), out[place], water.area * water.height)
         return out
 
     return found if waters else np.array
 
 
-def _last(flows: Callable[[float], bool], first: float, still: float) -> float:
-    """The end of the volumes with a flow, from the first one on towards one without."""
+def _settled(flow: Callable[[float], float], volume: float, whole: float) -> float:
+    """The volume nearest to a first one at which the flow ends."""
+    now = flow(volume)
+    if now == 0.0:
+        return volume
+    flows, still = volume, whole if now > 0.0 else 0.0
     for _ in range(HALVINGS):
-        middle = 0.5 * (first + still)
-        if flows(middle):
-            first = middle
+        middle = 0.5 * (flows + still)
+        if flow(middle) * now > 0.0:
+            flows = middle
         else:
             still = middle
     return still

@@ -113,6 +113,6 @@ def _check_upright(what: str, body: _core.Body) -> None:
     lean = float(np.arccos(np.clip(rotation_matrix(body.quaternion)[2, 2], -1.0, 1.0)))
     if lean > LARGEST_LEAN:
         raise SceneError(
-            f"{what}: its axis, z of the body, leans by {np.degrees(lean):.3g} deg as described, and levels are "
-            f"right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn the body's axes so that z is upright"
+            f"{what}: its axis, z of the body, leans by {np.degrees(lean):.3g} deg as described, and levels "
+            f"are right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn the body's axes so that z is upright"
         )
