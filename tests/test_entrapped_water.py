@@ -95,12 +95,12 @@ def test_in_air_it_runs_out_as_torricelli_says_and_in_his_time() -> None:
     root = np.clip(np.sqrt(first) - rate * np.asarray(result.time), 0.0, None)
     high = root**2 > 0.1
     assert high.sum() > 50
-    assert volume[high] / AREA == pytest.approx(root[high] ** 2, abs=1e-6)
+    assert volume[high] / AREA == pytest.approx(root[high] ** 2, abs=5e-6)
     told = events(result)
     assert list(told) == ["empty"]
     assert told["empty"] == pytest.approx([np.sqrt(first) / rate], rel=1e-7)
-    assert np.all(np.diff(volume) <= 0.0)
-    assert 0.0 <= volume[-1] < 1e-6, "and it stays empty"
+    assert np.all(np.diff(volume) < 1e-9)
+    assert np.abs(volume[-1]) < 1e-9, "and it stays empty"
     assert loss[-1] == pytest.approx(RHO * G * AREA * first**2 / 2.0, rel=1e-6), "all of its head is lost"
     assert np.max(np.abs(result["energy_balance"])) < 1e-8 * np.max(result["absolute_work"])
 
@@ -158,9 +158,9 @@ def test_an_opening_above_both_lets_nothing_through(formulation: str) -> None:
 
 
 def test_what_is_full_gives_where_it_takes_and_no_more() -> None:
-    """A lean puts one opening deeper than the other only in waves: by a pair of seas, here by a current of
-    pressure, what flows through stays within the bound."""
-    scene = standing(-6.0, ((-20.0, 0.0, 1.0), 0.2), ((20.0, 0.0, 1.0), 0.2), initial=AREA * HEIGHT, area=9.0)
+    """A crest at one opening and a trough at the other: while it is full, only what leaves comes in."""
+    holes = [((x, 0.0, 0.7), 0.2) for x in (-20.0, 20.0)]
+    scene = standing(-3.7, *holes, initial=9.0 * HEIGHT, area=9.0)
     scene.waves = wave(period=8.0, amplitude=1.5)
     result = run(scene, 60.0, 0.05, rtol=1e-8)
     volume, loss = states(result)
@@ -300,7 +300,7 @@ def test_water_that_comes_in_has_to_be_brought_up_to_speed(formulation: str) -> 
     """Along a level guide m v stays, and half of m' v^2 is lost; water that leaves takes its own along."""
     scene = guided((1.0, 0.0, 0.0), -6.0, velocity=(2.0, 0.0, 0.0))
     filled(scene, ((0.0, 0.5, 3.9), 0.05))
-    result = run(scene, 25.0, 0.5, formulation)
+    result = run(scene, 30.0, 0.5, formulation)
     volume, loss = states(result)
     assert volume[-1] > 5.0
     rate = np.asarray(result.select("velocity", body="load", axis="x"))
@@ -390,7 +390,7 @@ def hanging(seed: int, waves: bool = True) -> Scene:
     scene.add_body(name="hook", mass=300.0, inertia=(50.0, 60.0, 70.0), position=(0.5, 0.2, 5.0))
     scene.add_body(
         name="load", mass=4000.0, inertia=(3000.0, 4000.0, 5000.0), position=(1.0, 0.0, 0.3),
-        angular_velocity=(0.2, -0.15, 0.3), velocity=(0.525, 0.82, 0.02),
+        angular_velocity=(0.2, -0.15, 0.3), velocity=(0.615, 0.86, 0.02),
     )  # fmt: skip
     scene.add_joint(kind="distance", name="rope", first="ground", second="hook", point=(0.0, 0.0, 10.0),
                     second_point=(0.5, 0.2, 5.0))  # fmt: skip
@@ -418,10 +418,10 @@ def test_both_formulations_agree_and_the_ledger_closes(seed: int) -> None:
     assert np.asarray(one["load_state"]) == pytest.approx(np.asarray(other["load_state"]), rel=1e-6, abs=1e-4)
     for result in (one, other):
         assert np.max(np.abs(result["energy_balance"])) < 1e-6 * np.max(result["absolute_work"])
-        lost = np.asarray(result.select("load_state", state="water 0.flow_loss"))
+        lost = np.asarray(result.select("load_state", state_name="water 0.flow_loss"))
         assert lost[-1] > 100.0
         assert np.all(np.diff(lost) >= 0.0), "flow never gives back"
-        volume = np.asarray(result.select("load_state", state="water 1.volume"))
+        volume = np.asarray(result.select("load_state", state_name="water 1.volume"))
         assert volume.min() >= 0.0
         assert volume.max() <= 5.0 * (1.0 + 1e-9)
 
