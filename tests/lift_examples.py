@@ -6,7 +6,7 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
 from seacrane.scene import gust_curve, spline_curve
-from seacrane.water import BoxPart, SpherePart
+from seacrane.water import BoxPart, Opening, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
@@ -311,6 +311,15 @@ parts = [
     { kind = "box", size_m = [1, 2, 0.5], strips = [2, 1], point_m = [0, 0, 0.1], slam = 6 },
 ]
 
+[[entrapped_water]]
+name = "skirt"
+body = "bob"
+area_m2 = 1.5
+height_m = 2
+point_m = [0, 0, -1]
+openings = [{ point_m = [0, 0.5, -0.9], area_m2 = 0.02 }, { point_m = [0.5, 0, 0.8], area_m2 = 0.01 }]
+initial_m3 = 0.5
+
 [pendulum_damping]
 name = "swing"
 first = "ground"
@@ -552,6 +561,10 @@ def every_table() -> Scene:
     )  # fmt: skip
     parts = [SpherePart(diameter=0.4), BoxPart(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
     scene.add_immersed("bob", parts=parts)
+    scene.add_entrapped_water(
+        name="skirt", body="bob", area=1.5, height=2, point=(0, 0, -1), initial=0.5,
+        openings=[Opening(point=(0, 0.5, -0.9), area=0.02), Opening(point=(0.5, 0, 0.8), area=0.01)],
+    )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))

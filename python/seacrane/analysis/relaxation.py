@@ -25,18 +25,20 @@ BEYOND = 1.5  # 1/step^2 over the fastest growth
 
 
 def relaxed(
-    model: _core.Model, time: float, values: Array, *, capsized: Callable[[Array], float]
-) -> Array | None:
+    model: _core.Model, time: float, values: Array, *, capsized: Callable[[Array], float],
+    level: Callable[[Array], Array],
+) -> Array | None:  # fmt: skip
     """A state near rest that a damped motion from `values` comes to; None where it does not settle.
 
     `capsized` tells by how much (rad) a vessel is turned: beyond `UPRIGHT` there is no rest to be found.
+    `level` takes water in compartments to where it stays.
 
     Implicit steps h of a motion without inertia from step to step, (1/h^2 - dF/dq) dq = F in minimal
     coordinates, and (1/h - dr/dx) dx = r of the states that loads have. A load that nothing holds yet falls
     until its line is taut; what would grow moves away from where it stands. h grows as the forces vanish.
     """
     terms = Terms(model, time=time)
-    y = terms.evaluator.project(time, at_rest(model, values))
+    y = level(terms.evaluator.project(time, at_rest(model, values)))
     step, most, last = FIRST_STEP, LONGEST_STEP, np.zeros(0)
     for _ in range(MOST_STEPS):
         coordinates = ReducedCoordinates.at(terms, y)
@@ -55,7 +57,7 @@ def relaxed(
         moved = _moved(terms, coordinates, force, step)
         if moved is None:
             return None
-        y = at_rest(model, terms.evaluator.project(time, moved))
+        y = level(at_rest(model, terms.evaluator.project(time, moved)))
     return None
 
 

@@ -17,6 +17,7 @@ from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import tips_over, warn_of_rest
 from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unbounded, with_what_hangs
+from seacrane.analysis.water_levels import leveled
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -84,9 +85,9 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     """State at rest of the scene with its references held at one time, without waves.
 
     Newton's method on the accelerations in minimal coordinates, and on the rates of the states that loads
-    have. Hydraulic cylinders stand where their spools are shut, with the pressures that hold. Where nothing
-    fixes a position (a vessel without mooring, a payload about its link) or a state (the length of a line on
-    a winch), it stays where it is.
+    have. Hydraulic cylinders stand where their spools are shut, with the pressures that hold. Water in
+    compartments has come in or run out as far as it does. Where nothing fixes a position (a vessel without
+    mooring, a payload about its link) or a state (the length of a line on a winch), it stays where it is.
 
     Parameters
     ----------
@@ -203,10 +204,11 @@ def _searched(scene: Description, model: _core.Model, time: float, values: Array
     Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
     """
     led = partial(with_what_hangs, scene, model, least=LEAST_LED) if has_masses(scene) else _as_moved
-    found = _search(model, time, values, led)
+    level = leveled(scene, model, time=time)
+    found = _search(model, time, values, led, level)
     if found.state is None or found.tips:
-        near = relaxed(model, time, values, capsized=partial(most_turned, scene, model))
-        other = found if near is None else _search(model, time, near, led)
+        near = relaxed(model, time, values, capsized=partial(most_turned, scene, model), level=level)
+        other = found if near is None else _search(model, time, near, led, level)
         if found.state is None or (other.state is not None and not other.tips):
             found = other
     if found.state is None:
@@ -228,15 +230,19 @@ def _as_moved(_before: Array, after: Array) -> Array:
     return after
 
 
-def _search(model: _core.Model, time: float, values: Array, led: Callable[[Array, Array], Array]) -> _Search:
+def _search(
+    model: _core.Model, time: float, values: Array, led: Callable[[Array, Array], Array],
+    level: Callable[[Array], Array],
+) -> _Search:  # fmt: skip
     """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it.
 
     `led` takes what hangs along with a step, given the states before and after it: masses of a line that
-    follow their upper end along straight lines are strained by the square of its step.
+    follow their upper end along straight lines are strained by the square of its step. `level` then takes
+    water in compartments to where it stays.
     """
     terms = Terms(model, time=time)
     y = at_rest(model, values)
-    y = terms.evaluator.project(time, y)
+    y = level(terms.evaluator.project(time, y))
     before, stiffness = np.inf, np.zeros((0, 0))
     for steps in range(MOST_STEPS):
         acceleration, drift = terms.acceleration_and_drift(y)
@@ -268,7 +274,7 @@ def _search(model: _core.Model, time: float, values: Array, led: Callable[[Array
         share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
         moved = terms.moved(y, displacement=share * move)
         moved[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
-        y = at_rest(model, led(y, terms.evaluator.project(time, moved)))
+        y = level(at_rest(model, led(y, terms.evaluator.project(time, moved))))
     return _Search(state=None, values=y)
 
 

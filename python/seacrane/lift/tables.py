@@ -38,6 +38,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene import (
     bridles,
+    entrapped,
     given_vessel,
     heave,
     hoist,
@@ -54,6 +55,7 @@ from seacrane.scene import (
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
+from seacrane.water import Opening
 
 LEFT = ("left",)  # of a heel or trim: as it comes
 START: dict[str, Any] = {
@@ -323,6 +325,10 @@ _ALL = (
     _call(
         "immersed", immersed.add_immersed, _core.ImmersedPart,
         parts={"type": "tables", "keys": part_keys()},
+    ),
+    _call(
+        "entrapped_water", entrapped.add_entrapped_water, _core.EntrappedWater,
+        openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),

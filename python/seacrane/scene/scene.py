@@ -36,6 +36,7 @@ from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
     drift,
+    entrapped,
     given_vessel,
     heave,
     hoist,
@@ -148,6 +149,7 @@ class Scene(Description):
     add_given_vessel = given_vessel.add_given_vessel
     add_slack_tank = slack_tank.add_slack_tank
     add_immersed = immersed.add_immersed
+    add_entrapped_water = entrapped.add_entrapped_water
     add_sea = sea.add_sea
     sea_at = sea_at
     add_ballast = add_ballast

@@ -1,0 +1,118 @@
+"""add_entrapped_water(): water that comes into a compartment of a body, and leaves it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.description.description import Description
+from seacrane.description.forces import add_load
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import finite_of, name_of, not_negative_of, positive_of, shaped_of
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.shown import shown
+from seacrane.scene.immersed import LEAST_DENSITY, SEA_WATER
+from seacrane.water.openings import Opening
+
+LARGEST_LEAN = np.radians(30.0)  # as in the engine, which has the event "<name>.leans"
+
+
+def add_entrapped_water(
+    scene: Description, body: str, *, area: float, height: float,
+    openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0), discharge: float = 0.6,
+    initial: float = 0.0, density: float = SEA_WATER, name: str | None = None,
+) -> _core.EntrappedWater:  # fmt: skip
+    """Let water come into a compartment of a body, and leave it, through openings.
+
+    The compartment is a prism that stands on `point` along the body's z axis: a suction anchor, a tube, a
+    bucket. Air comes and goes freely. The volume of its water is the state "<name>.volume" (m3), what is lost
+    in the openings "<name>.flow_loss" (J), both in the channel `load_state`. It is full at the event
+    "<name>.full", empty at "<name>.empty"; at "<name>.leans" its axis is 30 deg from vertical.
+
+    Parameters
+    ----------
+    body : str
+        Name of the body. Its mass and weight are without the water.
+    area : float
+        m2, of its section.
+    height : float
+        m, from its bottom to its top.
+    openings : sequence
+        `seacrane.water.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
+    point : array_like, shape (3,)
+        Centre of its bottom, m, body coordinates.
+    discharge : float
+        C_d of the openings, above 0 to 1: 0.6 of a sharp edge.
+    initial : float
+        m3 of water in it at the start.
+    density : float
+        kg/m3, of the water.
+    name : str, optional
+        Default: "water in <body>".
+
+    Returns
+    -------
+    EntrappedWater
+
+    Raises
+    ------
+    SceneError
+        For a body that is not there or leans by more than 30 deg as described, openings outside the
+        compartment, more water than it holds, bad numbers, and a density that is in t/m3.
+
+    Notes
+    -----
+    V' = sum of C_d A_o sign(dh) sqrt(2 g |dh|), with dh the head of the undisturbed sea over an opening less
+    that of the water inside, each zero where the opening is above it. The root is rounded off over a head of
+    1 mm. The water is a mass with the body, a rod along the axis up to its surface, with its weight. What
+    comes in takes -density V' (v - u); what leaves keeps its velocity. The outer shape's buoyancy is that of
+    `add_immersed`, with fill=1 for a compartment.
+    """
+    owner = name_of("entrapped water", body)
+    label = name_of("entrapped water", name, f"water in {owner}")
+    what = f"entrapped water {label!r}"
+    if owner not in scene.bodies:
+        raise SceneError(f"{what}: there is no body {owner!r}; add it first")
+    if positive_of(f"{what}: density", density, "kg/m3") < LEAST_DENSITY:
+        raise SceneError(f"{what}: density is {density:g}, which looks like t/m3; give kg/m3")
+    holes = _openings(what, openings)
+    element = _core.EntrappedWater(
+        name=label, body=owner, point=shaped_of(f"{what}: point", point, (3,)),
+        area=positive_of(f"{what}: area", area, "m2"), height=positive_of(f"{what}: height", height, "m"),
+        opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
+        opening_areas=[float(hole.area) for hole in holes],
+        discharge=finite_of(f"{what}: discharge", discharge),
+        initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density,
+    )  # fmt: skip
+    _check_upright(what, scene.bodies[owner])
+    return add_load(scene, element)
+
+
+def _openings(what: str, given: Any) -> list[Opening]:
+    if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
+        raise SceneError(f"{what}: openings is {shown(given)}; give a list of seacrane.water.Opening")
+    return [_opening(what, one) for one in given]
+
+
+def _opening(what: str, given: Any) -> Opening:
+    if isinstance(given, Opening):
+        return given
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{what}: openings holds {shown(given)}; give seacrane.water.Opening")
+    try:
+        return Opening(**given)
+    except TypeError as error:
+        raise SceneError(f"{what}: opening: {str(error).partition('() ')[2] or error}") from None
+
+
+def _check_upright(what: str, body: _core.Body) -> None:
+    """Refuse a compartment that lies: one whose height is along another axis of the body."""
+    lean = float(np.arccos(np.clip(rotation_matrix(body.quaternion)[2, 2], -1.0, 1.0)))
+    if lean > LARGEST_LEAN:
+        raise SceneError(
+            f"{what}: its axis, z of the body, leans by {np.degrees(lean):.3g} deg as described, and levels "
+            f"are right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn the body's axes so that z is upright"
+        )
