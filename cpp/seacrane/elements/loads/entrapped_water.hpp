@@ -225,7 +225,7 @@ struct EntrappedWater {
   LocalFlow<T> flow_at(const LoadInput<T>& in, int stencil, const Vec3<T>& place) const {
     if (!(place.z() < T(in.sea->crest()))) return {};  // above all crests there is none
     if constexpr (std::is_same_v<T, double>) {
-      return in.sea->template one<double>(stencil, in.time, place, Mat3d::Zero(), 0.0);
+      return in.sea->template in_row<double>(stencil, 0, in.time, {place}, Vec3d::Zero());
     } else {
       return in.sea->template at<T>(in.time, place);
     }
