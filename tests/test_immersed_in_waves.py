@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from seacrane import Scene, _core, simulate
+from seacrane import Scene, SceneError, _core, simulate
 from seacrane.description.forces import add_load
 from seacrane.run import Run
 from seacrane.run.lanes import module_of
@@ -272,3 +272,28 @@ def test_waves_hold_a_light_box_up_and_it_rises_with_them() -> None:
     surface = 0.5 * np.cos(omega * np.asarray(result.time) - k * place[:, 0])
     late = np.asarray(result.time) > 5.0
     assert np.max(np.abs(place[late, 2] - surface[late])) < 0.02
+
+
+def test_strips_in_a_row_feel_what_each_feels_by_itself() -> None:
+    """Their sums over components go from strip to strip; alone each begins anew."""
+    together = hanging(1)
+    apart = together.copy()
+    for name, part in together.loads.items():
+        if isinstance(part, _core.ImmersedPart) and part.count > 1:
+            apart.replace(name, row="", place=0, count=1, step=(0.0, 0.0, 0.0))
+    assert any(one.count > 1 for one in together.loads.values() if isinstance(one, _core.ImmersedPart))
+    one, other = (
+        np.asarray(simulate(scene, t_end=2.0, dt_out=0.5, channels=["position"], **EXACT)["position"])
+        for scene in (together, apart)
+    )
+    assert one == pytest.approx(other, abs=1e-10)
+
+
+@pytest.mark.parametrize("given", [{"place": 2, "count": 2}, {"place": 0.5, "count": 2}, {"place": -1}])
+def test_a_place_outside_its_row_is_refused(given: dict[str, float]) -> None:
+    scene = Scene(name="row")
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3))
+    [part] = scene.add_immersed("load", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
+    with pytest.raises(SceneError, match=r"place is .* in a row of .*; give whole numbers"):
+        scene.replace(part.name, **given)
+        scene.compile()
