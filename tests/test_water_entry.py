@@ -1,7 +1,7 @@
 """Water entry of a wedge and of a cylinder: the equation's own solutions, and the coefficients they rest on.
 
-Solutions were printed to three digits by somebody who integrated the equation of docs/water.md; they count
-drag from the time on at which the centre is below the surface.
+The printed solutions are of an integration of the equation of docs/water.md that shares no code with ours. Of
+the cylinder they count drag from when its centre is below the surface.
 """
 
 from __future__ import annotations
