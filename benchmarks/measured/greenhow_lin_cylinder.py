@@ -42,7 +42,7 @@ def rows(_: Path) -> Iterator[MeasuredRow]:
             ours = dropped(line, SHARES[words], drag=DRAG[words], slam=slam)
             common: dict[str, Any] = {
                 "picture": "measured_cylinder_entry", "panel": f"cylinder {words}", "by": by,
-                "x": "time sqrt(g/D)", "y": "depth over D", "of": "value", "points": (time, depth),
+                "x": "time sqrt(g/D), -", "y": "depth over D", "of": "value", "points": (time, depth),
                 "line": (line, ours), "others": {"free fall": _up_to(line, free_fall(line), depth[-1])},
             }  # fmt: skip
             for kept, told, expected in ((believed, "", 0.05), (~believed, ", points of free fall", None)):
