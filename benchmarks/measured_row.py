@@ -24,13 +24,17 @@ HEAD = (
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """Where a reader finds the set: title, repository, commit, licence, who measured it."""
+    """Where a reader finds the set: title, repository, commit, licence, who measured it.
+
+    `quoted`: its few numbers stand in its module, and it needs no folder of data.
+    """
 
     title: str
     repository: str
     commit: str
     licence: str
     about: str
+    quoted: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

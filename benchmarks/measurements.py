@@ -1,9 +1,10 @@
 """What tanks and other programs say of us: ``benchmarks/measurements.py [--publish] [set ...]``.
 
 A set is a module of `benchmarks/measured` with its `SOURCE` and `rows(folder)`; its data lie in the folder of
-its name in ``measured`` of the folder that SEACRANE_SHARED names, or of ``../shared``. Writes
-``measurements.csv`` and the pictures to ``out/bench``; with ``--publish`` to ``benchmarks/results`` and
-``docs/figures``, and fills the documents. A difference a fifth beyond the published one ends the call.
+its name in ``measured`` of the folder that SEACRANE_SHARED names, or of ``../shared``, unless its module
+quotes them. Writes ``measurements.csv`` and the pictures to ``out/bench``; with ``--publish`` to
+``benchmarks/results`` and ``docs/figures``, and fills the documents. A difference a fifth beyond the
+published one ends the call.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ from measured_row import HEAD, MeasuredRow
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
-SETS = tuple(sorted(path.stem for path in (ROOT / "benchmarks" / "measured").glob("[a-z]*.py")))
+MODULES = ROOT / "benchmarks" / "measured"
+SETS = tuple(sorted(path.stem for path in MODULES.glob("[a-z]*.py")))
 RESULTS = ROOT / "benchmarks" / "results"
 TABLE = "measurements.csv"
 SOURCES = "measured-sets.csv"
@@ -38,7 +40,9 @@ COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:red")
 
 
 def data_of(name: str) -> Path | None:
-    """Folder of a set's data; None where it is absent."""
+    """Folder of a set's data, or of its module where that quotes them; None where it is absent."""
+    if module_of(name).SOURCE.quoted:
+        return MODULES
     named = os.environ.get("SEACRANE_SHARED")
     folder = (Path(named) if named else ROOT.parent / "shared") / "measured" / name
     return folder if folder.is_dir() else None

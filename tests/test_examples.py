@@ -79,6 +79,20 @@ def test_two_cranes_share_their_load_as_levers_do(tmp_path: Path) -> None:
     assert found[-2:] == pytest.approx(by_hand[-2:], rel=0.12)  # in waves, to first order of the swing
 
 
+def test_a_template_goes_through_the_waves_taut(tmp_path: Path) -> None:
+    """And the simplified method, which takes the largest speeds at once, says less of it than any run."""
+    told = run(FOLDER / "splash_zone.py", tmp_path).splitlines()
+    kinds: dict[str, list[list[float]]] = {"run": [], "simplified": []}
+    for line in told:
+        kinds[line.partition(",")[0]].append([float(number) for number in re.findall(NUMBER, line)][-3:])
+    assert [len(rows) for rows in kinds.values()] == [5, 4]
+    hook = (41.5e3 - 1025.0 * 0.2 * 6.0 * 4.0 * 3.0) * 9.80665 / 1e3  # kN
+    assert kinds["run"][0][1] == pytest.approx(hook, rel=0.01)
+    assert sum(row[1] for row in kinds["run"][1:]) > kinds["run"][0][1] - 1.5 * 9.80665
+    hand = min(share for *_, share in kinds["simplified"])
+    assert all(max(0.1, hand) < share < 1.0 for *_, share in kinds["run"])
+
+
 def test_controller_example_calms_its_load(tmp_path: Path) -> None:
     free, controlled = (
         float(line.split()[-2]) for line in run(FOLDER / "sampled_controller.py", tmp_path).splitlines()
