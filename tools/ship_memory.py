@@ -11,7 +11,8 @@ import tempfile
 from pathlib import Path
 
 from seacrane.hydro import fit_memory, shipped_database
-from seacrane.hydro.memory.cache import VARIABLE, cache_folder, shipped_folder
+from seacrane.hydro.memory.cache import cache_folder, shipped_folder
+from seacrane.inputs.user_cache import VARIABLE
 
 
 def main() -> None:

@@ -81,10 +81,11 @@ class NoWaveLoadsWarning(RunWarning):
 
 
 class MeshConvergenceWarning(RunWarning):
-    """A hull was solved with half the panels too, as asked, and these entries of added mass or damping
-    changed by more than 5 % of their largest.
+    """A hull was solved with half the panels too, as asked, or the mesh of a load's part, and entries of
+    added mass or damping changed by more than 5 % of their largest.
 
-    Mesh it finer: `hull.remeshed(stations=..., girth=...)`.
+    Mesh it finer: `hull.remeshed(stations=..., girth=...)`, or more `panels` of `water.from_mesh`. It also
+    comes where the added mass of a part fell with depth by as much, which it cannot: often at thin walls.
     """
 
 
@@ -373,6 +374,17 @@ class LoadInHullWarning(SceneWarning):
     Nothing keeps bodies apart, so the run would look well. Shorten the link, slew out before the load is
     lowered, or ignore it for a load in a moonpool. Length and breadth are those that the radii of gyration
     suggest, the keel follows from the displaced mass.
+    """
+
+
+class ScatteredWavesWarning(SceneWarning):
+    """A part of a load in the water (`Scene.add_immersed`) starts within a ship's breadth of her side, in a
+    sea.
+
+    Parts feel the undisturbed sea: the waves that the hull scatters, and those that it makes by moving, are
+    not in it. Before a wall waves are twice as high, in a lee lower. The message tells the distance and the
+    breadth, for the nearest part of each ship. Vary `hs` to bound what that does. Parts that start half a
+    wave length below the surface or deeper are not judged, nor what comes near later (`docs/water.md`).
     """
 
 

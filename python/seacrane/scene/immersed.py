@@ -12,14 +12,13 @@ from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, positive_of
+from seacrane.inputs.checked import name_of
 from seacrane.inputs.shown import shown
+from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.parts import PARTS, BoxPart, CylinderPart, Part, PlatePart, SpherePart, TablePart
 
 Array = NDArray[np.float64]
 
-SEA_WATER = 1025.0  # kg/m3
-LEAST_DENSITY = 100.0  # kg/m3, below which a density is rather in t/m3
 FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on it
 
 
@@ -40,8 +39,8 @@ def add_immersed(
     body : str
         Name of the body. Its weight stays as it is.
     parts : sequence
-        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, or tables
-        {"kind": "box", ...} with their entries.
+        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
+        `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries.
     density : float
         kg/m3, of the water.
     name : str, optional
@@ -69,8 +68,7 @@ def add_immersed(
         raise SceneError(f"immersed parts: there is no body {owner!r}; add it first")
     what = f"immersed parts of {owner!r}"
     label = owner if name is None else name_of("immersed parts", name)
-    if positive_of(f"{what}: density", density, "kg/m3") < LEAST_DENSITY:
-        raise SceneError(f"{what}: density is {density:g}, which looks like t/m3; give kg/m3")
+    density_of(what, density)
     if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
         raise SceneError(f"{what}: parts is {shown(parts)}; give a list of parts of seacrane.water")
     made = [_part(what, one) for one in parts]

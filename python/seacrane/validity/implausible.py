@@ -22,6 +22,7 @@ from seacrane.inputs.plausible import angle_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_starts import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
+from seacrane.validity.near_hulls import warn_of_parts_near_hulls
 from seacrane.validity.unstable import carried_by, warn_of_capsize
 from seacrane.warnings import BallastWarning, CompassDirectionWarning, FreeCraneWarning, MassUnitWarning
 
@@ -53,6 +54,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
         warn_of_capsize(scene)
         warn_of_loads_in_hulls(scene)
         warn_of_line_starts(scene)
+        warn_of_parts_near_hulls(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:

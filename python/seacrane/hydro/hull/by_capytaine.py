@@ -37,13 +37,12 @@ def capytaine_solution(
     ImportError : Capytaine is not installed.
     ValueError : too many panels for the memory of a computer.
     """
-    capytaine = _capytaine()
+    capytaine = import_capytaine("method 'capytaine'", "use method 'strip', which needs nothing")
     if len(hull.panels) > MOST_PANELS:
         raise ValueError(
             f"hull {hull.name!r}: {len(hull.panels)} panels are too many for Capytaine's dense matrices "
             f"(limit {MOST_PANELS}); use hull.remeshed(stations=..., girth=...)"
         )
-    logging.getLogger("capytaine").setLevel(logging.ERROR)
     vertices = hull.panels.reshape(-1, 3)
     faces = np.arange(len(vertices)).reshape(-1, 4)
     mesh = capytaine.Mesh(vertices=vertices, faces=faces, name=hull.name)
@@ -91,13 +90,13 @@ def _solved(capytaine: Any, body: Any, omega: FloatArray, heading: FloatArray, r
     return solved.squeeze([axis for axis in ("water_depth", "rho", "g") if axis in solved.dims], drop=True)
 
 
-def _capytaine() -> Any:
-    """The module, or an error that says how to get it."""
+def import_capytaine(what: str, instead: str) -> Any:
+    """The module, which reports errors alone; or an ImportError that says what to do."""
     try:
         import capytaine
     except ImportError as error:
         raise ImportError(
-            "method 'capytaine' needs Capytaine 3, which is not installed: pip install 'seacrane[hydro]'; or "
-            "use method 'strip', which needs nothing"
+            f"{what} needs Capytaine 3, which is not installed: pip install 'seacrane[hydro]'; or {instead}"
         ) from error
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
     return capytaine

@@ -49,13 +49,18 @@ def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArr
 
 
 def require_closed(name: str, triangles: FloatArray) -> FloatArray:
-    """The triangles (n, 3, 3) with joined vertices, once they are known to be closed below z = 0.
+    """The triangles (n, 3, 3) of a hull with joined vertices, once they are known to be closed below z = 0.
 
     Raises
     ------
     ValueError : an edge below the waterline with one face or more than two, or two faces that run along
         their common edge in the same direction; names the number of edges and the place of the first.
     """
+    return closed_below(f"hull {name!r}", triangles, 0.0, " below the waterline")
+
+
+def closed_below(what: str, triangles: FloatArray, level: float, where: str) -> FloatArray:
+    """As `require_closed`, of any surface below z = `level`, m, which messages call `where`."""
     flat = triangles.reshape(-1, 3)
     tolerance = MERGE * float(np.ptp(flat, axis=0).max())
     labels = merged_points(flat, tolerance)
@@ -64,8 +69,8 @@ def require_closed(name: str, triangles: FloatArray) -> FloatArray:
     distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
     faces = _without_cancelling(faces[distinct])
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    wet = points[edges][..., 2].min(axis=1) < -tolerance
-    _require_pairs(name, points, edges[wet])
+    wet = points[edges][..., 2].min(axis=1) < level - tolerance
+    _require_pairs(what, where, points, edges[wet])
     return np.asarray(points[faces])
 
 
@@ -77,7 +82,7 @@ def _without_cancelling(faces: IntArray) -> IntArray:
     return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
 
 
-def _require_pairs(name: str, points: FloatArray, edges: IntArray) -> None:
+def _require_pairs(what: str, where: str, points: FloatArray, edges: IntArray) -> None:
     """Every edge run through once in each direction."""
     low, high = edges.min(axis=1), edges.max(axis=1)
     pairs, which, count = np.unique(
@@ -85,15 +90,15 @@ def _require_pairs(name: str, points: FloatArray, edges: IntArray) -> None:
     )
     balance = np.bincount(which.ravel(), weights=np.where(edges[:, 0] < edges[:, 1], 1.0, -1.0))
     problems = (
-        (count == 1, "have one face only: the surface is open; close it below the waterline (a mesh of one "
-                     "half needs mirroring)"),
+        (count == 1, f"have one face only: the surface is open; close it{where} (a mesh of one half needs "
+                     "mirroring)"),
         (count > 2, "have more than two faces: surfaces overlap or touch; give one outer skin"),
         (balance != 0.0, "have two faces whose normals disagree; orient all faces outwards"),
     )  # fmt: skip
-    for wrong, what in problems:
+    for wrong, problem in problems:
         if np.any(wrong):
             at = points[pairs[int(np.flatnonzero(wrong)[0])]].mean(axis=0)
             raise ValueError(
-                f"hull {name!r}: {int(wrong.sum())} edges below the waterline, the first near x = "
-                f"{at[0]:.4g}, y = {at[1]:.4g}, z = {at[2]:.4g} m, {what}"
+                f"{what}: {int(wrong.sum())} edges{where}, the first near x = {at[0]:.4g}, y = {at[1]:.4g}, "
+                f"z = {at[2]:.4g} m, {problem}"
             )

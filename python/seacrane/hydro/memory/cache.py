@@ -1,17 +1,14 @@
 """Fitted memory models that were made before: of this process, of the package, and in a folder on disk.
 
 A model is known by a digest of all that its fit looks at: the database's numbers, the settings of the fit,
-and the version of the fit. The package holds that of the shipped hull. The folder is
-``~/.cache/seacrane/memory`` (``$XDG_CACHE_HOME/seacrane/memory`` where that is set). ``SEACRANE_CACHE``
-names another one, and ``SEACRANE_CACHE=off`` keeps nothing on disk. Files are written atomically, and one
-that cannot be read is made anew.
+and the version of the fit. The package holds that of the shipped hull. The folder is ``memory`` of the
+user's cache (`seacrane.inputs.user_cache`). A file that cannot be read is made anew.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import os
 from dataclasses import asdict, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
@@ -22,11 +19,9 @@ import numpy as np
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
-from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
 VERSION = 2  # raised with every change of a fit
-VARIABLE, OFF = "SEACRANE_CACHE", "off"
-MOST_BYTES = 10_000_000
 USED = (
     "omega",
     "heading",
@@ -56,16 +51,7 @@ class FitSettings:
 
 def cache_folder() -> Path | None:
     """Where models are kept; None where nothing is kept on disk."""
-    named = os.environ.get(VARIABLE)
-    if named is not None and named.strip().lower() in ("", OFF):
-        return None
-    if named is not None:
-        return Path(named) / "memory"
-    base = os.environ.get("XDG_CACHE_HOME")
-    try:
-        return (Path(base) if base else Path.home() / ".cache") / "seacrane" / "memory"
-    except RuntimeError:  # there is no home
-        return None
+    return user_cache("memory")
 
 
 def shipped_folder() -> Path:
@@ -93,15 +79,7 @@ def keep_fit(database: HydroData, settings: FitSettings, model: MemoryModel) -> 
     """Keep a model for the next time; a folder that cannot be written is passed over."""
     name = digest(database, settings)
     _of_process[name] = model
-    folder = cache_folder()
-    if folder is None:
-        return
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with atomic_write(folder / f"{name}{SUFFIX}") as draft:
-            draft.write_bytes(packed(model))
-    except OSError:
-        return
+    keep_file(cache_folder(), f"{name}{SUFFIX}", packed(model))
 
 
 def digest(database: HydroData, settings: FitSettings) -> str:
@@ -125,7 +103,5 @@ def _add(parts: Any, name: str, value: Any) -> None:
 
 
 def _read(path: Path) -> MemoryModel:
-    if path.stat().st_size > MOST_BYTES:
-        raise ValueError("too large for a memory model")
-    model: MemoryModel = unpacked(path.read_bytes(), (MemoryModel,))
+    model: MemoryModel = unpacked(read_kept(path), (MemoryModel,))
     return model

@@ -1,0 +1,261 @@
+"""`from_mesh`: a part of a load by tables that a closed mesh and a panel code make."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import finite_of, number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.shown import shown
+from seacrane.warnings import MeshConvergenceWarning
+from seacrane.water.added_mass import perforation_factor
+from seacrane.water.closed_mesh import closed_mesh
+from seacrane.water.density import SEA_WATER, density_of
+from seacrane.water.depth_table import DepthTable
+from seacrane.water.mesh_volume import MeshShape, volumes_below
+from seacrane.water.panel_added_mass import MOST_PANELS, PanelLadder, panel_ladder
+from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, Piece, TablePart
+
+Array = NDArray[np.float64]
+
+MOST_DRAUGHTS, FEWEST_PANELS = 60, 50
+MOST_WETTING = 2.0  # that of a circle as it touches (Wagner)
+LARGEST_ERROR = 0.05  # of panels, which is not warned of
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class MeshPart(TablePart):
+    """What `from_mesh` makes: a table of the added mass that a fast motion feels, with that of a slow one.
+
+    Parameters
+    ----------
+    height, depths, volumes, added_masses, drag_area, point, axes, source
+        As of `TablePart`; arrays are read-only.
+    size : array_like, shape (3,)
+        m, its extent along its axes, over which waves are averaged.
+    low_frequency_added_masses : array_like, shape (n, 3)
+        kg at the depths, along its axes, at zero frequency: what a load feels that rides waves much longer
+        than itself. The engine takes `added_masses`, those at infinite frequency. Both meet far below.
+    mended : float
+        Largest change of added mass so that it grows with depth, over the largest unbounded one.
+    panel_error : float
+        Largest change of the unbounded added mass with half the panels, over the largest of its axes.
+    density : float
+        kg/m3, of the water for which masses are in kg; in other water they are in proportion.
+    """
+
+    size: Any
+    low_frequency_added_masses: Any
+    mended: float
+    panel_error: float
+    density: float
+
+    __repr__ = brief
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("size", "depths", "volumes", "added_masses", "low_frequency_added_masses"):
+            array = np.array(getattr(self, name), dtype=float)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        shaped_of("table: size", self.size, (3,))
+        shaped_of("table: low_frequency_added_masses", self.low_frequency_added_masses, (len(self.depths), 3))
+        density_of("table", self.density)
+
+    @property
+    def extent(self) -> float:
+        return float(np.max(self.size))
+
+    def pieces(self, density: float) -> Iterator[Piece]:
+        for piece in super().pieces(density):
+            masses = piece.added_masses * (density / self.density)
+            yield replace(piece, size=np.array(self.size), added_masses=masses)
+
+
+def from_mesh(
+    mesh: str | os.PathLike[str] | ArrayLike,
+    *,
+    scale: float = 1.0,
+    draughts: ArrayLike | None = None,
+    wetting: float = 1.0,
+    slam: float | None = None,
+    perforation: float = 0.0,
+    drag_area: ArrayLike = (0.0, 0.0, 0.0),
+    panels: int = 400,
+    source: str = "",
+    point: ArrayLike = (0.0, 0.0, 0.0),
+    axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    density: float = SEA_WATER,
+) -> MeshPart:
+    """A part of a load from a closed mesh: volume over depth exactly, added mass over depth by Capytaine.
+
+    The tables are those of the mesh as it is drawn, z upwards, and hold at whatever attitude. Buoyancy and
+    added mass act at half its height, above or below the centre of its volume. What turning adds to its
+    inertia is left out. Solutions are kept on disk by the content of mesh and draughts.
+
+    Parameters
+    ----------
+    mesh : path-like or array_like, shape (n, 3, 3)
+        STL or glTF (its y up becomes z up), or triangles: vertices, anticlockwise from outside, in m.
+    scale : float
+        By which coordinates are multiplied to be m, such as 1e-3 for a file in mm.
+    draughts : array_like, shape (n,), optional
+        m, of its lowest point, increasing, at which added mass is solved for, from touch to its top or below
+        it. Default: denser near touch, and on until the surface no longer counts. Below the last, the
+        unbounded value follows; before them, two near the touch of a flat bottom.
+    wetting : float
+        How much deeper the section is wetted than the undisturbed surface, up to its top, by the water that
+        piles up beside it: pi/2 of a wedge (H. Wagner, ZAMM 12 (1932) 193), 2 of a circle as it touches. 1:
+        none, as in a panel code: slam comes too softly.
+    slam : float, optional
+        C_S of a flat bottom, at least 5, which is its default: as of `BoxPart`.
+    perforation : float
+        Share of its faces that is open, 0 to 0.5: takes from its added mass as from that of `BoxPart`.
+    drag_area : array_like, shape (3,)
+        C_D times area along its axes, m2.
+    panels : int
+        About how many a draught takes; time grows with their square.
+    source : str
+        Of what is given here; what was computed is told after it.
+    point, axes : array_like, shape (3,) and (3, 3)
+        Where the mesh's origin is, m, and its axes (columns), in body coordinates.
+    density : float
+        kg/m3, of the water for which `added_masses` is in kg.
+
+    Returns
+    -------
+    MeshPart
+
+    Raises
+    ------
+    SceneError
+        For an open mesh, one whose faces point inwards, one in mm, one with more triangles than are solved
+        for, bad numbers, draughts that are not positive and increasing, and a density in t/m3.
+    FileFormatError
+        For a file that is damaged, too large, or of another kind.
+    ImportError
+        Without Capytaine: pip install 'seacrane[hydro]'. What was solved before needs none.
+
+    Warns
+    -----
+    MeshConvergenceWarning
+        Added mass changes by more than 5 % with half the panels, or was mended by as much.
+
+    Notes
+    -----
+    V = sum of n_z times the integral of the depth over each wet triangle. Added mass at infinite frequency,
+    with a surface without pressure, never falls with depth; where the solution does, the panels err.
+    """
+    what, triangles = closed_mesh(mesh, scale)
+    asked = _Asked.of(what, wetting, slam, perforation, panels)
+    water, own = density_of(what, density), text_of(f"{what}: source", source, "")
+    origin, turn = shaped_of(f"{what}: point", point, (3,)), shaped_of(f"{what}: axes", axes, (3, 3))
+    shape = MeshShape.of(triangles)
+    rungs = _draughts_of(what, draughts, float(shape.size[2]))
+    if slam is not None and shape.flat <= 0.0:
+        raise SceneError(f"{what}: slam is {slam:g}, and nothing of its bottom is flat; give wetting instead")
+    ladder = panel_ladder(what, shape, rungs, asked.panels)
+    table = DepthTable.of(ladder, shape, wetting=asked.wetting, slam=asked.slam)
+    depths, kept = table.depths(shape.kinks), water * perforation_factor(asked.perforation)
+    part = MeshPart(
+        height=float(shape.size[2]), size=shape.size, depths=depths, drag_area=drag_area, density=water,
+        volumes=volumes_below(shape.triangles, depths), added_masses=kept * table.fast(depths),
+        low_frequency_added_masses=kept * table.slow(depths), mended=table.mended,
+        panel_error=ladder.error, point=origin + turn @ shape.center, axes=turn,
+        source=_source(own, what, ladder, table, asked),
+    )  # fmt: skip
+    _warn(what, part)
+    return part
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Asked:
+    """Numbers that were given."""
+
+    wetting: float
+    slam: float
+    perforation: float
+    panels: int
+
+    @staticmethod
+    def of(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) -> _Asked:
+        if not 1.0 <= number_of(f"{what}: wetting", wetting) <= MOST_WETTING:
+            raise SceneError(
+                f"{what}: wetting is {number_of(what, wetting):g}; give 1, without pile-up, to "
+                f"{MOST_WETTING:g}, such as pi/2 of a wedge"
+            )
+        hit = LEAST_SLAM if slam is None else finite_of(f"{what}: slam", slam)
+        if hit < LEAST_SLAM:
+            raise SceneError(f"{what}: slam is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
+        if not 0.0 <= number_of(f"{what}: perforation", perforation) <= MOST_PERFORATION:
+            raise SceneError(
+                f"{what}: perforation is {perforation!r}; give a share from 0 to {MOST_PERFORATION:g}"
+            )
+        whole = isinstance(panels, int | np.integer) and not isinstance(panels, bool)
+        if not whole or not FEWEST_PANELS <= int(panels) <= MOST_PANELS:
+            raise SceneError(
+                f"{what}: panels is {shown(panels)}; give a whole number from {FEWEST_PANELS} to "
+                f"{MOST_PANELS}"
+            )
+        return _Asked(wetting=float(wetting), slam=hit, perforation=float(perforation), panels=int(panels))
+
+
+def _draughts_of(what: str, draughts: Any, height: float) -> Array | None:
+    if draughts is None:
+        return None
+    values = np.array(vector_of(f"{what}: draughts", draughts))
+    if not 1 <= len(values) <= MOST_DRAUGHTS:
+        raise SceneError(f"{what}: draughts has {len(values)} values; give 1 to {MOST_DRAUGHTS}")
+    for value in values:
+        if not (np.isfinite(value) and value > 0.0):
+            raise SceneError(f"{what}: draughts holds {value:g} m; depths of the lowest point are positive")
+    for before, after in pairwise(values):
+        if after <= before:
+            raise SceneError(
+                f"{what}: draughts has {after:g} m after {before:g} m; give them in increasing order"
+            )
+    if values[-1] < height * (1.0 - 1e-9):
+        raise SceneError(
+            f"{what}: draughts ends at {values[-1]:g} m, above its top, which goes under at {height:g} m; go "
+            "on to there, or below"
+        )
+    return values
+
+
+def _source(given: str, what: str, ladder: PanelLadder, table: DepthTable, asked: _Asked) -> str:
+    """Where the numbers of a part are from, and how far they can be trusted."""
+    crossed = np.abs(ladder.unbounded - np.diag(np.diag(ladder.unbounded))).max()
+    share = crossed / np.diag(ladder.unbounded).max()
+    slower = ", ".join(f"{one:.2f}" for one in table.slower())
+    parts = [
+        given,
+        f"{what}, {ladder.code}, infinite frequency, {ladder.panels} panels at most (half of them: "
+        f"{ladder.error:.1%}; mended by {table.mended:.1%})",
+        f"at zero frequency {slower} times that at half its height",
+        f"wetting {asked.wetting:.4g}",
+        f"C_S {asked.slam:g}: DNV-RP-N103 (unverified)" if table.over > 0.0 else "",
+        f"couplings of its axes up to {share:.1%} left out" if share > 0.02 else "",
+    ]
+    return "; ".join(part for part in parts if part)
+
+
+def _warn(what: str, part: MeshPart) -> None:
+    for error, cause in (
+        (part.panel_error, "changes by {:.1%} with half the panels"),
+        (part.mended, "had to be mended by {:.1%} so that it grows with depth"),
+    ):
+        if error > LARGEST_ERROR:
+            warn_caller(
+                f"{what}: its added mass {cause.format(error)}; give more panels (panels=), or a mesh "
+                "without thin walls and gaps",
+                MeshConvergenceWarning,
+            )
