@@ -20,7 +20,7 @@ from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
 from stability_atlas import committed, stability_atlas, workers
-from stability_atlas.__main__ import main
+from stability_atlas.__main__ import DOCUMENT, PICTURE, main, publish
 from stability_atlas.axes import AXES
 from stability_atlas.measure import measure, reference_of
 from stability_atlas.methods import DEFAULT, QUICK, every
@@ -304,3 +304,16 @@ def test_rows_survive_their_file(tmp_path: Path) -> None:
     (again,) = RowFile(tmp_path / "rows.jsonl", {"study": "test"}).rows.values()
     assert json.dumps(asdict(again)) == json.dumps(asdict(GOOD))
     assert not RowFile(tmp_path / "rows.jsonl", {"study": "another"}).rows
+
+
+def test_the_pictures_that_the_document_shows_are_put_in_their_place(tmp_path: Path) -> None:
+    shown = PICTURE.findall(DOCUMENT.read_text())
+    assert {"extremes_payload.png", "extremes_step.png"} <= {name for _, name in shown}
+    for path, name in shown:
+        assert (DOCUMENT.parent / path).is_file()
+        (tmp_path / name).write_bytes(name.encode())
+    copy = tmp_path / "docs" / "study" / "atlas" / "README.md"
+    copy.parent.mkdir(parents=True)
+    copy.write_text(DOCUMENT.read_text())
+    (tmp_path / "docs" / "docs" / "figures").mkdir(parents=True)
+    assert [path.read_bytes().decode() for path in publish(tmp_path, copy)] == [name for _, name in shown]

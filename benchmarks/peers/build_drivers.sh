@@ -22,6 +22,6 @@ g++ "${flags[@]}" -w -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCES
 integrate=$here/../../cpp/seacrane/integrate
 for driver in pinocchio_run pinocchio_batch; do
   g++ "${flags[@]}" "$here/$driver.cpp" "$out/pinocchio_dynamics.o" -o "$out/$driver" \
-    "$integrate"/{integrator,integration_error,error_norm,one_step,adaptive_step,fixed_step,rk4,embedded_pairs}.cpp \
+    "$integrate"/{integrator,last_step,integration_error,error_norm,one_step,adaptive_step,fixed_step,rk4,embedded_pairs}.cpp \
     "-L$prefix/lib" -pthread -lpinocchio_default "-Wl,-rpath,$prefix/lib"
 done

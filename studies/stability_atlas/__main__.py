@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import re
+import shutil
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from seacrane.cli.output_folder import output_folder
 from seacrane.plotting.text import text_table
@@ -12,6 +15,8 @@ from stability_atlas import Atlas, stability_atlas
 from stability_atlas.points import POINTS
 
 BROKEN = 1
+DOCUMENT = Path(__file__).with_name("README.md")
+PICTURE = re.compile(r"\]\((\S+/(extremes_\w+\.png))\)")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,9 +26,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     atlas = stability_atlas(out=folder, quick=chosen.quick, axes=chosen.axes)
     print(summary(atlas))
     print(f"saved {folder / 'extremes.csv'} and extremes_<axis>.png")
+    if chosen.publish:
+        publish(folder)
     for text in atlas.broken:
         print(f"stability atlas: broken promise: {text}", file=sys.stderr)
     return BROKEN if atlas.broken else 0
+
+
+def publish(folder: Path, document: Path = DOCUMENT) -> list[Path]:
+    """Put the pictures of a run in the place of those that the document shows; their paths."""
+    shown = PICTURE.findall(document.read_text())
+    return [Path(shutil.copyfile(folder / name, document.parent / path)) for path, name in shown]
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -33,6 +46,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     parser.add_argument(
         "--quick", action="store_true", help="few values and methods, and all that must always hold"
+    )
+    parser.add_argument(
+        "--publish", action="store_true", help="put the pictures of this run into the document"
     )
     parser.add_argument(
         "--axes", metavar="NAME", nargs="+", help="only these axes; an unknown name lists them all"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/integrator.hpp"
 
 namespace seacrane {
 
