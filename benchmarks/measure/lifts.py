@@ -85,7 +85,7 @@ def lifts(*, repeats: int) -> Section:
         title="Ordinary lifts",
         text=(
             "Shipped hull and crane in Hs 1.5 m, 60 t on a winch's wire with air drag (40 t on the rod where "
-            f"oil is in the cylinders), {END:g} s, default method at rtol {RTOL:g}, hook load every 2 s. The "
+            f"oil is in the cylinders). {END:g} s, default method at rtol {RTOL:g}, hook load every 2 s. The "
             "loop is of one run alone, and for one of four side by side. Members a second are of the whole "
             f"call of `ensemble` with {MEMBERS} seeds on one thread, without lanes and with. CPU time, "
             f"best of {repeats}."

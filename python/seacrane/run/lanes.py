@@ -16,6 +16,7 @@ INSTRUCTIONS: Mapping[int, str] = {4: "avx2", 8: "avx512"}
 """What a processor must have for so many lanes."""
 USUAL = 4  # alike on most machines
 ALONE = "there is no other run beside it"
+NO_LANES = "this processor, or this build, has no lanes"
 
 
 @cache
@@ -57,7 +58,7 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
     """
     module = module_of(lanes)
     if module is None:
-        note_apart(runs, "this processor, or this build, has no lanes")
+        note_apart(runs, NO_LANES)
         return True
     for group in _alike(runs):
         if len(group) == 1:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from seacrane import _core
-from seacrane.run.lanes import ALONE, module_of, note_apart
+from seacrane.run.lanes import ALONE, NO_LANES, module_of, note_apart
 from seacrane.run.run import Run
 
 SINCE = "from t = "
@@ -64,7 +64,7 @@ class LiftsInLanes:
 
     def _kept_out(self, run: Run) -> str:
         if self._module is None:
-            return "this processor, or this build, has no lanes"
+            return NO_LANES
         return _core.kept_apart([run.core])
 
     def _kind(self, model: _core.Model) -> int:

@@ -39,6 +39,7 @@ from seacrane.run.channel_names import (
     require_limited_channels,
     require_names,
 )
+from seacrane.run.core_options import core_options
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
@@ -492,18 +493,7 @@ def _options(run: Run) -> _core.RunOptions:
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
-    return core_options(method, run.formulation, channels=set(channels), times=times, capacity=capacity)
-
-
-def core_options(
-    method: Method, formulation: str, *, channels: set[str], times: Any, capacity: int | None = None
-) -> _core.RunOptions:
-    """The options of the core for a method, with what is recorded, when (s)."""
-    return _core.RunOptions(
-        formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
-        fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
-        energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
-    )  # fmt: skip
+    return core_options(method, run.formulation, channels=channels, times=times, capacity=capacity)
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:

@@ -25,13 +25,14 @@ from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
+from seacrane.run.core_options import core_options
 from seacrane.run.formulation import stepped
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import checked_stages, planned_scene, waiting
-from seacrane.run.run import Run, core_options
+from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stage import Stage
