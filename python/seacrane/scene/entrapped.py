@@ -14,7 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
-from seacrane.scene.immersed import LEAST_DENSITY, SEA_WATER
+from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.openings import Opening
 
 LARGEST_LEAN = np.radians(30.0)  # as in the engine, which has the event "<name>.leans"
@@ -76,8 +76,6 @@ def add_entrapped_water(
     what = f"entrapped water {label!r}"
     if owner not in scene.bodies:
         raise SceneError(f"{what}: there is no body {owner!r}; add it first")
-    if positive_of(f"{what}: density", density, "kg/m3") < LEAST_DENSITY:
-        raise SceneError(f"{what}: density is {density:g}, which looks like t/m3; give kg/m3")
     holes = _openings(what, openings)
     element = _core.EntrappedWater(
         name=label, body=owner, point=shaped_of(f"{what}: point", point, (3,)),
@@ -85,7 +83,7 @@ def add_entrapped_water(
         opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
         opening_areas=[float(hole.area) for hole in holes],
         discharge=finite_of(f"{what}: discharge", discharge),
-        initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density,
+        initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density_of(what, density),
     )  # fmt: skip
     _check_upright(what, scene.bodies[owner])
     return add_load(scene, element)
