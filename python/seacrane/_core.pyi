@@ -2290,7 +2290,7 @@ class EntrappedWater:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, discharge: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat) -> None:
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2312,7 +2312,7 @@ class EntrappedWater:
         kg/m3, of the water
         """
     @property
-    def discharge(self) -> float:
+    def discharge_coefficient(self) -> float:
         """
         C_d: share of an opening's area that the jet fills
         """
