@@ -23,7 +23,8 @@ LARGEST_LEAN = np.radians(30.0)  # as in the engine, which has the event "<name>
 def add_entrapped_water(
     scene: Description, body: str, *, area: float, height: float,
     openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0),
-    discharge_coefficient: float = 0.6, initial: float = 0.0, density: float = SEA_WATER, name: str | None = None,
+    discharge_coefficient: float = 0.6, initial: float = 0.0, density: float = SEA_WATER,
+    name: str | None = None,
 ) -> _core.EntrappedWater:  # fmt: skip
     """Let water come into a compartment of a body, and leave it, through openings.
 
