@@ -87,7 +87,8 @@ def add_entrapped_water(
         initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density_of(what, density),
     )  # fmt: skip
     _check_upright(what, scene.bodies[owner])
-    return add_load(scene, element)
+    add_load(scene, element)
+    return element
 
 
 def _openings(what: str, given: Any) -> list[Opening]:

@@ -188,7 +188,7 @@ class _Panels:
         size = float(self.shape.size.max())
         lowered = self.shape.triangles[:, [0, 1, 2, 2]] - np.array([0.0, 0.0, draught])
         cut = triangles_of(cut_panels(lowered, axis=2, side=-1, tolerance=ON_SURFACE * size))
-        wet = cut[np.linalg.norm(area_vectors(cut), axis=1) > NO_AREA * size**2]
+        wet: Array = cut[np.linalg.norm(area_vectors(cut), axis=1) > NO_AREA * size**2]
         if len(wet) == 0:
             raise SceneError(
                 f"{self.what}: draught {draught:.4g} m wets nothing of it; leave it out of draughts"
