@@ -11,6 +11,6 @@ using LoadTypes =
     std::tuple<struct HeaveCompensator, struct Actuator, struct PointForce, struct SpringDamper,
                struct ForceTable, struct FunctionForce, struct FlowForce, struct Friction, struct SoftStop,
                struct Line, struct GasSpring, struct PendulumDamping, struct SpanDrag,
-               struct HydraulicCylinder, struct ImmersedPart, struct EntrappedWater>;
+               struct HydraulicCylinder, struct ImmersedPart, struct EntrappedWater, struct ImmersedSpan>;
 
 }  // namespace seacrane
