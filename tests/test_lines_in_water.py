@@ -247,7 +247,7 @@ def drawn_aside(speed: float, segments: int) -> float:
     scene.add_body(name="load", mass=400e3 / G, inertia=(1e5,) * 3, position=(0.0, 0.0, -20.0 - length))
     scene.add_line(
         "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=4e10, length=length, mass_per_length=200.0 / G + RHO * area(diameter),
+        rung="with mass", EA=4e11, length=length, mass_per_length=200.0 / G + RHO * area(diameter),
         segments=segments, diameter=diameter, drag_coefficient=1.2, medium="sea", density=RHO,
     )  # fmt: skip
     push = 0.5 * RHO * 1.5 * 20.0
