@@ -160,7 +160,7 @@ struct ImmersedSpan {
   static FlowStencil at_end(const std::string& body, const Vec3d& point) {
     std::string name = "immersed span at point (";
     for (int i = 0; i < 3; ++i) name += to_text(point[i]) + (i < 2 ? ", " : ")");
-    return {name + " of '" + body + "'", 1};
+    return {.name = name + " of '" + body + "'", .surface = false};
   }
 
   template <class T>
@@ -204,8 +204,7 @@ struct ImmersedSpan {
     const T over = sqrt(height * height + T(d.diameter * d.diameter));
     const T middle = end.point.z() + T(0.5) * height;
     if (!(middle - T(0.5) * over < T(in.sea->crest()))) return;  // above all crests
-    const LocalFlow<T> flow =
-        in.sea->template in_row<T>(stencil, 0, in.time, {end.point}, Vec3<T>::Zero().eval());
+    const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
     end.velocity = end.own - flow.velocity;
     end.water = flow.acceleration;
     const T depth = flow.elevation - middle;
