@@ -178,6 +178,23 @@ def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) ->
     assert 0.5 * (one + two)[:, [0, 2]] == pytest.approx(alone.y[:2].T, abs=1e-7)
 
 
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
+    """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
+    scene = Scene(name="raft", gravity=G)
+    with_ends(scene, [(0.0, 0.0, -50.0), (4.0, 0.0, -50.0)], mass=30.0)
+    scene.add_joint(kind="weld", name="glue", first="one", second="two")
+    add_load(scene, _core.ImmersedSpan(
+        name="water", first="one", second="two", density=RHO, diameter=0.2, length=4.0, drag_coefficient=1.0,
+    ))  # fmt: skip
+    water = RHO * area(0.2) * 4.0
+    result = simulate(scene, t_end=1.0, dt_out=0.1, channels=["velocity"], formulation=formulation, **EXACT)
+    speed = np.asarray(result.select("velocity", body="two", axis="z"))
+    drag, weight, mass = 0.5 * RHO * 0.2 * 4.0, (water - 60.0) * G, water + 60.0
+    final = np.sqrt(weight / drag)
+    assert speed == pytest.approx(final * np.tanh(drag * final * np.asarray(result.time) / mass), rel=1e-7)
+
+
 def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
     """(pi / L) sqrt(T / (m + C_a density A)); of n segments 2 n / pi sin(pi / 2 n) of it."""
     length, pull, strain, diameter = 50.0, 1e4, 0.01, 0.06

@@ -31,13 +31,13 @@ struct ImmersedSpanDescription : SpanDescription {
             optional("added_mass_coefficient", &D::added_mass_coefficient, "",
                      "C_a: added mass across, over the water that it displaces")
                 .not_negative()
-                .usually(0.0, 10.0),
+                .usually(0.05, 10.0),
             required("drag_coefficient", &D::drag_coefficient, "", "across, over the diameter")
                 .not_negative()
                 .usually(0.05, 20.0),
             optional("drag_coefficient_along", &D::drag_coefficient_along, "", "along, over the skin")
                 .not_negative()
-                .usually(0.0, 1.0),
+                .usually(1e-3, 1.0),
             optional("source", &D::source, "", "where its coefficients are from")));
   }
 };
@@ -59,6 +59,7 @@ struct ImmersedSpanDescription : SpanDescription {
 /// The ledger counts v^T m P v / 2 as kinetic energy, and buoyancy as a power.
 struct ImmersedSpan {
   static constexpr const char* kind = "immersed span";
+  static constexpr bool from_outside = true;
   using Description = ImmersedSpanDescription;
 
   Description d;

@@ -34,6 +34,7 @@ struct SpanDragDescription : SpanDescription {
 /// F = -rho / 2 C_D diameter length |v| v, v the velocity of that end in the fluid less its part along n.
 struct SpanDrag {
   static constexpr const char* kind = "span drag";
+  static constexpr bool from_outside = true;
   using Description = SpanDragDescription;
 
   Description d;
