@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "seacrane/elements/loads/span.hpp"
+#include "seacrane/math/curve.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
 
 struct ImmersedSpanDescription : SpanDescription {
-  double density = 0.0, diameter = 0.0, length = 0.0;
+  double density = 0.0, diameter = 0.0;
+  Curve length;
   double added_mass_coefficient = 1.0, drag_coefficient = 0.0, drag_coefficient_along = 0.0;
   std::string source;
 
@@ -27,7 +29,9 @@ struct ImmersedSpanDescription : SpanDescription {
         std::tuple(
             required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
             required("diameter", &D::diameter, "m", "").positive().usually(5e-4, 3.0),
-            required("length", &D::length, "m", "of wire in the span").positive().usually(0.0, 1e4),
+            required("length", &D::length, "m", "of wire in the span, a number or a Curve")
+                .positive()
+                .usually(0.0, 1e4),
             optional("added_mass_coefficient", &D::added_mass_coefficient, "",
                      "C_a: added mass across, over the water that it displaces")
                 .not_negative()
@@ -64,9 +68,10 @@ struct ImmersedSpan {
 
   Description d;
   Span span;
-  double displaced = 0.0, added = 0.0;  // mass of water of one half, kg; and its added mass across
+  // Of one half, for each metre of the span:
+  double displaced = 0.0, added = 0.0;  // mass of water, kg; and added mass across
   double weight = 0.0;                  // of that water, N
-  double across = 0.0, along = 0.0;     // drag of one half, N s2/m2
+  double across = 0.0, along = 0.0;     // drag, N s2/m2
   std::array<int, 2> stencils = {-1, -1};
 
   static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
@@ -75,7 +80,7 @@ struct ImmersedSpan {
     auto d = example_span<Description>({0.2, -0.3, 0.4});
     d.density = 0.1;
     d.diameter = 1.3;
-    d.length = 9.0;
+    d.length = Curve::quintic(-1.0, 2.0, 8.0, 11.0);
     d.added_mass_coefficient = 0.8;
     d.drag_coefficient = 1.2;
     d.drag_coefficient_along = 0.3;
@@ -88,16 +93,17 @@ struct ImmersedSpan {
     ImmersedSpan out;
     out.d = d;
     out.span = Span::compile(d, context);
-    out.displaced = d.density * pi / 8.0 * d.diameter * d.diameter * d.length;
+    out.displaced = d.density * pi / 8.0 * d.diameter * d.diameter;
     out.added = d.added_mass_coefficient * out.displaced;
     out.weight = context.gravity() * out.displaced;
-    out.across = 0.25 * d.density * d.drag_coefficient * d.diameter * d.length;
-    out.along = 0.25 * d.density * d.drag_coefficient_along * pi * d.diameter * d.length;
+    out.across = 0.25 * d.density * d.drag_coefficient * d.diameter;
+    out.along = 0.25 * d.density * d.drag_coefficient_along * pi * d.diameter;
     out.stencils = {context.stencil(at_end(d.first, d.first_point)),
                     context.stencil(at_end(d.second, d.second_point))};
     return out;
   }
 
+  /// Those of the length are the line's own, to which they do far more.
   static std::vector<LoadKinks> kinks() { return {}; }
 
   std::array<int, 2> bodies() const { return span.bodies(); }
@@ -107,8 +113,8 @@ struct ImmersedSpan {
     const Place<T> at = place(in);
     const Mat3<T> across_span = Mat3<T>::Identity() - at.direction * at.direction.transpose();
     for (const End<T>& end : at.ends) {
-      if (!(end.share > T(0))) continue;
-      const Mat3<T> lever = skew<T>(end.lever), own = across_span * (T(added) * end.share);
+      if (!(end.wet > T(0))) continue;
+      const Mat3<T> lever = skew<T>(end.lever), own = across_span * (T(added) * end.wet);
       const Mat3<T> turned = lever * own;
       Mat6<T>& to = mass[end.body];
       to.template topLeftCorner<3, 3>() += own;
@@ -121,7 +127,7 @@ struct ImmersedSpan {
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const Place<T> at = place(in);
-    if (!(at.ends[0].share > T(0)) && !(at.ends[1].share > T(0))) return;
+    if (!(at.ends[0].wet > T(0)) && !(at.ends[1].wet > T(0))) return;
     const Vec3<T> couple = this->couple(at);
     for (const End<T>& end : at.ends) {
       Vec3<T> force = end.second ? couple : Vec3<T>(-couple);
@@ -142,7 +148,9 @@ struct ImmersedSpan {
     Vec3<T> own, swept;    // its velocity; its acceleration by turning of the body
     Vec3<T> velocity;      // over the water
     Vec3<T> water;         // acceleration of that, Du/Dt
-    T share{0}, rate{0};   // below the surface, and how fast that grows
+    // m of the span below the surface, if both halves were as this one; and how fast that grows as it dips
+    // in, and as the span itself does.
+    T wet{0}, dips{0}, grows{0};
   };
   template <class T>
   struct Place {
@@ -211,16 +219,20 @@ struct ImmersedSpan {
     const T depth = flow.elevation - middle;
     const T rise = flow.elevation_rate + flow.slope[0] * end.own.x() + flow.slope[1] * end.own.y();
     const T sinks = rise - end.own.z() - T(0.5) * height_rate;
-    const T wet = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - wet;
-    end.share = wet * wet * wet * (T(10) + wet * (T(6) * wet - T(15)));
-    end.rate = T(30) * wet * wet * dry * dry * (sinks - depth * height * height_rate / (over * over)) / over;
+    const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
+    const CurveValue length = d.length.at(in.time, in.curve_limit);
+    const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
+    const T part_rate = (sinks - depth * height * height_rate / (over * over)) / over;
+    end.wet = share * T(length.value);
+    end.dips = T(30) * part * part * dry * dry * part_rate * T(length.value);
+    end.grows = share * T(length.rate);
   }
 
   /// Buoyancy, and the force of the undisturbed flow.
   template <class T>
   Vec3<T> flow_force(const End<T>& end) const {
-    Vec3<T> out = end.water * (T(displaced) * end.share);
-    out.z() += T(weight) * end.share;
+    Vec3<T> out = end.water * (T(displaced) * end.wet);
+    out.z() += T(weight) * end.wet;
     return out;
   }
 
@@ -229,9 +241,9 @@ struct ImmersedSpan {
     using std::sqrt;
     const T slide = at.direction.dot(end.velocity);
     const Vec3<T> side = end.velocity - at.direction * slide;
-    Vec3<T> out = at.direction * (T(-along) * end.share * slide * select(slide < T(0), T(-slide), slide));
+    Vec3<T> out = at.direction * (T(-along) * end.wet * slide * select(slide < T(0), T(-slide), slide));
     const T square = side.dot(side);
-    if (square > T(0)) out -= side * (T(across) * end.share * sqrt(square));  // else it has no direction
+    if (square > T(0)) out -= side * (T(across) * end.wet * sqrt(square));  // else it has no direction
     return out;
   }
 
@@ -240,9 +252,9 @@ struct ImmersedSpan {
   Vec3<T> couple(const Place<T>& at) const {
     Vec3<T> out = Vec3<T>::Zero();
     for (const End<T>& end : at.ends) {
-      if (!(end.share > T(0))) continue;
+      if (!(end.wet > T(0))) continue;
       const T slide = at.direction.dot(end.velocity);
-      out -= at.across(end.velocity) * (T(added) * end.share * slide / at.length);
+      out -= at.across(end.velocity) * (T(added) * end.wet * slide / at.length);
     }
     return out;
   }
@@ -251,12 +263,12 @@ struct ImmersedSpan {
   /// gains beside that of m P a.
   template <class T>
   T add_momentum(const Place<T>& at, const End<T>& end, Vec3<T>& force) const {
-    const T mass = T(added) * end.share, gain = T(added) * end.rate;
+    const T mass = T(added) * end.wet, gain = T(added) * end.dips, grown = T(added) * end.grows;
     const Vec3<T> swing = end.swept - end.water, own = at.across(end.own);
     force -= (at.across(swing) + at.across_rate(end.velocity)) * mass;
-    if (gain > T(0)) force -= at.across(end.velocity) * gain;
+    force -= at.across(end.velocity) * (grown + select(gain > T(0), gain, T(0)));
     const T turned = own.dot(end.swept) - at.direction.dot(end.own) * at.turning.dot(end.own);
-    return mass * turned + T(0.5) * gain * own.dot(own);
+    return mass * turned + T(0.5) * (gain + grown) * own.dot(own);
   }
 };
 
