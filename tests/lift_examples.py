@@ -304,6 +304,21 @@ settling_s = 0.3
 diameter_m = 0.02
 flow_m_per_s = [1, 0, 0]
 
+[[line]]
+name = "wet chain"
+rung = "with mass"
+bodies = ["ground", "box"]
+points_m = [[20, 5, -10], [0, 0, 1]]
+EA_N = 1e8
+length_m = 40
+mass_per_length_kg_per_m = 5
+segments = 2
+diameter_m = 0.05
+medium = "sea"
+density_kg_per_m3 = 1000
+drag_coefficient_along = 0.02
+added_mass_coefficient = 0.9
+
 [[immersed]]
 body = "bob"
 parts = [
@@ -531,6 +546,11 @@ def every_table() -> Scene:
         name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
         length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
         diameter=0.02, flow=(1, 0, 0),
+    )  # fmt: skip
+    scene.add_line(
+        name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],
+        EA=1e8, length=40, mass_per_length=5, segments=2, diameter=0.05, medium="sea", density=1000,
+        drag_coefficient_along=0.02, added_mass_coefficient=0.9,
     )  # fmt: skip
     scene.add_line(joint="rope", rung="rigid", restitution=0.2)
     scene.add_winch(

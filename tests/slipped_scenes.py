@@ -311,6 +311,15 @@ SAMPLES: Mapping[str, Sample] = {
         },
         scene=lambda n: between(_core.SpanDrag, n),
     ),
+    "immersed span": Sample(
+        kind=_core.ImmersedSpan,
+        numbers={
+            "first_point": (0.0, 0.0, 2.0), "second_point": (0.0, 0.0, 1.0), "density": 1025.0,
+            "diameter": 0.05, "length": 11.0, "added_mass_coefficient": 1.0, "drag_coefficient": 1.2,
+            "drag_coefficient_along": 0.01,
+        },
+        scene=lambda n: between(_core.ImmersedSpan, n),
+    ),
     "pendulum damping": Sample(
         kind=_core.PendulumDamping,
         numbers={

@@ -272,26 +272,6 @@ def test_members_of_a_study_keep_the_current() -> None:
     assert waves.stretching == "none"
 
 
-def test_a_line_in_the_sea_has_drag_in_its_current() -> None:
-    """A wire hangs in a uniform current: its small offset by the drag on it, and in air none."""
-    flow, diameter, drag, length, weight = 0.5, 0.06, 1.2, 200.0, 400e3
-    scene = Scene(name="wire")
-    scene.add_sea(vessel=None, hs=0.0, current=Current(speed=flow, direction_deg=90.0))
-    scene.add_body(name="load", mass=weight / G, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0 - length))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=4e8, mass_per_length=20.0, segments=10, diameter=diameter, length=length,
-        drag_coefficient=drag, medium="sea",
-    )  # fmt: skip
-    still = simulate(scene, t_end=0.1, start="rest", channels=["position"])
-    offset = still.select("position", body="load")[0]
-    push = 0.5 * 1025.0 * drag * diameter * flow**2  # N/m
-    s = np.linspace(0.0, length, 20001)  # from the load up, small angles
-    expected = np.trapezoid(push * s / (weight + 20.0 * G * s), s)
-    assert offset[1] == pytest.approx(expected, rel=0.02)
-    assert offset[0] == pytest.approx(0.0, abs=1e-6)
-
-
 @pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
 def test_each_lane_is_in_its_own_sea() -> None:
     def scene(seed: int) -> Scene:
@@ -299,9 +279,9 @@ def test_each_lane_is_in_its_own_sea() -> None:
         out.add_body(name="box", mass=5e3, inertia=(8e3, 8e3, 8e3), position=(40.0, -12.0, -9.0))
         out.add_spring("wire", first="vessel", second="box", lengths=[0.0, 90.0], forces=[0.0, 9e5])
         out.add_load(
-            _core.SpanDrag(
-                name="drag", first="vessel", second="box", density=1025.0, diameter=0.3, length=20.0,
-                coefficient=1.2, in_sea=True,
+            _core.ImmersedSpan(
+                name="span", first="vessel", second="box", density=1025.0, diameter=0.3, length=20.0,
+                drag_coefficient=1.2, drag_coefficient_along=0.01,
             )
         )  # fmt: skip
         return out

@@ -7,8 +7,8 @@
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/elements/loads/heave_compensator.hpp"
+#include "seacrane/elements/loads/immersed_span.hpp"
 #include "seacrane/elements/loads/line.hpp"
-#include "seacrane/elements/loads/span_drag.hpp"
 #include "seacrane/sea/sea_field.hpp"
 
 namespace seacrane::test {
@@ -167,7 +167,7 @@ TEST_CASE("exact Jacobian: every kind of load") {
   }
 }
 
-TEST_CASE("exact Jacobian: drag on a span in waves and current, wet, half wet and dry") {
+TEST_CASE("exact Jacobian: water on a span in waves and current, wet, half wet and dry") {
   const WaveComponents waves({0.8, 1.1, 1.7}, {0.3, 0.2, 0.1}, {0.2, 2.0, 4.0}, {0.3, -0.8, 2.0}, 30.0,
                              standard_gravity, Current({0.0, 20.0}, {0.4, 0.1}, {0.1, 0.3}));
   for (const Stretching stretching : {Stretching::none, Stretching::wheeler}) {
@@ -176,10 +176,7 @@ TEST_CASE("exact Jacobian: drag on a span in waves and current, wet, half wet an
       Random random(4);
       SceneDescription scene = pair("revolute", random);
       for (BodyDescription& body : scene.bodies) body.position.z() += height;
-      SpanDrag::Description drag = SpanDrag::example();
-      drag.flow.setZero();
-      drag.in_sea = true;
-      scene.loads.of<SpanDrag>().push_back(drag);
+      scene.loads.of<ImmersedSpan>().push_back(ImmersedSpan::example());
       scene.sea = std::make_shared<const SeaField>(waves, stretching);
       check_redundant(scene, 6);
       check_recursive(scene, 6);

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1875,7 +1875,7 @@ class PendulumDamping:
         """
 class SpanDrag:
     """
-    Drag across a straight span of wire between two points: in a fluid that flows steadily, or in the sea. Immutable.
+    Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     OWN_PACE: typing.ClassVar[bool] = False
@@ -1896,7 +1896,7 @@ class SpanDrag:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ..., in_sea: bool = ...) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1931,11 +1931,6 @@ class SpanDrag:
     def flow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m/s, velocity of the fluid, inertial axes
-        """
-    @property
-    def in_sea(self) -> bool:
-        """
-        in place of flow: waves and current of the sea, and none above it
         """
     @property
     def length(self) -> float:
@@ -2455,6 +2450,93 @@ class EntrappedWater:
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m, centre of its bottom, body coordinates
+        """
+class ImmersedSpan:
+    """
+    Water on a straight span of wire between two points: buoyancy, added mass, drag; see Scene.add_line. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
+    STIFF: typing.ClassVar[bool] = False
+    @staticmethod
+    def example() -> ImmersedSpan:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> ImmersedSpan:
+        ...
+    def __deepcopy__(self, memo: dict) -> ImmersedSpan:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def added_mass_coefficient(self) -> float:
+        """
+        C_a: added mass across, over the water that it displaces
+        """
+    @property
+    def density(self) -> float:
+        """
+        kg/m3, of the water
+        """
+    @property
+    def diameter(self) -> float:
+        """
+        m
+        """
+    @property
+    def drag_coefficient(self) -> float:
+        """
+        across, over the diameter
+        """
+    @property
+    def drag_coefficient_along(self) -> float:
+        """
+        along, over the skin
+        """
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the first body
+        """
+    @property
+    def length(self) -> float:
+        """
+        m, of wire in the span
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the second body
+        """
+    @property
+    def source(self) -> str:
+        """
+        where its coefficients are from
         """
 class Limit:
     """
@@ -3550,4 +3632,4 @@ def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
     """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'limit': Limit}

@@ -127,6 +127,7 @@ void BodyResidual::add_added_inertia(const LoadList& list, std::size_t i, const 
     BodyLoad<Scalar>& out = wrench(b);
     out.force -= fluid.head<3>();
     out.moment -= fluid.tail<3>();
+    added_[idx(b)].setZero();  // a load may name a body twice
   }
 }
 

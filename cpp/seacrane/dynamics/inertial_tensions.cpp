@@ -10,9 +10,15 @@ namespace seacrane {
 InertialTensions::InertialTensions(const Model& model)
     : bodies_(model.body_count()), load_(idx(model.body_count()) + 1, Vec6d::Zero()) {
   const Eigen::Index n = model.inertial_tensions;
+  on_.resize(idx(n));
   model.loads.for_each([&](const LoadList& list, std::size_t i) {
     const int place = list.inertial_place(i);
-    if (place >= 0) loads_.push_back({&list, i, place});
+    if (place < 0) return;
+    loads_.push_back({&list, i, place});
+    std::vector<int>& on = on_[idx(place)] = list.bodies[i];
+    std::ranges::sort(on);
+    on.erase(std::ranges::unique(on).begin(), on.end());
+    std::erase(on, bodies_);
   });
   for (auto* wrenches : {&unit_, &path_, &response_}) wrenches->assign(idx(n), load_);
   for (auto* values : {&mass_, &winding_, &tension_, &change_}) *values = VecXd::Zero(n);
@@ -22,7 +28,7 @@ InertialTensions::InertialTensions(const Model& model)
 
 double InertialTensions::dot(Eigen::Index line, const Vec6d* acceleration) const {
   double sum = 0.0;
-  for (int b = 0; b < bodies_; ++b) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
+  for (const int b : on_[idx(line)]) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
   return sum;
 }
 
@@ -77,7 +83,7 @@ const VecXd& InertialTensions::change(const VecXd& own, const Vec6d* acceleratio
 void InertialTensions::add_loads(const VecXd& tension, Vec6d* load) const {
   for (const Tensioned& one : loads_) {
     const std::vector<Vec6d>& unit = unit_[idx(one.place)];
-    for (int b = 0; b < bodies_; ++b) load[b] += tension[one.place] * unit[idx(b)];
+    for (const int b : on_[idx(one.place)]) load[b] += tension[one.place] * unit[idx(b)];
   }
 }
 

@@ -27,6 +27,8 @@ class InertialTensions {
   /// The wrenches u of 1 N in a line, and room for the response w to them, which the caller writes.
   const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
   std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
+  /// The bodies on which a line acts, without the ground.
+  const std::vector<int>& bodies(Eigen::Index line) const { return on_[idx(line)]; }
   /// Solves for the tensions, and adds them to the loads of the terms.
   const VecXd& finish(Terms& terms);
   /// Adds the share of the tensions to accelerations.
@@ -54,6 +56,7 @@ class InertialTensions {
     int place;  // among the tensions
   };
   std::vector<Tensioned> loads_;
+  std::vector<std::vector<int>> on_;  // bodies of each, without the ground, by place
   std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;

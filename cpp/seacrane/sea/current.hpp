@@ -20,6 +20,13 @@ class Current {
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }
 
+  /// m below the still water, from where on it does not change.
+  double settled() const {
+    std::size_t last = depth_.size();
+    while (last > 1 && x_[last - 1] == x_[last - 2] && y_[last - 1] == y_[last - 2]) --last;
+    return last > 1 ? depth_[last - 1] : 0.0;
+  }
+
   /// m/s at z (m, upwards; above the still water as at it), along x and y.
   template <class T>
   struct Velocity {

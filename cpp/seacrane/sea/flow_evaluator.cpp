@@ -61,14 +61,17 @@ void descend(const SeaField& field, std::size_t reached, std::size_t n, const De
 
 }  // namespace
 
-FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil)
+FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
+                             std::shared_ptr<sea::FlowScratch> scratch)
     : field_(std::move(field)),
       stencil_(std::move(stencil)),
-      scratch_(field_ ? field_->padded() : 0),
+      scratch_(scratch ? std::move(scratch)
+                       : std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0)),
       flow_(stencil_.count) {
   sea::require(stencil_.count > 0, stencil_.name, "number of points", stencil_.count, "give at least one");
   sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
                "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
+  if (field_ && !stencil_.surface && stencil_.count == 1) calm_ = field_->calm_below(stencil_.cut);
 }
 
 void FlowEvaluator::require_above_floor(double z) const {
@@ -80,7 +83,7 @@ void FlowEvaluator::require_above_floor(double z) const {
 }
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
-  sea::add_interior(*field_, count, scratch_, out);
+  sea::add_interior(*field_, count, *scratch_, out);
   const auto current = field_->current().at<double>(level);
   out.velocity += Vec3d(current.x, current.y, 0.0);
 }
@@ -90,33 +93,44 @@ void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<d
   const double level = field_->level(wet.middle, out.elevation);
   const double top = std::min(level + 0.5 * wet.height, 0.0);
   const std::size_t reached = std::min(count, field_->reach(top, stencil_.cut));
-  scratch_.images = field_->images(level - 0.5 * wet.height, stencil_.cut);
-  sea::set_decays(*field_, reached, level, scratch_);
-  if (wet.height > 0.0) sea::take_means(*field_, reached, wet.height, scratch_);
+  scratch_->images = field_->images(level - 0.5 * wet.height, stencil_.cut);
+  sea::set_decays(*field_, reached, level, *scratch_);
+  if (wet.height > 0.0) sea::take_means(*field_, reached, wet.height, *scratch_);
   interior(reached, level, out);
 }
 
 std::size_t FlowEvaluator::feel(const FlowPoint& at) {
   const bool turns = !at.turning.isZero(0.0);
   const Mat3d rate = skew<double>(at.turning) * at.extents;
-  scratch_.amplitude = field_->arrays().amplitude;
-  std::ranges::fill(scratch_.gain, 0.0);
+  scratch_->amplitude = field_->arrays().amplitude;
+  std::ranges::fill(scratch_->gain, 0.0);
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
     if (turns) {
-      sea::filter_turning(*field_, field_->padded(), x, y, rate(0, j), rate(1, j), scratch_);
+      sea::filter_turning(*field_, field_->padded(), x, y, rate(0, j), rate(1, j), *scratch_);
     } else if (x != 0.0 || y != 0.0) {
-      sea::filter_amplitudes(*field_, field_->padded(), x, y, scratch_);
+      sea::filter_amplitudes(*field_, field_->padded(), x, y, *scratch_);
     }
   }
-  const std::size_t count = felt(scratch_.amplitude);
-  if (turns) sea::take_quotients(count, scratch_);
+  const std::size_t count = felt(scratch_->amplitude);
+  if (turns) sea::take_quotients(count, *scratch_);
   return count;
 }
 
+void FlowEvaluator::write_calm(double t, const FlowPoint& at, LocalFlow<double>& out) {
+  const double z = at.position.z();
+  const std::size_t count =
+      std::min(feel(at), field_->reach(std::min(z + 0.5 * at.height, 0.0), stencil_.cut));
+  sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
+  scratch_->images = field_->images(z - 0.5 * at.height, stencil_.cut);
+  sea::set_decays(*field_, count, z, *scratch_);
+  if (at.height > 0.0) sea::take_means(*field_, count, at.height, *scratch_);
+  interior(count, z, out);
+}
+
 void FlowEvaluator::write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out) {
-  sea::add_surface(*field_, count, scratch_, out);
-  if (!at.turning.isZero(0.0)) sea::add_gains(count, scratch_, out);
+  sea::add_surface(*field_, count, *scratch_, out);
+  if (!at.turning.isZero(0.0)) sea::add_gains(count, *scratch_, out);
   take(count, z, at.height, out);
 }
 
@@ -128,27 +142,30 @@ std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<cons
     const FlowPoint& at = points[n];
     require_above_floor(at.position.z());
     const std::size_t count = feel(at);
-    sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), scratch_);
+    sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
     write(count, at.position.z(), at, out);
   }
   return flow_;
+}
+
+void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& step) {
+  const auto z = [&](std::size_t n) { return first.position.z() + static_cast<double>(n) * step.z(); };
+  require_above_floor(std::min(z(0), z(flow_.size() - 1)));
+  if (z(0) + 0.5 * first.height < calm_) return write_calm(t, first, flow_.front());
+  const std::size_t count = feel(first);
+  sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);
+  if (flow_.size() > 1) sea::set_turns(*field_, count, step.x(), step.y(), *scratch_);
+  for (std::size_t n = 0; n < flow_.size(); ++n) {
+    if (n > 0) sea::turn(count, *scratch_);
+    write(count, z(n), first, flow_[n]);
+  }
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::row(double t, const FlowPoint& first, const Vec3d& step) {
   if (t == time_ && first == first_ && step == step_) return flow_;
   time_ = std::numeric_limits<double>::quiet_NaN();
   std::ranges::fill(flow_, LocalFlow<double>());
-  if (field_) {
-    const auto z = [&](std::size_t n) { return first.position.z() + static_cast<double>(n) * step.z(); };
-    require_above_floor(std::min(z(0), z(flow_.size() - 1)));
-    const std::size_t count = feel(first);
-    sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), scratch_);
-    if (flow_.size() > 1) sea::set_turns(*field_, count, step.x(), step.y(), scratch_);
-    for (std::size_t n = 0; n < flow_.size(); ++n) {
-      if (n > 0) sea::turn(count, scratch_);
-      write(count, z(n), first, flow_[n]);
-    }
-  }
+  if (field_) write_row(t, first, step);
   time_ = t;
   first_ = first;
   step_ = step;
@@ -162,17 +179,17 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
   if (!field_) return flow_;
   const Descent way(first, step, flow_.size() - 1);
   require_above_floor(way.z(way.last));
-  const std::size_t count = start(*field_, t, way, whole, scratch_);
+  const std::size_t count = start(*field_, t, way, whole, *scratch_);
   const bool straight = field_->stretching() == Stretching::none;
   bool first_below = true;
   for (std::size_t n = 0; n <= way.last; ++n) {
     LocalFlow<double>& out = flow_[way.rises ? way.last - n : n];
     const double z = way.z(n);
-    if (n > 0) sea::turn(count, scratch_);
-    sea::add_surface(*field_, count, scratch_, out);
+    if (n > 0) sea::turn(count, *scratch_);
+    sea::add_surface(*field_, count, *scratch_, out);
     if (straight && z < 0.0 && z >= -field_->depth()) {
       const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
-      descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), scratch_);
+      descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), *scratch_);
       interior(reached, z, out);
     } else {
       take(count, z, 0.0, out);

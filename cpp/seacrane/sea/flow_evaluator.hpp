@@ -31,7 +31,9 @@ using FlowPoint = FlowPlace<double>;
 /// at rest. Results depend on the arguments alone, whatever was evaluated before.
 class FlowEvaluator {
  public:
-  FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil);
+  /// `scratch`, for those of one thread that take turns, has room for the components of the field.
+  FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
+                std::shared_ptr<sea::FlowScratch> scratch = nullptr);
 
   /// At first + i step, i = 0 .. count - 1. With `whole`, each point is the middle of an element that is as
   /// long as the step, and feels the mean over it, see SeaField::filter. By recurrence from point to point:
@@ -51,6 +53,9 @@ class FlowEvaluator {
   void require_above_floor(double z) const;
   /// Amplitudes that an element feels, and how many components are felt at all.
   std::size_t feel(const FlowPoint& at);
+  void write_row(double t, const FlowPoint& first, const Vec3d& step);
+  /// The flow at a point that hardly feels waves, without its surface.
+  void write_calm(double t, const FlowPoint& at, LocalFlow<double>& out);
   /// The flow at the phasors of a point at z, over an element like `at`.
   void write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out);
   /// From the phasors of a point to its flow; `count` components are felt at all.
@@ -59,11 +64,12 @@ class FlowEvaluator {
 
   std::shared_ptr<const SeaField> field_;
   FlowStencil stencil_;
-  sea::FlowScratch scratch_;
+  std::shared_ptr<sea::FlowScratch> scratch_;
   std::vector<LocalFlow<double>> flow_;
   double time_ = std::numeric_limits<double>::quiet_NaN();  // of the last row; none
   FlowPoint first_;
   Vec3d step_ = Vec3d::Zero();
+  double calm_ = -std::numeric_limits<double>::infinity();  // z below which the surface is not asked for
 };
 
 }  // namespace seacrane

@@ -12,6 +12,8 @@ struct FlowStencil {
   /// Components that a point hardly feels at its depth are left out: what is lost is at most this share of
   /// SeaField::magnitude(), in each number. Coefficients of drag and inertia are known to some 20 %.
   double cut = 1e-5;
+  /// Whether the element asks for the surface over it also where waves hardly reach; of one point alone.
+  bool surface = true;
 
   bool operator==(const FlowStencil&) const = default;
 };

@@ -68,6 +68,33 @@ std::size_t SeaField::reach(double level, double cut) const {
   return whole_packs(static_cast<std::size_t>(end - arrays_.k.begin()));
 }
 
+double SeaField::calm_below(double cut) const {
+  constexpr int halvings = 40;
+  if (!(crest_ < depth_)) return -depth_;
+  if (stretching_ == Stretching::none) return -crest_;
+  const double shift = crest_ / (1.0 - crest_ / depth_);  // of the level, at most
+  const auto changes = [&](double z) {
+    double speed = 0.0, pull = 0.0, push = 0.0, speeds = 0.0, pulls = 0.0, pushes = 0.0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double size = arrays_.amplitude[i] * arrays_.speed[i];
+      const double change = shift * arrays_.k[i] * std::exp(arrays_.k[i] * std::min(z + shift, 0.0)) * 2.0;
+      speeds += size, pulls += size * arrays_.sigma[i], pushes += size * arrays_.pressure[i];
+      speed += size * change, pull += size * arrays_.sigma[i] * change;
+      push += size * arrays_.pressure[i] * change;
+    }
+    return speed > cut * speeds || pull > cut * pulls || push > cut * pushes;
+  };
+  const double lowest = std::isinf(depth_) ? 50.0 / arrays_.k.front() : depth_;
+  double above = -crest_, below = -lowest;
+  if (!changes(below)) {
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (above + below);
+      (changes(middle) ? above : below) = middle;
+    }
+  }
+  return std::min(below, -(current_.settled() + shift));
+}
+
 LocalFlow<double> SeaField::magnitude() const {
   LocalFlow<double> out;
   const Arrays& f = arrays_;

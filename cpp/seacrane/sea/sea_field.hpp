@@ -76,6 +76,10 @@ class SeaField {
     return std::min(with_floor_, reach(-(level + 2.0 * depth_), cut));
   }
 
+  /// The highest z below which a flow may be taken as if its surface were at z = 0: what stretching changes is
+  /// at most `cut` of magnitude(), and the current changes no more. Always below all troughs.
+  double calm_below(double cut) const;
+
   /// Share of component i that an element feels whose extents (m) along three of its axes are the columns:
   /// its mean over the element, the product of sin(x) / x with x = k (extent along the wave) / 2, and nothing
   /// beyond the first zero of any, where the element is longer than the wave.

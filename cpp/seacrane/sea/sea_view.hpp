@@ -17,8 +17,10 @@ class SeaView {
   /// Without a field: deep water, still and at rest.
   SeaView(std::shared_ptr<const SeaField> field, const std::vector<FlowStencil>& stencils)
       : field_(std::move(field)) {
-    for (const FlowStencil& one : stencils) evaluators_.emplace_back(field_, one);
+    const auto scratch = std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0);
+    for (const FlowStencil& one : stencils) evaluators_.emplace_back(field_, one, scratch);
   }
+  SeaView(SeaView&&) = default;  // and no copy, which would share the scratch
 
   const SeaField* field() const { return field_.get(); }
   double depth() const { return field_ ? field_->depth() : std::numeric_limits<double>::infinity(); }
@@ -43,6 +45,15 @@ class SeaView {
       if (!field_) return {};
       const Vec3<T> point = first.position + step * T(static_cast<double>(index));
       return field_->at<T>(t, point, first.extents, first.height, first.turning);
+    }
+  }
+  /// The flow at the one point of a stencil, likewise.
+  template <class T>
+  LocalFlow<T> at_point(int stencil, double t, const Vec3<T>& point) const {
+    if constexpr (std::is_same_v<T, double>) {
+      return in_row<double>(stencil, 0, t, {point}, Vec3d::Zero());
+    } else {
+      return at<T>(t, point);
     }
   }
   /// No crest is higher, m.

@@ -23,7 +23,7 @@ class Chain:
     span : (3,) From the first end to the second, m.
     segment : Unstretched length of each segment, m.
     stiffness : EA, N.
-    weights : (n - 1,) Of the masses between the n segments, N, along -z.
+    weights : (n - 1,) Of the masses between the n segments, N, along -z; below zero in water: they float up.
     """
 
     span: Array
@@ -45,7 +45,7 @@ class Chain:
         hung = np.zeros((self.count, 3))
         hung[1:, 2] = np.cumsum(self.weights)
         force = self._start(float(hung[-1, 2]))
-        scale = max(float(np.linalg.norm(force)), float(hung[-1, 2]))
+        scale = max(float(np.linalg.norm(force)), abs(float(hung[-1, 2])))
         for _ in range(LARGEST_COUNT):
             tension = force + hung
             gap = self._reach(tension) - self.span
@@ -63,12 +63,13 @@ class Chain:
         """By the parabola of a shallow chain; along the span where it is taut."""
         length, span = self.segment * self.count, float(np.linalg.norm(self.span))
         flat = float(np.hypot(self.span[0], self.span[1]))
-        if span >= length or weight == 0.0:
-            pull = max(self.stiffness * (span / length - 1.0), 0.1 * weight, 1e-6 * self.stiffness)
+        size = abs(weight)  # below zero it floats up
+        if span >= length or size == 0.0:
+            pull = max(self.stiffness * (span / length - 1.0), 0.1 * size, 1e-6 * self.stiffness)
             return np.asarray(pull * self.span / span) - [0.0, 0.0, 0.5 * weight]
         sag = np.sqrt(3.0 * max((length**2 - self.span[2] ** 2) / max(flat, 0.01 * length) ** 2 - 1.0, 1e-6))
-        level = 0.5 * weight * max(flat, 0.01 * length) / length / sag
-        rise = 0.5 * weight * (self.span[2] / length / np.tanh(sag) - 1.0)
+        level = 0.5 * size * max(flat, 0.01 * length) / length / sag
+        rise = 0.5 * (size * self.span[2] / length / np.tanh(sag) - weight)
         ahead = self.span[:2] / flat if flat > 0.0 else np.array([1.0, 0.0])
         return np.array([*(level * ahead), rise])
 

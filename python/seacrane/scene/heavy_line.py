@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
-from seacrane.description.damping import AIR
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
+from seacrane.inputs.checked import positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
-from seacrane.water.density import SEA_WATER
+from seacrane.scene.line_fluid import Fluid
 
 Array = NDArray[np.float64]
-MEDIA = {"air": AIR, "sea": SEA_WATER}  # kg/m3
-CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
 GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
 MOST_SEGMENTS = 1000
 STRAIGHT = 0.01  # of the span: a line that hangs slack by less starts straight where it has no rest shape
+MOST_SHAPES, SAME_SHAPE = 30, 1e-9  # of which the last differ by less than this share of a segment
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,11 +52,7 @@ def chain_of_segments(
     damping_ratio: float,
     rung: str,
     settling: float,
-    diameter: float,
-    drag_coefficient: float,
-    density: float | None,
-    flow: ArrayLike,
-    medium: str,
+    fluid: Fluid,
 ) -> list[_core.Line]:
     """A line with mass between two points: equal elastic segments with point masses between them.
 
@@ -77,10 +73,8 @@ def chain_of_segments(
         stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
     )
-    if text_of(f"{what}: medium", medium) not in MEDIA:
-        raise SceneError(f"{what}: medium is {medium!r}; choose {' or '.join(map(repr, MEDIA))}")
-    fluid = MEDIA[medium] if density is None else density
-    places = first.place + _shape(what, chain)
+    fluid = fluid.checked(what)
+    places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
         velocity = first.velocity + (last.velocity - first.velocity) * (i / count)
@@ -95,17 +89,24 @@ def chain_of_segments(
             length=step, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
         )  # fmt: skip
         lines.append(add_load(scene, segment))
-        if number_of(f"{what}: diameter", diameter) == 0.0:
-            continue
-        add_load(
-            scene,
-            _core.SpanDrag(
-                name=f"{name}.{i} drag", first=one[0], second=two[0], first_point=one[1], second_point=two[1],
-                density=fluid, diameter=diameter, length=step, coefficient=drag_coefficient, flow=flow,
-                in_sea=medium == "sea",
-            ),
-        )  # fmt: skip
+        if fluid.diameter > 0.0:
+            add_load(scene, fluid.along(f"{name}.{i}", (one, two), step))
     return lines
+
+
+def _at_rest(
+    what: str, chain: Chain, first: Array, last: Array, lifts: Callable[[Array, float], Array]
+) -> Array:
+    """Places of the masses, (n - 1, 3), m: in water, where what it lifts fits the shape that it makes."""
+    places = first + _shape(what, chain)
+    for _ in range(MOST_SHAPES):
+        lift = lifts(np.vstack([first, places, last]), chain.segment)
+        if not np.any(lift):
+            break
+        before, places = places, first + _shape(what, replace(chain, weights=chain.weights - lift))
+        if np.abs(places - before).max(initial=0.0) < SAME_SHAPE * chain.segment:
+            break
+    return places
 
 
 def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End, _End]:

@@ -28,8 +28,9 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
-from seacrane.scene.heavy_line import CYLINDER_DRAG, chain_of_segments
+from seacrane.scene.heavy_line import chain_of_segments
 from seacrane.scene.limits import STICKING_SPEED, add_wire
+from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid
 from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
@@ -43,8 +44,8 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
         ("tension_at_start", "mass", "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed",
          "strains", "tensions"), STRETCHING),
     **dict.fromkeys(
-        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient", "density", "flow",
-         "medium"),
+        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient",
+         "drag_coefficient_along", "added_mass_coefficient", "density", "flow", "medium"),
         (WITH_MASS,)),
 }  # fmt: skip
 
@@ -83,6 +84,8 @@ def add_line(
     segment_rung: StretchingRung = "elastic",
     diameter: float = 0.0,
     drag_coefficient: float = CYLINDER_DRAG,
+    drag_coefficient_along: float = SKIN_DRAG,
+    added_mass_coefficient: float = CIRCLE_ADDED_MASS,
     density: float | None = None,
     flow: ArrayLike = (0.0, 0.0, 0.0),
     medium: Literal["air", "sea"] = "air",
@@ -155,17 +158,22 @@ def add_line(
     segment_rung : {"elastic", "quasi-static", "auto"}
         With mass, of each segment. Quasi-static: waves along the line settle within `settling`.
     diameter : float
-        With mass, m, for drag across the line; 0 (default): no drag.
+        With mass, m, for what air or water does to it; 0 (default): nothing in air, refused in the sea.
     drag_coefficient : float
-        With mass, across the line; there is none along it. Default 1.2, a cylinder (DNV-RP-C205).
+        With mass, across the line. Default 1.2, a cylinder (DNV-RP-C205).
+    drag_coefficient_along : float
+        With mass, in the sea, along the line on its skin, pi diameter length. Default 0.01 (unverified). In
+        air there is none.
+    added_mass_coefficient : float
+        With mass, in the sea: added mass across the line over the water that it displaces; there is none
+        along it. Default 1, a circle in ideal flow.
     density : float
-        With mass, kg/m3, of the fluid; default: that of the medium, air or sea water. Buoyancy and added mass
-        are left out.
+        With mass, kg/m3, of the fluid; default: that of the medium, air or sea water.
     flow : array_like, shape (3,)
-        With mass, velocity of the fluid, m/s, inertial axes.
+        With mass, velocity of the air, or of a fluid that has drag alone, m/s, inertial axes.
     medium : {"air", "sea"}
-        With mass. In the sea drag is that of the water's own velocity, waves and current of `add_sea`, on
-        what is below the surface, in place of a flow.
+        With mass. In the sea what is below the surface has buoyancy, added mass and drag in the water of
+        `add_sea`, its waves and current; still water without one.
     breaking_load : float, optional
         Minimum breaking load of the rope, one fall, N: `lift_sheet` and the report compare the tension.
     safety_factor : float, optional
@@ -205,7 +213,11 @@ def add_line(
         added = chain_of_segments(
             scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
             segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
-            diameter=diameter, drag_coefficient=drag_coefficient, density=density, flow=flow, medium=medium,
+            fluid=Fluid(
+                medium=medium, density=density, diameter=diameter, drag_coefficient=drag_coefficient,
+                drag_coefficient_along=drag_coefficient_along, flow=flow,
+                added_mass_coefficient=added_mass_coefficient,
+            ),
         )  # fmt: skip
     else:
         if length is not None and tension_at_start is not None:

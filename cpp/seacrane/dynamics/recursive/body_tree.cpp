@@ -440,4 +440,15 @@ std::vector<double> BodyTree::scales(double length, double angle) const {
 
 BodyTree build_tree(const Model& model) { return TreeBuilder(model).run(); }
 
+std::vector<int> roots_of(const BodyTree& tree, int bodies) {
+  std::vector<int> out(idx(bodies) + 1, -1);
+  int count = 0;
+  for (const Cluster& c : tree.clusters) {
+    const bool root = c.kind == Cluster::floating || c.parent == bodies;
+    const int of = root ? count++ : out[idx(c.parent)];
+    for (const Member& m : c.members) out[idx(m.body)] = of;
+  }
+  return out;
+}
+
 }  // namespace seacrane

@@ -58,6 +58,9 @@ struct BodyTree {
 /// without a branch is left to rows. Struts are found wherever their pattern occurs.
 BodyTree build_tree(const Model& model);
 
+/// The tree of every body, by the order of its root; -1: the ground's.
+std::vector<int> roots_of(const BodyTree& tree, int bodies);
+
 /// Calls f(place in the positions) for every quaternion.
 template <class F>
 void for_each_quaternion(const BodyTree& tree, F&& f) {

@@ -65,6 +65,23 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   layout_.size = layout_.work + 2;
   followed_.assign(idx(layout_.size), 0.0);
   choose_rows();
+  find_near();
+}
+
+/// A tension moves the trees that it acts on, where nothing joins them and nothing drives them.
+void RecursiveSystem::find_near() {
+  near_.resize(idx(tensions_.count()));
+  const auto driven = [](const Cluster& c) { return c.is_driven(); };
+  if (loops_.rows() > 0 || std::ranges::any_of(tree_.clusters, driven)) return;
+  const std::vector<int> root = roots_of(tree_, model_.body_count());
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const std::vector<int>& bodies = tensions_.bodies(static_cast<Eigen::Index>(i));
+    if (bodies.size() > 2) continue;
+    for (std::size_t c = 0; c < tree_.clusters.size(); ++c) {
+      const int own = root[idx(tree_.clusters[c].body)];
+      if (std::ranges::any_of(bodies, [&](int b) { return root[idx(b)] == own; })) near_[i].push_back(c);
+    }
+  }
 }
 
 /// Where the model is assembled; the sets of limits that are compiled on the way are not.
@@ -194,10 +211,27 @@ void RecursiveSystem::solve_with_loops(double* u_rate) {
   solve();
 }
 
+void RecursiveSystem::respond_to_tension(Eigen::Index i) {
+  const std::vector<std::size_t>& near = near_[idx(i)];
+  if (near.empty()) return load_response(tensions_.unit(i), tensions_.response(i));
+  const auto push = [&](std::size_t k) -> ArticulatedTree<double>::Push {
+    const std::vector<int>& bodies = tensions_.bodies(i);
+    if (k >= bodies.size()) return {model_.body_count(), Wrench<double>::zero()};
+    return {bodies[k], Wrench<double>(tensions_.unit(i)[idx(bodies[k])])};
+  };
+  std::ranges::fill(speed_rate_, 0.0);
+  articulated_.respond(near, push(0), push(1), speed_rate_.data());
+  for (const std::size_t c : near) {
+    for (const Member& m : tree_.clusters[c].members) {
+      tensions_.response(i)[idx(m.body)] = articulated_.acceleration(m.body).vector();
+    }
+  }
+}
+
 void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
   tensions_.start(*terms_, t, memory, acceleration_.data());
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    load_response(tensions_.unit(i), tensions_.response(i));
+    respond_to_tension(i);
     inertial_speed_rates_.col(i) = Eigen::Map<const VecXd>(speed_rate_.data(), tree_.speeds);
     read_drives(drive_response_[idx(static_cast<int>(i))]);
   }

@@ -77,6 +77,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void choose_rows();
   void solve_acceleration(double* u_rate);
   void solve_with_loops(double* u_rate);
+  void find_near();
+  void respond_to_tension(Eigen::Index i);
   void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
@@ -104,6 +106,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   // For 1 N of each inertial tension:
   std::vector<std::vector<double>> drive_response_;
   MatXd inertial_speed_rates_;
+  std::vector<std::vector<std::size_t>> near_;  // clusters that move; empty: all may
   VecXd residual_, loop_bias_;
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;

@@ -5,21 +5,6 @@
 #include <set>
 
 namespace seacrane {
-namespace {
-
-/// The tree of every body, by the order of its root; -1: the ground's.
-std::vector<int> roots_of(const BodyTree& tree, int bodies) {
-  std::vector<int> out(idx(bodies) + 1, -1);
-  int count = 0;
-  for (const Cluster& c : tree.clusters) {
-    const bool root = c.kind == Cluster::floating || c.parent == bodies;
-    const int of = root ? count++ : out[idx(c.parent)];
-    for (const Member& m : c.members) out[idx(m.body)] = of;
-  }
-  return out;
-}
-
-}  // namespace
 
 int SparseLoops::trees_of(const Model& model, const BodyTree& tree) {
   const std::vector<int> root = roots_of(tree, model.body_count());

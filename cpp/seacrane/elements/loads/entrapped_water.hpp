@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
@@ -225,11 +224,7 @@ struct EntrappedWater {
   template <class T>
   LocalFlow<T> flow_at(const LoadInput<T>& in, int stencil, const Vec3<T>& place) const {
     if (!(place.z() < T(in.sea->crest()))) return {};  // above all crests there is none
-    if constexpr (std::is_same_v<T, double>) {
-      return in.sea->template in_row<double>(stencil, 0, in.time, {place}, Vec3d::Zero());
-    } else {
-      return in.sea->template at<T>(in.time, place);
-    }
+    return in.sea->template at_point<T>(stencil, in.time, place);
   }
 
   /// A head, zero in air.

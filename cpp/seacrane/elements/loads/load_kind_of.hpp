@@ -41,6 +41,10 @@ concept Follows = requires {
   Load::follows_as;
 };
 template <class Load>
+concept FromOutside = requires {
+  requires Load::from_outside;
+};
+template <class Load>
 concept Leads = requires(const typename Load::Description& d) {
   Load::leads(d);
 };
@@ -183,7 +187,7 @@ class LoadListOf final : public LoadsOf<Load> {
 };
 
 /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
-/// there its forces cancel and do no work. States go on all the same.
+/// there its forces cancel and do no work, unless they are from outside. States go on all the same.
 template <class Load>
 bool acts(const Load& load, int ground) {
   if constexpr (HasStates<Load>) {
@@ -191,6 +195,7 @@ bool acts(const Load& load, int ground) {
   }
   const auto& bodies = load.bodies();
   const auto& first = *bodies.begin();
+  if constexpr (FromOutside<Load>) return std::ranges::any_of(bodies, [&](int b) { return b != ground; });
   if (bodies.size() == 1) return first != ground;
   return std::any_of(bodies.begin(), bodies.end(), [&](int b) { return b != first; });
 }

@@ -1,0 +1,275 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "seacrane/elements/loads/span.hpp"
+#include "seacrane/math/curve.hpp"
+#include "seacrane/sea/sea_view.hpp"
+
+namespace seacrane {
+
+struct ImmersedSpanDescription : SpanDescription {
+  double density = 0.0, diameter = 0.0;
+  Curve length;
+  double added_mass_coefficient = 1.0, drag_coefficient = 0.0, drag_coefficient_along = 0.0;
+  std::string source;
+
+  static constexpr const char* type = "ImmersedSpan";
+  static constexpr const char* text =
+      "Water on a straight span of wire between two points: buoyancy, added mass, drag; see Scene.add_line.";
+  static constexpr auto fields() {
+    using D = ImmersedSpanDescription;
+    return std::tuple_cat(
+        SpanDescription::fields(),
+        std::tuple(
+            required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
+            required("diameter", &D::diameter, "m", "").positive().usually(5e-4, 3.0),
+            required("length", &D::length, "m", "of wire in the span, a number or a Curve")
+                .positive()
+                .usually(0.0, 1e4),
+            optional("added_mass_coefficient", &D::added_mass_coefficient, "",
+                     "C_a: added mass across, over the water that it displaces")
+                .not_negative()
+                .usually(0.05, 10.0),
+            required("drag_coefficient", &D::drag_coefficient, "", "across, over the diameter")
+                .not_negative()
+                .usually(0.05, 20.0),
+            optional("drag_coefficient_along", &D::drag_coefficient_along, "", "along, over the skin")
+                .not_negative()
+                .usually(1e-3, 1.0),
+            optional("source", &D::source, "", "where its coefficients are from")));
+  }
+};
+
+/// Water on a straight span of wire. Half of the span belongs to either of its ends, which moves by v in
+/// water that moves by u. With t along the span, d from its first end to the second, P = I - t t^T, w = v -
+/// u, and s the share of the half that is below the surface, each end has
+///
+///   density V/2 s (Du/Dt + g e_z) - m P (a - Du/Dt) - m P' w - max(m', 0) P w - drag +- c,
+///   m = s C_a density V/2,   c = d/dd of the sum of w^T m P w / 2 = -sum m (t . w) P w / |d|,
+///
+/// V the volume of the wire. P turns with d, so that the second end has c and the first -c: the moment of
+/// Munk on a slender body (H. Lamb, Hydrodynamics, art. 124). As of a part (ImmersedPart), slam brings
+/// momentum in on entry, and half of |m'| w^T P w is lost on entry and exit. There is no added mass along the
+/// wire.
+///
+/// Drag is density/2 C_D D l/2 |P w| P w, and density/2 C_Dt pi D l/2 |t . w| (t . w) t along the skin.
+///
+/// The ledger counts v^T m P v / 2 as kinetic energy, and buoyancy as a power.
+struct ImmersedSpan {
+  static constexpr const char* kind = "immersed span";
+  static constexpr bool from_outside = true;
+  using Description = ImmersedSpanDescription;
+
+  Description d;
+  Span span;
+  // Of one half, for each metre of the span:
+  double displaced = 0.0, added = 0.0;  // mass of water, kg; and added mass across
+  double weight = 0.0;                  // of that water, N
+  double across = 0.0, along = 0.0;     // drag, N s2/m2
+  std::array<int, 2> stencils = {-1, -1};
+
+  static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
+
+  static Description example() {
+    auto d = example_span<Description>({0.2, -0.3, 0.4});
+    d.density = 0.1;
+    d.diameter = 1.3;
+    d.length = Curve::quintic(-1.0, 2.0, 8.0, 11.0);
+    d.added_mass_coefficient = 0.8;
+    d.drag_coefficient = 1.2;
+    d.drag_coefficient_along = 0.3;
+    return d;
+  }
+
+  template <class Context>
+  static ImmersedSpan compile(const Description& d, Context& context) {
+    using std::numbers::pi;
+    ImmersedSpan out;
+    out.d = d;
+    out.span = Span::compile(d, context);
+    out.displaced = d.density * pi / 8.0 * d.diameter * d.diameter;
+    out.added = d.added_mass_coefficient * out.displaced;
+    out.weight = context.gravity() * out.displaced;
+    out.across = 0.25 * d.density * d.drag_coefficient * d.diameter;
+    out.along = 0.25 * d.density * d.drag_coefficient_along * pi * d.diameter;
+    out.stencils = {context.stencil(at_end(d.first, d.first_point)),
+                    context.stencil(at_end(d.second, d.second_point))};
+    return out;
+  }
+
+  /// Those of the length are the line's own, to which they do far more.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  std::array<int, 2> bodies() const { return span.bodies(); }
+
+  template <class T>
+  void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
+    const Place<T> at = place(in);
+    const Mat3<T> across_span = Mat3<T>::Identity() - at.direction * at.direction.transpose();
+    for (const End<T>& end : at.ends) {
+      if (!(end.wet > T(0))) continue;
+      const Mat3<T> lever = skew<T>(end.lever), own = across_span * (T(added) * end.wet);
+      const Mat3<T> turned = lever * own;
+      Mat6<T>& to = mass[end.body];
+      to.template topLeftCorner<3, 3>() += own;
+      to.template bottomLeftCorner<3, 3>() += turned;
+      to.template topRightCorner<3, 3>() += turned.transpose();
+      to.template bottomRightCorner<3, 3>() -= turned * lever;
+    }
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const Place<T> at = place(in);
+    if (!(at.ends[0].wet > T(0)) && !(at.ends[1].wet > T(0))) return;
+    const Vec3<T> couple = this->couple(at);
+    for (const End<T>& end : at.ends) {
+      Vec3<T> force = end.second ? couple : Vec3<T>(-couple);
+      force += flow_force(end) + drag(at, end);
+      const T stored = add_momentum(at, end, force);
+      out.wrench[end.body].add(force, end.lever);
+      out.add_power(force.dot(end.own) + stored);
+    }
+  }
+
+ private:
+  /// One end with its half of the span, inertial axes.
+  template <class T>
+  struct End {
+    int body = 0;
+    bool second = false;
+    Vec3<T> lever, point;  // from the state point, and its place
+    Vec3<T> own, swept;    // its velocity; its acceleration by turning of the body
+    Vec3<T> velocity;      // over the water
+    Vec3<T> water;         // acceleration of that, Du/Dt
+    // m of the span below the surface, if both halves were as this one; and how fast that grows as it dips
+    // in, and as the span itself does.
+    T wet{0}, dips{0}, grows{0};
+  };
+  template <class T>
+  struct Place {
+    T length{0};
+    Vec3<T> direction = Vec3<T>::Zero(), turning = Vec3<T>::Zero();  // t and its rate
+    std::array<End<T>, 2> ends;
+
+    Vec3<T> across(const Vec3<T>& x) const { return x - direction * direction.dot(x); }
+    /// P' x.
+    Vec3<T> across_rate(const Vec3<T>& x) const {
+      return -(turning * direction.dot(x) + direction * turning.dot(x));
+    }
+  };
+
+  /// One for all spans that meet at a point: its flow is asked for once.
+  static FlowStencil at_end(const std::string& body, const Vec3d& point) {
+    std::string name = "immersed span at point (";
+    for (int i = 0; i < 3; ++i) name += to_text(point[i]) + (i < 2 ? ", " : ")");
+    return {.name = name + " of '" + body + "'", .surface = false};
+  }
+
+  template <class T>
+  Place<T> place(const LoadInput<T>& in) const {
+    using std::sqrt;
+    const SpanPlace<T> at = span.place(in);
+    Place<T> out;
+    out.ends = {end_at(in, span.first, at.lever_first), end_at(in, span.second, at.lever_second)};
+    out.ends[1].second = true;
+    if (!at.has_direction()) return out;  // no water on a wire without one
+    out.length = sqrt(at.square);
+    out.direction = at.apart / out.length;
+    const Vec3<T> rate = out.ends[1].own - out.ends[0].own;
+    out.turning = out.across(rate) / out.length;
+    const T half = T(0.5) * at.apart.z(), half_rate = T(0.5) * rate.z();
+    dip(in, stencils[0], half, half_rate, out.ends[0]);
+    dip(in, stencils[1], T(-half), T(-half_rate), out.ends[1]);
+    return out;
+  }
+
+  template <class T>
+  static End<T> end_at(const LoadInput<T>& in, int body, const Vec3<T>& lever) {
+    const auto& k = in.bodies[body];
+    const Vec3<T> around = cross<T>(k.angular_velocity, lever);
+    End<T> out;
+    out.body = body;
+    out.lever = lever;
+    out.point = k.position + lever;
+    out.own = k.velocity + around;
+    out.swept = cross<T>(k.angular_velocity, around);
+    out.velocity = out.own;
+    out.water = Vec3<T>::Zero();
+    return out;
+  }
+
+  /// The sea at an end whose half of the span rises by `height`. Its share below the surface is smooth up to
+  /// the second derivative: it dips in over its height, and no less than the diameter.
+  template <class T>
+  void dip(const LoadInput<T>& in, int stencil, const T& height, const T& height_rate, End<T>& end) const {
+    using std::sqrt;
+    const T over = sqrt(height * height + T(d.diameter * d.diameter));
+    const T middle = end.point.z() + T(0.5) * height;
+    if (!(middle - T(0.5) * over < T(in.sea->crest()))) return;  // above all crests
+    const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
+    end.velocity = end.own - flow.velocity;
+    end.water = flow.acceleration;
+    const T depth = flow.elevation - middle;
+    const T rise = flow.elevation_rate + flow.slope[0] * end.own.x() + flow.slope[1] * end.own.y();
+    const T sinks = rise - end.own.z() - T(0.5) * height_rate;
+    const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
+    const CurveValue length = d.length.at(in.time, in.curve_limit);
+    const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
+    const T part_rate = (sinks - depth * height * height_rate / (over * over)) / over;
+    end.wet = share * T(length.value);
+    end.dips = T(30) * part * part * dry * dry * part_rate * T(length.value);
+    end.grows = share * T(length.rate);
+  }
+
+  /// Buoyancy, and the force of the undisturbed flow.
+  template <class T>
+  Vec3<T> flow_force(const End<T>& end) const {
+    Vec3<T> out = end.water * (T(displaced) * end.wet);
+    out.z() += T(weight) * end.wet;
+    return out;
+  }
+
+  template <class T>
+  Vec3<T> drag(const Place<T>& at, const End<T>& end) const {
+    using std::sqrt;
+    const T slide = at.direction.dot(end.velocity);
+    const Vec3<T> side = end.velocity - at.direction * slide;
+    Vec3<T> out = at.direction * (T(-along) * end.wet * slide * select(slide < T(0), T(-slide), slide));
+    const T square = side.dot(side);
+    if (square > T(0)) out -= side * (T(across) * end.wet * sqrt(square));  // else it has no direction
+    return out;
+  }
+
+  /// On the second end; its opposite is on the first.
+  template <class T>
+  Vec3<T> couple(const Place<T>& at) const {
+    Vec3<T> out = Vec3<T>::Zero();
+    for (const End<T>& end : at.ends) {
+      if (!(end.wet > T(0))) continue;
+      const T slide = at.direction.dot(end.velocity);
+      out -= at.across(end.velocity) * (T(added) * end.wet * slide / at.length);
+    }
+    return out;
+  }
+
+  /// What the added mass of an end does beside -m P a and the couple. Returns what the ledger's energy of it
+  /// gains beside that of m P a.
+  template <class T>
+  T add_momentum(const Place<T>& at, const End<T>& end, Vec3<T>& force) const {
+    const T mass = T(added) * end.wet, gain = T(added) * end.dips, grown = T(added) * end.grows;
+    const Vec3<T> swing = end.swept - end.water, own = at.across(end.own);
+    force -= (at.across(swing) + at.across_rate(end.velocity)) * mass;
+    force -= at.across(end.velocity) * (grown + select(gain > T(0), gain, T(0)));
+    const T turned = own.dot(end.swept) - at.direction.dot(end.own) * at.turning.dot(end.own);
+    return mass * turned + T(0.5) * (gain + grown) * own.dot(own);
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,107 @@
+"""What a line with mass is in: air, a fluid that flows, or the sea."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane import _core
+from seacrane.description.damping import AIR
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, positive_of, text_of
+from seacrane.water.density import SEA_WATER, density_of
+
+Array = NDArray[np.float64]
+_Point = tuple[str, Array]  # a body and a point in its coordinates, m
+MEDIA = ("air", "sea")
+CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
+CIRCLE_ADDED_MASS = 1.0  # C_a of a circle in ideal flow: H. Lamb, Hydrodynamics, art. 68
+SKIN_DRAG = 0.01  # C_D along, on the skin of a wire: unverified
+OF_THE_SEA = {"drag_coefficient_along": SKIN_DRAG, "added_mass_coefficient": CIRCLE_ADDED_MASS}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fluid:
+    """What a line with mass is in, and its coefficients there; `density` None: that of the medium."""
+
+    medium: str
+    density: float | None
+    diameter: float
+    drag_coefficient: float
+    drag_coefficient_along: float
+    added_mass_coefficient: float
+    flow: ArrayLike
+
+    @property
+    def in_sea(self) -> bool:
+        """Whether it is the water of the scene."""
+        return self.medium == "sea"
+
+    def checked(self, what: str) -> Fluid:
+        """The same with a density in kg/m3."""
+        if text_of(f"{what}: medium", self.medium) not in MEDIA:
+            raise SceneError(f"{what}: medium is {self.medium!r}; choose 'air' or 'sea'")
+        number_of(f"{what}: diameter", self.diameter)
+        if not self.in_sea:
+            for name, usual in OF_THE_SEA.items():
+                if getattr(self, name) != usual:
+                    raise SceneError(
+                        f"{what}: {name} is of a line in water; leave it out, or choose medium 'sea'"
+                    )
+            return replace(self, density=AIR if self.density is None else self.density)
+        if np.any(self.flow):
+            raise SceneError(f"{what}: is in the sea and has a flow; give the current to add_sea")
+        positive_of(f"{what}: diameter", self.diameter, "m")
+        return replace(self, density=density_of(what, SEA_WATER if self.density is None else self.density))
+
+    def source(self) -> str:
+        """Where the coefficients are from."""
+        usual = [
+            (
+                "added mass",
+                self.added_mass_coefficient,
+                CIRCLE_ADDED_MASS,
+                "a circle in ideal flow (Lamb, art. 68)",
+            ),
+            ("drag across", self.drag_coefficient, CYLINDER_DRAG, "a cylinder (DNV-RP-C205)"),
+            ("drag along", self.drag_coefficient_along, SKIN_DRAG, "unverified"),
+        ]
+        return "; ".join(
+            f"{what}: {given:g}, {text if given == own else 'given'}" for what, given, own, text in usual
+        )
+
+    def along(self, name: str, ends: tuple[_Point, _Point], length: float) -> Any:
+        """What it does to a segment of a length (m)."""
+        (first, first_point), (second, second_point) = ends
+        span = {"first": first, "second": second, "first_point": first_point, "second_point": second_point,
+                "density": self.density, "diameter": self.diameter, "length": length}  # fmt: skip
+        if not self.in_sea:
+            return _core.SpanDrag(
+                name=f"{name} drag", coefficient=self.drag_coefficient, flow=self.flow, **span
+            )
+        return _core.ImmersedSpan(
+            name=f"{name} water", drag_coefficient=self.drag_coefficient, source=self.source(),
+            drag_coefficient_along=self.drag_coefficient_along,
+            added_mass_coefficient=self.added_mass_coefficient, **span,
+        )  # fmt: skip
+
+    def lifts(self, places: Array, segment: float, gravity: float) -> Array:
+        """Buoyancy of each mass between segments of a length (m), (n - 1,) N; `places` (n + 1, 3), m.
+
+        Of ends and masses, in their order. As ImmersedSpan has it in still water: half a segment counts with
+        its share below the surface.
+        """
+        if not self.in_sea:
+            return np.zeros(len(places) - 2)
+        z = places[:, 2]
+        half = np.diff(z) / 2.0
+        over = np.hypot(half, self.diameter)
+        lower, upper = (
+            np.clip(0.5 - middle / over, 0.0, 1.0) for middle in (z[:-1] + half / 2.0, z[1:] - half / 2.0)
+        )
+        shares = [s**3 * (10.0 + s * (6.0 * s - 15.0)) for s in (lower, upper)]
+        whole = cast(float, self.density) * gravity * np.pi / 4.0 * self.diameter**2 * segment
+        return np.asarray(0.5 * whole * (shares[0][1:] + shares[1][:-1]))

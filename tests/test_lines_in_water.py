@@ -1,0 +1,379 @@
+"""Lines with mass in water: buoyancy, added mass, drag, in still water, waves and current."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from test_jacobian import largest_error, moving
+
+from seacrane import Scene, SceneError, _core, natural_modes, simulate
+from seacrane.description.forces import add_load
+from seacrane.result import heavy_line_tension
+from seacrane.run import Run
+from seacrane.sea import Current
+
+Array = NDArray[np.float64]
+G, RHO = 9.80665, 1025.0
+EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11}
+FORMS = ("recursive", "redundant")
+
+
+def area(diameter: float) -> float:
+    return np.pi / 4.0 * diameter**2
+
+
+def with_ends(scene: Scene, places: Any, *, mass: float, velocities: Any = ((0, 0, 0), (0, 0, 0))) -> None:
+    """Two free bodies, "one" and "two"."""
+    for name, place, velocity in zip(("one", "two"), places, velocities, strict=True):
+        scene.add_body(name=name, mass=mass, inertia=(mass,) * 3, position=place, velocity=velocity)
+
+
+def wet_line(scene: Scene, **given: Any) -> None:
+    """Between these bodies."""
+    line: dict[str, Any] = {
+        "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3, "diameter": 0.1,
+        "density": RHO,
+    }  # fmt: skip
+    scene.add_line("line", rung="with mass", medium="sea", **line | given)
+
+
+def tossed(*, waves: bool = True, segments: int = 5, u: Any = (0.0, 0.0, 0.0), **given: Any) -> Scene:
+    """A thick line that swings below the ground through the surface, a load at its end."""
+    scene = Scene(name="tossed", gravity=G)
+    if waves:
+        scene.add_sea(
+            vessel=None, hs=1.5, tp=5.0, count=20, seed=3, direction_deg=30.0, gamma=2.0,
+            current=Current(depth=[0.0, 10.0], speed=[0.8, 0.3], direction_deg=[20.0, 60.0]),
+        )  # fmt: skip
+    scene.add_body(
+        name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
+        velocity=np.array([-1.0, 2.0, 1.0]) - u, angular_velocity=(0.4, -0.3, 0.6),
+    )  # fmt: skip
+    line: dict[str, Any] = {
+        "first_point": (0.0, 0.0, 5.0), "second_point": (0.1, -0.2, 0.4), "EA": 2e5, "length": 11.5,
+        "mass_per_length": 40.0, "diameter": 0.25, "drag_coefficient_along": 0.05,
+    }  # fmt: skip
+    scene.add_line(
+        "wire", "ground", "load", rung="with mass", medium="sea", segments=segments, **line | given
+    )
+    return scene
+
+
+def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "recursive") -> Any:
+    channels = ["position", "velocity", "energy_balance", "absolute_work"]
+    return simulate(scene, t_end=t_end, dt_out=dt_out, channels=channels, formulation=formulation, **EXACT)
+
+
+# --- engine: formulations, ledger, restart, Jacobian ----------------------------------------------------
+
+
+@pytest.mark.parametrize("waves", [False, True])
+def test_both_formulations_agree_and_the_ledger_closes(waves: bool) -> None:
+    one, other = (run(tossed(waves=waves), 2.0, 0.1, form) for form in FORMS)
+    assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-8)
+    for result in (one, other):
+        assert np.max(np.abs(result["energy_balance"])) < 1e-8 * np.max(result["absolute_work"])
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_run_continues_bit_for_bit(formulation: str) -> None:
+    given: dict[str, Any] = {"formulation": formulation, "integrator": "dopri5", "dt_out": 0.1}
+    whole = Run(tossed(), 1.0, **given)
+    whole.advance(0.47)
+    rest = Run(tossed(), 1.0, start=whole.state, outputs_from=0.0, **given)
+    for one in (whole, rest):
+        one.advance(1.0)
+    assert np.array_equal(whole.state.values, rest.state.values)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_exact_jacobian_is_that_of_differences(seed: int) -> None:
+    model = tossed(segments=3).compile()
+    assert largest_error(model, 0.7, moving(model, seed), step=3e-4, kinks=True) < 1e-7
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_line_in_a_current_moves_as_one_that_is_towed_through_still_water(formulation: str) -> None:
+    """Relativity of Galileo: added mass, its moment, slam and drag see the speed over the water alone."""
+    u = np.array([1.3, -0.6, 0.0])
+
+    def scene_of(carried: bool) -> Scene:
+        scene = Scene(name="towed", gravity=G)
+        if carried:
+            speed, angle = float(np.hypot(*u[:2])), float(np.degrees(np.arctan2(u[1], u[0])))
+            scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=speed, direction_deg=angle))
+        own = np.array([[0.5, 0.2, -2.0], [-0.4, 0.6, 1.0]]) - (0.0 if carried else u)
+        with_ends(scene, [(0.0, 0.0, 1.0), (6.0, 2.0, -1.5)], mass=60.0, velocities=own)
+        wet_line(scene, diameter=0.3, mass_per_length=60.0)
+        return scene
+
+    carried, towed = (run(scene_of(one), 1.5, 0.1, formulation) for one in (True, False))
+    moved = np.asarray(towed["position"]) + u * np.asarray(towed.time)[:, None, None]
+    assert np.asarray(carried["position"]) == pytest.approx(moved, abs=1e-8)
+
+
+# --- forces against closed forms ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("along", [(50.0, 0.0, 0.0), (0.0, 0.0, 50.0)], ids=["level", "upright"])
+def test_a_line_that_sinks_takes_on_its_terminal_speed_as_its_equation_says(along: Any) -> None:
+    """M' v' = W - k v^2 has v = V tanh(k V t / M'), V^2 = W / k; across M' holds the added mass."""
+    scene = Scene(name="sinking", gravity=G)
+    with_ends(scene, [(0.0, 0.0, -100.0), np.add((0.0, 0.0, -100.0), along)], mass=100.0)
+    wet_line(
+        scene, length=50.0, segments=1, drag_coefficient=1.1, drag_coefficient_along=0.02,
+        added_mass_coefficient=0.9,
+    )  # fmt: skip
+    result = simulate(scene, t_end=4.0, rtol=1e-9, channels=["velocity", "position"])
+    water, upright = RHO * area(0.1) * 50.0, along[2] > 0.0
+    mass = 200.0 + 20.0 * 50.0 + (0.0 if upright else 0.9 * water)
+    weight = (1200.0 - water) * G
+    drag = 0.5 * RHO * 0.1 * 50.0 * (np.pi * 0.02 if upright else 1.1)
+    final = np.sqrt(weight / drag)
+    expected = -final * np.tanh(drag * final * np.asarray(result.time) / mass)
+    for end in ("one", "two"):
+        speed = np.asarray(result.select("velocity", body=end, axis="z"))
+        assert speed == pytest.approx(expected, rel=1e-6, abs=1e-6)
+    assert speed[-1] == pytest.approx(-final, rel=0.1)
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) -> None:
+    """A neutral rod of two masses beside the equations of Kirchhoff in a plane: momentum is kept."""
+    length, mass, diameter = 4.0, 30.0, 0.2
+    scene = Scene(name="askew", gravity=0.0)
+    angle, speed = 0.3, np.array([2.0, 0.0, 0.0])
+    half = 0.5 * length * np.array([np.cos(angle), 0.0, np.sin(angle)])
+    middle = np.array([0.0, 0.0, -50.0])
+    with_ends(scene, [middle - half, middle + half], mass=mass, velocities=[speed, speed])
+    scene.add_joint(kind="distance", name="rod", first="one", second="two", point=middle - half,
+                    second_point=middle + half)  # fmt: skip
+    add_load(scene, _core.ImmersedSpan(
+        name="water", first="one", second="two", density=RHO, diameter=diameter, length=length,
+        drag_coefficient=0.0,
+    ))  # fmt: skip
+    added = RHO * area(diameter) * length
+
+    def rate(t: float, y: Array) -> Array:
+        """Of x, z, angle, and its rate; the momentum is that of the start."""
+        along, across = np.array([np.cos(y[2]), np.sin(y[2])]), np.array([-np.sin(y[2]), np.cos(y[2])])
+        slide, side = along @ momentum / (2.0 * mass), across @ momentum / (2.0 * mass + added)
+        velocity = slide * along + side * across
+        turning = -added * slide * side / ((2.0 * mass + added) * length**2 / 4.0)
+        return np.array([*velocity, y[3], turning])
+
+    across = np.array([-np.sin(angle), np.cos(angle)])
+    momentum = 2.0 * mass * speed[[0, 2]] + added * across * (across @ speed[[0, 2]])
+    result = simulate(scene, t_end=6.0, dt_out=0.1, channels=["position"], formulation=formulation, **EXACT)
+    alone = solve_ivp(rate, (0.0, 6.0), [0.0, -50.0, angle, 0.0], t_eval=result.time, rtol=1e-12, atol=1e-12)
+    one, two = (np.asarray(result.select("position", body=name)) for name in ("one", "two"))
+    turned = np.unwrap(np.arctan2((two - one)[:, 2], (two - one)[:, 0]))
+    assert turned == pytest.approx(alone.y[2], abs=1e-7)
+    assert np.ptp(turned) > 1.0, "it turns broadside and beyond"
+    assert 0.5 * (one + two)[:, [0, 2]] == pytest.approx(alone.y[:2].T, abs=1e-7)
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
+    """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
+    scene = Scene(name="raft", gravity=G)
+    with_ends(scene, [(0.0, 0.0, -50.0), (4.0, 0.0, -50.0)], mass=30.0)
+    scene.add_joint(kind="weld", name="glue", first="one", second="two")
+    add_load(scene, _core.ImmersedSpan(
+        name="water", first="one", second="two", density=RHO, diameter=0.2, length=4.0, drag_coefficient=1.0,
+    ))  # fmt: skip
+    water = RHO * area(0.2) * 4.0
+    result = simulate(scene, t_end=1.0, dt_out=0.1, channels=["velocity"], formulation=formulation, **EXACT)
+    speed = np.asarray(result.select("velocity", body="two", axis="z"))
+    drag, weight, mass = 0.5 * RHO * 0.2 * 4.0, (water - 60.0) * G, water + 60.0
+    final = np.sqrt(weight / drag)
+    assert speed == pytest.approx(final * np.tanh(drag * final * np.asarray(result.time) / mass), rel=1e-7)
+
+
+def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
+    """(pi / L) sqrt(T / (m + C_a density A)); of n segments 2 n / pi sin(pi / 2 n) of it."""
+    length, pull, strain, diameter = 50.0, 1e4, 0.01, 0.06
+    short = length / (1.0 + strain)
+    found = []
+    for n in (4, 8, 16):
+        scene = Scene(name="taut", gravity=0.0)
+        scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(length, 0.0, -20.0))
+        scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+        scene.add_line(
+            "line", "ground", "end", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+            rung="with mass", EA=pull / strain, length=short, mass_per_length=2.0, segments=n,
+            diameter=diameter, medium="sea", density=RHO, added_mass_coefficient=0.8,
+        )  # fmt: skip
+        mass = (2.0 + 0.8 * RHO * area(diameter)) / (1.0 + strain)
+        whole = np.pi / length * np.sqrt(pull / mass)
+        chain = whole * 2.0 * n / np.pi * np.sin(0.5 * np.pi / n)
+        omega = 2.0 * np.pi / natural_modes(scene).natural_period
+        assert np.abs(omega - chain).min() < 1e-6 * chain
+        found.append(whole - chain)
+    assert np.log2(np.divide(found[:-1], found[1:])) == pytest.approx([2.0, 2.0], abs=0.05)
+
+
+def long_wire(length: float, segments: int) -> Scene:
+    """25 kg/m and EA 4e8 N with 60 t below it, and 50 t of water that move up and down with those."""
+    scene = Scene(name="long wire", gravity=G)
+    stretched = length * (1.0 + 60e3 * G / 4e8)
+    scene.add_body(name="load", mass=60e3, inertia=(1e5,) * 3, position=(0.0, 0.0, -20.0 - stretched))
+    scene.add_line(
+        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+        rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments, diameter=0.06,
+        medium="sea",
+    )  # fmt: skip
+    add_load(scene, _core.ImmersedPart(
+        name="water", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
+        depths=[0.0, 2.0], added_masses=[(0.0, 0.0, 0.0), (0.0, 0.0, 50e3)],
+    ))  # fmt: skip
+    return scene
+
+
+def bounce(length: float, segments: int) -> float:
+    """Period of the first mode along the wire, s."""
+    modes = natural_modes(long_wire(length, segments))
+    along = modes.energy_share[:, :, 2].sum(axis=1) > 0.99
+    return float(modes.natural_period[along].max())
+
+
+@pytest.mark.parametrize(
+    ("length", "period"), [(100.0, 1.04589), (300.0, 1.82519), (1000.0, 3.41919), (3000.0, 6.34502)]
+)
+def test_a_load_on_a_long_wire_bounces_with_the_wire_s_own_mass(length: float, period: float) -> None:
+    """x tan x = m L / M, x = omega L / c: with second order in the segments, 20 are within 2e-4."""
+    share = 25.0 * length / 110e3
+    x = brentq(lambda x: x * np.tan(x) - share, 1e-6, 0.5 * np.pi - 1e-6, xtol=1e-14)
+    exact = 2.0 * np.pi * length / (x * np.sqrt(4e8 / 25.0))
+    assert exact == pytest.approx(period, abs=6e-6)
+    errors = [bounce(length, n) - exact for n in (5, 10, 20)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2.0, 2.0], abs=0.02)
+    assert abs(errors[-1]) < 2e-4 * exact
+
+
+def drawn_aside(speed: float, segments: int) -> float:
+    """Offset (m) at rest of 400 kN on 1000 m of wire, 200 N/m in water, in a uniform current (m/s)."""
+    diameter, length = 0.06, 1000.0
+    scene = Scene(name="drawn aside", gravity=G)
+    scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=speed, direction_deg=0.0))
+    scene.add_body(name="load", mass=400e3 / G, inertia=(1e5,) * 3, position=(0.0, 0.0, -20.0 - length))
+    scene.add_line(
+        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+        rung="with mass", EA=4e10, length=length, mass_per_length=200.0 / G + RHO * area(diameter),
+        segments=segments, diameter=diameter, drag_coefficient=1.2, medium="sea", density=RHO,
+    )  # fmt: skip
+    push = 0.5 * RHO * 1.5 * 20.0
+    add_load(scene, _core.ImmersedPart(
+        name="drag", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
+        depths=[0.0, 2.0], added_masses=np.zeros((2, 3)), drag=(push, push, push),
+    ))  # fmt: skip
+    still = simulate(scene, t_end=0.1, start="rest", channels=["position"])
+    return float(np.asarray(still.select("position", body="load", axis="x"))[0])
+
+
+def test_a_current_draws_a_long_wire_aside_as_its_integral_says() -> None:
+    """(F + q s) / (W + w s) from the load up, in the limit of small angles; second order in the segments."""
+    force, push = 0.5 * RHO * 1.5 * 20.0 * 0.25, 0.5 * RHO * 1.2 * 0.06 * 0.25
+    s = np.linspace(0.0, 1000.0, 20001)
+    aside = (force + push * s) / (400e3 + 200.0 * s)
+    assert np.trapezoid(aside, s) == pytest.approx(16.513376, abs=2e-6)
+    stretched = np.trapezoid(aside * (1.0 + (400e3 + 200.0 * s) / 4e10), s)
+    errors = [drawn_aside(0.05, n) * 100.0 - stretched for n in (5, 10, 20)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2.0, 2.0], abs=0.05)
+    assert abs(errors[-1]) < 1e-4 * stretched
+    assert drawn_aside(0.5, 10) == pytest.approx(stretched, rel=1e-3)  # with the angles that it has
+
+
+# --- rest, and how a line is described ------------------------------------------------------------------
+
+
+def through_the_surface(**given: Any) -> Scene:
+    """A load of 1 t on 60 m of wire from 20 m above the water."""
+    scene = Scene(name="wet and dry", gravity=G)
+    scene.add_body(name="load", mass=1e3, inertia=(1e3,) * 3, position=(0.0, 0.0, -40.0))
+    line: dict[str, Any] = {"EA": 1e8, "mass_per_length": 30.0, "segments": 12, "diameter": 0.08}
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 20.0), second_point=(0.0, 0.0, 0.0),
+                   rung="with mass", medium="sea", length=60.0, **line | given)  # fmt: skip
+    return scene
+
+
+def test_a_wire_hangs_by_its_weight_less_the_water_that_it_displaces() -> None:
+    result = simulate(through_the_surface(), t_end=0.1, start="rest")
+    upper, lower = heavy_line_tension(result, line="wire")[-1]
+    assert upper == pytest.approx((1e3 + 30.0 * 60.0 - RHO * area(0.08) * 40.0) * G, rel=1e-5)
+    assert lower == pytest.approx(1e3 * G, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("mass_per_length", "top"), [(30.0, 3.0), (5.1, -30.0), (1.0, -30.0)],
+    ids=["sinks", "nearly floats", "floats"],
+)  # fmt: skip
+def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: float) -> None:
+    """Between two fixed points: through the surface, and below it heavier than water and lighter."""
+    scene = Scene(name="slack", gravity=G)
+    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, top - 10.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_line(
+        "line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0),
+        rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12, diameter=0.08,
+        medium="sea", density=RHO,
+    )  # fmt: skip
+    result = simulate(scene, t_end=1.0, rtol=1e-9, channels=["position"])
+    place = np.asarray(result["position"])
+    assert np.ptp(place, axis=0).max() < 1e-5
+    inner = place[0, 1:-1, 2]  # of its masses
+    assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
+
+
+def test_a_line_that_floats_on_the_surface_finds_its_rest() -> None:
+    """Lighter than water, from above it to 25 m below."""
+    scene = Scene(name="afloat", gravity=G)
+    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, -25.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_line(
+        "line", "ground", "end", first_point=(0.0, 0.0, 3.0), second_point=(0.0, 0.0, 0.0),
+        rung="with mass", EA=1e6, length=60.0, mass_per_length=2.0, segments=12, diameter=0.08, medium="sea",
+    )  # fmt: skip
+    result = simulate(scene, t_end=1.0, rtol=1e-9, start="rest", channels=["position"])
+    place = np.asarray(result["position"])
+    assert np.ptp(place, axis=0).max() < 1e-8
+    afloat = np.abs(place[0, :, 2]) < 0.1
+    assert afloat.sum() >= 5
+
+
+def test_coefficients_say_where_they_are_from() -> None:
+    scene = through_the_surface(drag_coefficient=1.0)
+    source = scene.loads["wire.1 water"].source
+    assert source == (
+        "added mass: 1, a circle in ideal flow (Lamb, art. 68); drag across: 1, given; "
+        "drag along: 0.01, unverified"
+    )
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"diameter": 0.0}, "diameter is 0.0 m; give a finite number above zero"),
+        ({"density": 1.025}, "density is 1.025, which looks like t/m3; give kg/m3"),
+        ({"flow": (1.0, 0.0, 0.0)}, "is in the sea and has a flow; give the current to add_sea"),
+        ({"medium": "water"}, "medium is 'water'; choose 'air' or 'sea'"),
+        ({"medium": "air", "added_mass_coefficient": 2.0}, "added_mass_coefficient is of a line in water"),
+        ({"medium": "air", "drag_coefficient_along": 0.1}, "drag_coefficient_along is of a line in water"),
+        ({"added_mass_coefficient": -1.0}, "added_mass_coefficient"),
+    ],
+)
+def test_what_makes_no_line_in_water_is_refused_by_name(given: dict[str, Any], message: str) -> None:
+    scene = Scene(name="refused")
+    with_ends(scene, [(0.0, 0.0, -1.0), (0.0, 0.0, -6.0)], mass=1e3)
+    line: dict[str, Any] = {
+        "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3, "diameter": 0.1,
+        "medium": "sea",
+    }  # fmt: skip
+    with pytest.raises(SceneError, match=message):
+        scene.add_line("line", rung="with mass", **line | given)
+        scene.compile()
