@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Scene
+from seacrane import Scene, SceneError, simulate
 from seacrane.description.outline import ship_size
 from seacrane.hydro import shipped_database
 from seacrane.run import Run
@@ -18,7 +18,7 @@ from seacrane.water import SpherePart
 
 
 def lowered(
-    *, y: float, x: float = 0.0, z: float = -3.0, hs: float | None = 2.0, heading: float = 0.0
+    *, y: float, x: float = 0.0, z: float = -3.0, hs: float | None = 2.0, heading: float = 0.0, **more: Any
 ) -> Scene:
     """A load in the water beside the shipped hull, y and x in her axes."""
     scene = Scene(name="lowered")
@@ -28,7 +28,9 @@ def lowered(
     turn = np.radians(heading)
     place = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ [x, y] + [40.0, -20.0]
     scene.add_body(name="load", mass=9e3, inertia=(9e3, 9e3, 9e3), position=(*place, z))
-    scene.add_immersed("load", parts=[SpherePart(diameter=2.0, point=(0.0, 0.0, dz)) for dz in (0.0, 4.0)])
+    scene.add_immersed(
+        "load", parts=[SpherePart(diameter=2.0, point=(0.0, 0.0, dz)) for dz in (0.0, 4.0)], **more
+    )
     return scene
 
 
@@ -68,6 +70,21 @@ def test_a_part_within_a_breadth_is_told_with_both_lengths(heading: float) -> No
 def test_it_is_told_where_it_counts(place: dict[str, Any], near: bool) -> None:
     given = {**place, "y": place["y"] * breadth()}
     assert bool(told(lowered(**given))) == near
+
+
+def test_a_factor_that_is_stated_is_not_told_and_multiplies_the_waves() -> None:
+    """Half of the waves twice is the waves: a load far from all hulls, in a linear sea."""
+    assert told(lowered(y=0.0))
+    assert not told(lowered(y=0.0, wave_factor=1.3))
+    lows, whole = (
+        simulate(lowered(y=500.0, hs=hs, wave_factor=factor), 5.0, channels=["position"], rtol=1e-9)[
+            "position"
+        ]
+        for hs, factor in ((4.0, 0.5), (2.0, 1.0))
+    )
+    assert np.asarray(lows.sel(body="load")) == pytest.approx(np.asarray(whole.sel(body="load")), abs=1e-7)
+    with pytest.raises(SceneError, match=r"wave_factor is -1"):
+        lowered(y=0.0, wave_factor=-1.0)
 
 
 def test_a_part_of_the_ship_herself_is_not_judged() -> None:

@@ -420,7 +420,7 @@ TEST_CASE("an element feels its mean over the wave, and no wave shorter than its
 TEST_CASE("slopes are those of differences, with stretching, filter, profile and a moving point") {
   RandomSea random{std::mt19937_64(17)};
   const auto sea = std::make_shared<const SeaField>(random.waves(25, 22.0, shear()));
-  const SeaView view(sea, {});
+  const SeaView view(sea, {{"point", 1}});
   const Vec3d place(4.0, -3.0, -2.7);
   // A point whose place depends on two numbers.
   const Vec3d first(0.2, 0.7, -0.4), second(-0.5, 0.1, 0.9);
@@ -429,8 +429,8 @@ TEST_CASE("slopes are those of differences, with stretching, filter, profile and
     point[i] = Dual<2>(place[i]);
     point[i].slope = {first[i], second[i]};
   }
-  const LocalFlow<Dual<2>> flow = view.at<Dual<2>>(8.0, point);
-  const LocalFlow<Dual<2>> same = view.at<Dual<2>>(8.0, point, Mat3<Dual<2>>::Zero());
+  const LocalFlow<Dual<2>> flow = view.at_point<Dual<2>>(0, 8.0, point);
+  const LocalFlow<Dual<2>> same = sea->at<Dual<2>>(8.0, point);
   constexpr double h = 1e-5;
   for (std::size_t n = 0; n < 2; ++n) {
     const Vec3d along = n == 0 ? first : second;
@@ -465,6 +465,30 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
   LocalFlow<double>::each(slopes, off, [](const Dual<3>& a, double& b) { b = std::fabs(a.value - b); });
   LocalFlow<double>::each(sea->magnitude(), off, [](double size, double& b) { CHECK(b <= 2e-9 * size); });
   CHECK(slopes.pressure.slope[2] == doctest::Approx(-flow.acceleration.z()).epsilon(0.2));
+}
+
+TEST_CASE("a stencil meets as many times the waves as it says, and the current once") {
+  RandomSea random{std::mt19937_64(21)};
+  WaveComponents waves = random.waves(25, 60.0, shear());
+  constexpr double factor = 1.6;
+  const auto sea = std::make_shared<const SeaField>(waves);
+  for (double& one : waves.amplitude) one *= factor;
+  const auto higher = std::make_shared<const SeaField>(waves);
+  const SeaView view(sea, {{.name = "part", .cut = 1e-9, .waves = factor}}), other(higher, {{"part", 1, 1e-9}});
+  CHECK(view.crest(0) == doctest::Approx(other.crest(0)).epsilon(1e-14));
+  const FlowPoint at{Vec3d(4.0, -3.0, -2.7), Mat3d::Identity() * 3.0, Vec3d(0.2, -0.1, 0.4), 2.0};
+  const auto check = [](const LocalFlow<double>& one, LocalFlow<double> two) {
+    LocalFlow<double>::each(one, two, [](double a, double& b) { CHECK(a == doctest::Approx(b).epsilon(1e-11)); });
+  };
+  const Vec3d none = Vec3d::Zero();
+  check(view.in_row<double>(0, 0, 8.0, at, none), other.in_row<double>(0, 0, 8.0, at, none));
+  const auto slopes = view.at_point<Dual<3>>(0, 8.0, variables(at.position)),
+             same = other.at_point<Dual<3>>(0, 8.0, variables(at.position));
+  LocalFlow<Dual<3>> off = same;
+  LocalFlow<Dual<3>>::each(slopes, off, [](const Dual<3>& a, const Dual<3>& b) {
+    CHECK(a.value == doctest::Approx(b.value).epsilon(1e-11));
+    for (std::size_t n = 0; n < 3; ++n) CHECK(a.slope[n] == doctest::Approx(b.slope[n]).epsilon(1e-11));
+  });
 }
 
 TEST_CASE("stencils allocate nothing when they are evaluated") {

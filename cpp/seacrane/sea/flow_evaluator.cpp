@@ -40,9 +40,8 @@ struct Descent {
   double z(std::size_t n) const { return top.z() + static_cast<double>(n) * down.z(); }
 };
 
-/// Phasors at the highest point, and what turns them; how many components are felt at all.
+/// Phasors of waves that are met at the highest point, and what turns them; how many are felt at all.
 std::size_t start(const SeaField& field, double t, const Descent& way, bool whole, sea::FlowScratch& s) {
-  s.amplitude = field.arrays().amplitude;
   if (whole) sea::filter_amplitudes(field, field.padded(), way.down.x(), way.down.y(), s);
   const std::size_t count = felt(s.amplitude);
   sea::set_phasors(field, count, t, way.top.x(), way.top.y(), s);
@@ -69,9 +68,12 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
                        : std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0)),
       flow_(stencil_.count) {
   sea::require(stencil_.count > 0, stencil_.name, "number of points", stencil_.count, "give at least one");
+  sea::require(stencil_.waves >= 0.0 && stencil_.waves <= 100.0, stencil_.name, "waves", stencil_.waves,
+               "give 0 to 100 times those of the sea");
   sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
                "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
-  if (field_ && !stencil_.surface && stencil_.count == 1) calm_ = field_->calm_below(stencil_.cut);
+  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0)
+    calm_ = field_->calm_below(stencil_.cut);
 }
 
 void FlowEvaluator::require_above_floor(double z) const {
@@ -80,6 +82,12 @@ void FlowEvaluator::require_above_floor(double z) const {
   throw std::domain_error(stencil_.name + ": is at z = " + shown(z) +
                           " m, below the sea floor at z = " + shown(-field_->depth()) +
                           " m; make the sea deeper, or stop the load above its floor");
+}
+
+void FlowEvaluator::meet_waves() {
+  scratch_->amplitude = field_->arrays().amplitude;
+  if (stencil_.waves == 1.0) return;
+  for (double& one : scratch_->amplitude) one *= stencil_.waves;
 }
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
@@ -102,7 +110,7 @@ void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<d
 std::size_t FlowEvaluator::feel(const FlowPoint& at) {
   const bool turns = !at.turning.isZero(0.0);
   const Mat3d rate = skew<double>(at.turning) * at.extents;
-  scratch_->amplitude = field_->arrays().amplitude;
+  meet_waves();
   std::ranges::fill(scratch_->gain, 0.0);
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
@@ -179,6 +187,7 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
   if (!field_) return flow_;
   const Descent way(first, step, flow_.size() - 1);
   require_above_floor(way.z(way.last));
+  meet_waves();
   const std::size_t count = start(*field_, t, way, whole, *scratch_);
   const bool straight = field_->stretching() == Stretching::none;
   bool first_below = true;
@@ -204,12 +213,13 @@ LocalFlow<double> FlowEvaluator::error_bound(double t, double x, double y) const
   const double points = static_cast<double>(stencil_.count), terms = static_cast<double>(field_->size());
   const double share = rounding * (8.0 * points + terms + 16.0 + 4.0 * field_->largest_angle(t, x, y));
   const LocalFlow<double> size = field_->magnitude();
-  LocalFlow<double>::each(size, out, [&](double from, double& to) { to = share * from; });
+  LocalFlow<double>::each(size, out, [&](double from, double& to) { to = stencil_.waves * share * from; });
+  const double lost = stencil_.waves * stencil_.cut;
   for (int i = 0; i < 3; ++i) {
-    out.velocity[i] += stencil_.cut * size.velocity[i];
-    out.acceleration[i] += stencil_.cut * size.acceleration[i];
+    out.velocity[i] += lost * size.velocity[i];
+    out.acceleration[i] += lost * size.acceleration[i];
   }
-  out.pressure += stencil_.cut * size.pressure;
+  out.pressure += lost * size.pressure;
   return out;
 }
 

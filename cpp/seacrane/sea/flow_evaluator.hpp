@@ -51,6 +51,8 @@ class FlowEvaluator {
 
  private:
   void require_above_floor(double z) const;
+  /// Amplitudes of the waves, before an element takes its mean of them.
+  void meet_waves();
   /// Amplitudes that an element feels, and how many components are felt at all.
   std::size_t feel(const FlowPoint& at);
   void write_row(double t, const FlowPoint& first, const Vec3d& step);

@@ -14,6 +14,7 @@ struct FlowStencil {
   double cut = 1e-5;
   /// Whether the element asks for the surface over it also where waves hardly reach; of one point alone.
   bool surface = true;
+  double waves = 1.0;  // times those of the sea: what a hull beside makes of them
 
   bool operator==(const FlowStencil&) const = default;
 };

@@ -76,8 +76,8 @@ class SeaField {
     return std::min(with_floor_, reach(-(level + 2.0 * depth_), cut));
   }
 
-  /// The highest z below which a flow may be taken as if its surface were at z = 0: what stretching changes is
-  /// at most `cut` of magnitude(), and the current changes no more. Always below all troughs.
+  /// The highest z below which a flow may be taken as if its surface were at z = 0: what stretching changes
+  /// is at most `cut` of magnitude(), and the current changes no more. Always below all troughs.
   double calm_below(double cut) const;
 
   /// Share of component i that an element feels whose extents (m) along three of its axes are the columns:
@@ -108,10 +108,11 @@ class SeaField {
     return out;
   }
 
-  /// The flow at a point, component by component: what stencils are faster than, and their slopes.
+  /// The flow at a point in `waves` times the waves, component by component: what stencils are faster than,
+  /// and their slopes.
   template <class T>
   LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents = Mat3<T>::Zero(),
-                  const T& height = T(0), const Vec3<T>& turning = Vec3<T>::Zero()) const;
+                  const T& height = T(0), const Vec3<T>& turning = Vec3<T>::Zero(), double waves = 1.0) const;
 
   /// Bounds of all numbers of a flow: sums of the magnitudes of the components at z = 0.
   LocalFlow<double> magnitude() const;
@@ -139,7 +140,7 @@ class SeaField {
 
 template <class T>
 LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents, const T& height,
-                          const Vec3<T>& turning) const {
+                          const Vec3<T>& turning, double waves) const {
   LocalFlow<T> out;
   const Arrays& f = arrays_;
   const Mat3<T> rate = skew<T>(turning) * extents;
@@ -148,8 +149,8 @@ LocalFlow<T> SeaField::at(double t, const Vec3<T>& point, const Mat3<T>& extents
     const T angle = T(f.omega[i] * t + f.phase[i]) - (T(f.kx[i]) * point.x() + T(f.ky[i]) * point.y());
     const CosSin<T> turn = cos_sin(angle);
     T filter_rate;
-    const T amplitude = T(f.amplitude[i]) * filter<T>(i, extents, rate, filter_rate);
-    gain = T(f.amplitude[i]) * filter_rate * turn.cosine;
+    const T met(waves * f.amplitude[i]), amplitude = met * filter<T>(i, extents, rate, filter_rate);
+    gain = met * filter_rate * turn.cosine;
     return CosSin<T>{amplitude * turn.cosine, amplitude * turn.sine};
   };
   for (std::size_t i = 0; i < size_; ++i) {

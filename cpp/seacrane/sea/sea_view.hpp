@@ -44,7 +44,7 @@ class SeaView {
     } else {
       if (!field_) return {};
       const Vec3<T> point = first.position + step * T(static_cast<double>(index));
-      return field_->at<T>(t, point, first.extents, first.height, first.turning);
+      return field_->at<T>(t, point, first.extents, first.height, first.turning, waves(stencil));
     }
   }
   /// The flow at the one point of a stencil, likewise.
@@ -53,31 +53,20 @@ class SeaView {
     if constexpr (std::is_same_v<T, double>) {
       return in_row<double>(stencil, 0, t, {point}, Vec3d::Zero());
     } else {
-      return at<T>(t, point);
+      if (!field_) return {};
+      using Place = Dual<3>;  // slopes in space cost less than those of all variables
+      Vec3<Place> here;
+      for (int i = 0; i < 3; ++i) here[i] = Place::variable(point[i].value, i);
+      const Mat3<Place> none = Mat3<Place>::Zero();
+      return along(field_->at<Place>(t, here, none, Place(0), Vec3<Place>::Zero(), waves(stencil)), point);
     }
   }
-  /// No crest is higher, m.
-  double crest() const { return field_ ? field_->crest() : 0.0; }
-
-  /// The flow at one point component by component, with slopes where T is a Dual: what Jacobians take.
-  template <class T>
-  LocalFlow<T> at(double t, const Vec3<T>& point, const Mat3<T>& extents) const {
-    return field_ ? field_->at<T>(t, point, extents) : LocalFlow<T>();
-  }
-  /// The same for a point without extent, whose slopes cost less.
-  template <class T>
-  LocalFlow<T> at(double t, const Vec3<T>& point) const {
-    if (!field_) return {};
-    if constexpr (std::is_same_v<T, double>) {
-      return field_->at<double>(t, point);
-    } else {
-      Vec3<Dual<3>> here;
-      for (int i = 0; i < 3; ++i) here[i] = Dual<3>::variable(point[i].value, i);
-      return along(field_->at<Dual<3>>(t, here), point);
-    }
-  }
+  /// No crest is higher at a stencil, m.
+  double crest(int stencil) const { return field_ ? waves(stencil) * field_->crest() : 0.0; }
 
  private:
+  double waves(int stencil) const { return evaluators_[idx(stencil)].stencil().waves; }
+
   std::shared_ptr<const SeaField> field_;
   mutable std::vector<FlowEvaluator> evaluators_;
 };

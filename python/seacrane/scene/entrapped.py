@@ -24,7 +24,7 @@ def add_entrapped_water(
     scene: Description, body: str, *, area: float, height: float,
     openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0),
     discharge_coefficient: float = 0.6, initial: float = 0.0, density: float = SEA_WATER,
-    name: str | None = None,
+    wave_factor: float = 1.0, name: str | None = None,
 ) -> _core.EntrappedWater:  # fmt: skip
     """Let water come into a compartment of a body, and leave it, through openings.
 
@@ -51,6 +51,8 @@ def add_entrapped_water(
         m3 of water in it at the start.
     density : float
         kg/m3, of the water.
+    wave_factor : float
+        By which the waves of the sea are multiplied at the openings, as of `add_immersed`.
     name : str, optional
         Default: "water in <body>".
 
@@ -85,6 +87,7 @@ def add_entrapped_water(
         opening_areas=[float(hole.area) for hole in holes],
         discharge_coefficient=finite_of(f"{what}: discharge_coefficient", discharge_coefficient),
         initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density_of(what, density),
+        wave_factor=not_negative_of(f"{what}: wave_factor", wave_factor),
     )  # fmt: skip
     _check_upright(what, scene.bodies[owner])
     add_load(scene, element)

@@ -12,7 +12,7 @@ from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of
+from seacrane.inputs.checked import name_of, not_negative_of
 from seacrane.inputs.shown import shown
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.parts import PARTS, BoxPart, CylinderPart, Part, PlatePart, SpherePart, TablePart
@@ -24,7 +24,7 @@ FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on 
 
 def add_immersed(
     scene: Description, body: str, *, parts: Sequence[Part | Mapping[str, Any]],
-    density: float = SEA_WATER, name: str | None = None,
+    density: float = SEA_WATER, wave_factor: float = 1.0, name: str | None = None,
 ) -> list[_core.ImmersedPart]:  # fmt: skip
     """Let water act on parts of a body: buoyancy, added mass, slam and drag of what is below the surface.
 
@@ -43,6 +43,9 @@ def add_immersed(
         `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries.
     density : float
         kg/m3, of the water.
+    wave_factor : float
+        By which the waves of the sea are multiplied at the parts: what a hull beside makes of them. Before a
+        wall it is 2, in a lee below 1. Beside a ship 1 is a `ScatteredWavesWarning`.
     name : str, optional
         Of the parts, "<name>.1", "<name>.2", ...; strips of one count on. Default: that of the body.
 
@@ -69,6 +72,7 @@ def add_immersed(
     what = f"immersed parts of {owner!r}"
     label = owner if name is None else name_of("immersed parts", name)
     density_of(what, density)
+    waves = not_negative_of(f"{what}: wave_factor", wave_factor)
     if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
         raise SceneError(f"{what}: parts is {shown(parts)}; give a list of parts of seacrane.water")
     made = [_part(what, one) for one in parts]
@@ -83,8 +87,8 @@ def add_immersed(
                 point=np.asarray(part.point, dtype=float) + axes @ piece.offset, size=piece.size,
                 row=f"{label} part {number} row {piece.row + 1}" if piece.count > 1 else "",
                 place=piece.place, count=piece.count, step=axes @ piece.step,
-                fill=piece.fill, density=density, depths=piece.depths, added_masses=piece.added_masses,
-                volumes=piece.volumes, drag=piece.drag, source=part.sources,
+                fill=piece.fill, density=density, wave_factor=waves, depths=piece.depths,
+                added_masses=piece.added_masses, volumes=piece.volumes, drag=piece.drag, source=part.sources,
             )  # fmt: skip
             out.append(add_load(scene, element))
     return out

@@ -30,7 +30,9 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
     if scene.waves is None or not np.any(scene.waves.amplitude):
         return
     ships = floating_bodies(scene)
-    parts = [one for one in scene.loads.values() if isinstance(one, _core.ImmersedPart)]
+    parts = [
+        one for one in scene.loads.values() if isinstance(one, _core.ImmersedPart) and one.wave_factor == 1.0
+    ]
     places = {one.name: placed(scene, one.body, one.point) for one in parts if one.body not in ships}
     deepest = -DEEP / peak_of(scene).wavenumber if places else 0.0
     places = {name: place for name, place in places.items() if place[2] > deepest}
@@ -43,7 +45,7 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
                 f"immersed part {nearest!r}: starts {away[nearest]:.3g} m from the side of {ship!r}, within "
                 f"its breadth of {breadth:.3g} m, in a sea. The water that it feels has neither the waves "
                 "that the hull scatters nor those that it makes: before a wall waves are twice as high, in a "
-                "lee lower. Vary hs to bound what that does, then silence this warning",
+                "lee lower. Give wave_factor what this hull makes of them",
                 ScatteredWavesWarning,
             )
 

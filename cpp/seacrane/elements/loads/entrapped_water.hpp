@@ -23,6 +23,7 @@ struct EntrappedWaterDescription {
   double discharge_coefficient = 0.6;
   double initial = 0.0;
   double density = 0.0;
+  double wave_factor = 1.0;
 
   static constexpr const char* type = "EntrappedWater";
   static constexpr const char* text =
@@ -41,7 +42,11 @@ struct EntrappedWaterDescription {
                  "C_d: share of an opening's area that the jet fills")
             .must_be({.minimum = 0.0, .maximum = 1.0, .above = true}),
         optional("initial", &D::initial, "m3", "of water in it at the start").not_negative(),
-        required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0));
+        required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
+        optional("wave_factor", &D::wave_factor, "",
+                 "times the waves of the sea: what a hull beside makes of them")
+            .not_negative()
+            .usually(0.1, 3.0));
   }
 };
 
@@ -122,7 +127,7 @@ struct EntrappedWater {
     for (std::size_t i = 0; i < d.opening_points.size(); ++i) {
       const std::string name = "opening " + std::to_string(i + 1) + " of entrapped water '" + d.name + "'";
       out.openings.push_back({context.attach(d.body, d.opening_points[i]).point, d.opening_areas[i],
-                              context.stencil({name, 1})});
+                              context.stencil({.name = name, .waves = d.wave_factor})});
     }
     out.gravity = context.gravity();
     out.per_gravity = out.gravity > 0.0 ? 1.0 / out.gravity : 0.0;
@@ -223,7 +228,7 @@ struct EntrappedWater {
   /// The sea at an opening.
   template <class T>
   LocalFlow<T> flow_at(const LoadInput<T>& in, int stencil, const Vec3<T>& place) const {
-    if (!(place.z() < T(in.sea->crest()))) return {};  // above all crests there is none
+    if (!(place.z() < T(in.sea->crest(stencil)))) return {};  // above all crests there is none
     return in.sea->template at_point<T>(stencil, in.time, place);
   }
 

@@ -25,6 +25,7 @@ struct ImmersedPartDescription {
   Vec3d size = Vec3d::Zero();
   double fill = 1.0;  // share of its volume that keeps water out
   double density = 0.0;
+  double wave_factor = 1.0;
   std::vector<double> depths;       // of its lowest point below the surface
   std::vector<Vec3d> added_masses;  // along its axes, at these depths
   std::vector<double> volumes;      // likewise, of a table
@@ -56,6 +57,10 @@ struct ImmersedPartDescription {
         optional("place", &D::place, "", "in its row, from 0"),
         optional("count", &D::count, "", "strips of its row"),
         optional("step", &D::step, "m", "from strip to strip of its row, body coordinates"),
+        optional("wave_factor", &D::wave_factor, "",
+                 "times the waves of the sea: what a hull beside makes of them")
+            .not_negative()
+            .usually(0.1, 3.0),
         optional("source", &D::source, "", "where its coefficients are from"));
   }
 
@@ -162,8 +167,9 @@ struct ImmersedPart {
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
     out.widths = widths_of(out.shape, d.size).asDiagonal();
-    out.stencil = context.stencil(
-        {"immersed part '" + (d.row.empty() ? d.name : d.row) + "'", static_cast<std::size_t>(d.count)});
+    out.stencil = context.stencil({.name = "immersed part '" + (d.row.empty() ? d.name : d.row) + "'",
+                                   .count = static_cast<std::size_t>(d.count),
+                                   .waves = d.wave_factor});
     out.states = {context.state({d.name + ".slam_loss", "J", 0.0, scale}), 1};
     return out;
   }
@@ -283,7 +289,7 @@ struct ImmersedPart {
   template <class T>
   void float_in(const LoadInput<T>& in, const Vec3<T>& center, Place<T>& at) const {
     using std::sqrt;
-    if (center.z() - at.below < T(in.sea->crest())) {
+    if (center.z() - at.below < T(in.sea->crest(stencil))) {
       const auto& k = in.bodies[body];
       FlowPlace<T> first{k.position + k.rotation * first_point.cast<T>(), at.axes * widths.cast<T>(),
                          at.turning, T(0)};

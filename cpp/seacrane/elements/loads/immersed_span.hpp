@@ -212,7 +212,7 @@ struct ImmersedSpan {
     using std::sqrt;
     const T over = sqrt(height * height + T(d.diameter * d.diameter));
     const T middle = end.point.z() + T(0.5) * height;
-    if (!(middle - T(0.5) * over < T(in.sea->crest()))) return;  // above all crests
+    if (!(middle - T(0.5) * over < T(in.sea->crest(stencil)))) return;  // above all crests
     const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
     end.velocity = end.own - flow.velocity;
     end.water = flow.acceleration;
