@@ -27,11 +27,11 @@ struct RandomSea {
   double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
   Vec3d vector(double size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
 
-  WaveComponents waves(std::size_t count, double depth, const Current& current = {}) {
+  WaveComponents waves(std::size_t count, double depth, const Current& current = {}, double factor = 1.0) {
     std::vector<double> omega, amplitude, phase, direction;
     for (std::size_t i = 0; i < count; ++i) {
       omega.push_back(number(0.3, 2.4));
-      amplitude.push_back(number(0.0, 2.0) / static_cast<double>(count));
+      amplitude.push_back(factor * number(0.0, 2.0) / static_cast<double>(count));
       phase.push_back(number(0.0, 6.28));
       direction.push_back(number(-3.1, 3.1));
     }
@@ -468,17 +468,18 @@ TEST_CASE("a view gives the flow at the point of a stencil, and its slopes") {
 }
 
 TEST_CASE("a stencil meets as many times the waves as it says, and the current once") {
-  RandomSea random{std::mt19937_64(21)};
-  WaveComponents waves = random.waves(25, 60.0, shear());
   constexpr double factor = 1.6;
-  const auto sea = std::make_shared<const SeaField>(waves);
-  for (double& one : waves.amplitude) one *= factor;
-  const auto higher = std::make_shared<const SeaField>(waves);
-  const SeaView view(sea, {{.name = "part", .cut = 1e-9, .waves = factor}}), other(higher, {{"part", 1, 1e-9}});
+  const auto times = [](double more) {
+    return std::make_shared<const SeaField>(RandomSea{std::mt19937_64(21)}.waves(25, 60.0, shear(), more));
+  };
+  const auto sea = times(1.0), higher = times(factor);
+  const SeaView view(sea, {{.name = "part", .cut = 1e-9, .waves = factor}}),
+      other(higher, {{"part", 1, 1e-9}});
   CHECK(view.crest(0) == doctest::Approx(other.crest(0)).epsilon(1e-14));
   const FlowPoint at{Vec3d(4.0, -3.0, -2.7), Mat3d::Identity() * 3.0, Vec3d(0.2, -0.1, 0.4), 2.0};
   const auto check = [](const LocalFlow<double>& one, LocalFlow<double> two) {
-    LocalFlow<double>::each(one, two, [](double a, double& b) { CHECK(a == doctest::Approx(b).epsilon(1e-11)); });
+    LocalFlow<double>::each(one, two,
+                            [](double a, double& b) { CHECK(a == doctest::Approx(b).epsilon(1e-11)); });
   };
   const Vec3d none = Vec3d::Zero();
   check(view.in_row<double>(0, 0, 8.0, at, none), other.in_row<double>(0, 0, 8.0, at, none));
@@ -522,7 +523,7 @@ TEST_CASE("without a field the water is still") {
     CHECK(flow.elevation == 0.0);
     CHECK(flow.velocity.isZero(0.0));
   }
-  const SeaView view(nullptr, {});
+  const SeaView view(nullptr, {{"part", 1}});
   CHECK(std::isinf(view.depth()));
-  CHECK(view.at<double>(1.0, Vec3d::Zero()).pressure == 0.0);
+  CHECK(view.at_point<double>(0, 1.0, Vec3d::Zero()).pressure == 0.0);
 }
