@@ -179,6 +179,30 @@ def test_momentum_closes_through_entry_exit_and_entry(formulation: str) -> None:
     assert np.max(np.abs(result["energy_balance"])) < 1e-8 * np.max(result["absolute_work"])
 
 
+@pytest.mark.parametrize("formulation", FORMS)
+def test_without_weight_momentum_is_shared_on_entry_and_taken_along_on_no_exit(formulation: str) -> None:
+    """(m + A) v on the way in; on the way out v stays, and A v stays behind in the water."""
+    mass, part = 300.0, CylinderPart(length=1.0, diameter=1.0, drag=0.0, end_drag=0.0)
+    for depth, speed, enters in ((0.0, 4.0, True), (2.5, -4.0, False)):
+        scene = Scene(name="no weight", gravity=0.0)
+        scene.add_body(
+            name="load", mass=mass, inertia=(mass, mass, mass), position=(0.0, 0.0, 0.5 - depth),
+            velocity=(0.0, 0.0, -speed),
+        )  # fmt: skip
+        (element,) = scene.add_immersed("load", parts=[part], density=RHO)
+        z, rate = heights(run(scene, 40.0 if enters else 1.0, 0.01, formulation))
+        if not enters:
+            assert rate[-1] == pytest.approx(-speed, rel=1e-10)
+            assert z[-1] > 0.5, "it is out"
+            continue
+        added = RHO * 0.25 * circle_added_mass((0.5 - z) / 0.5)
+        assert (mass + added) * rate == pytest.approx(
+            np.full(len(z), -mass * speed), rel=5e-4
+        )  # of the table
+        assert 0.5 - z[-1] > element.depths[-1], "where it has all of its added mass"
+        assert (mass + element.added_masses[-1, 2]) * rate[-1] == pytest.approx(-mass * speed, rel=1e-9)
+
+
 def test_touch_and_awash_are_events() -> None:
     scene = dropped(CylinderPart(length=1.0, diameter=1.0), mass=2000.0, depth=-0.1, speed=2.0)
     result = simulate(scene, t_end=1.5, integrator="dopri5", rtol=1e-9)
