@@ -31,6 +31,7 @@ from seacrane import (
 from seacrane.crane import Payload
 from seacrane.hydro import passivity_certificate, shipped_database
 from seacrane.hydro.memory.fit import fit_memory
+from seacrane.hydro.vessel.vessel_parameters import _smallest_damping
 from seacrane.one_thread import one_thread
 from seacrane.sea import jonswap
 
@@ -122,6 +123,7 @@ def test_a_library_that_comes_later_is_limited_too() -> None:
 def seen(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
     """Routine and threads of each call of NumPy's linear algebra with matrices that it would share out."""
     out: list[tuple[str, int]] = []
+    _smallest_damping.cache_clear()
 
     def watched(name: str) -> Callable[..., Any]:
         routine = getattr(np.linalg, name)

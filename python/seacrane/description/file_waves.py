@@ -38,11 +38,14 @@ _HULL = ("body", "position", *_TRANSFER, *_HULL_ADDED_LATER)
 
 
 def waves_to_data(waves: Waves) -> dict[str, Any]:
-    """As plain data."""
+    """As plain data; what 0.2 did not know stands there where it is said, so that digests stay."""
     out: dict[str, Any] = {"relative_bound": float(waves.relative_bound)}
     out["depth"] = None if waves.depth == math.inf else float(waves.depth)
     out["evaluation"], out["negligible"] = waves.evaluation, float(waves.negligible)
-    out["current"], out["stretching"] = _current_to_data(waves.current), waves.stretching
+    if waves.current is not None:
+        out["current"] = {key: np.asarray(getattr(waves.current, key)).tolist() for key in _CURRENT}
+    if waves.stretching != _ADDED_LATER["stretching"]:
+        out["stretching"] = waves.stretching
     out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS}
     out["hulls"] = [_hull_to_data(body, hull) for body, hull in waves.hulls.items()]
     out["provenance"] = sea_to_data(waves.provenance)
@@ -95,12 +98,6 @@ def waves_from_node(node: Node) -> Waves:
         hulls=hulls,
         **arrays,
     )
-
-
-def _current_to_data(current: Current | None) -> dict[str, Any] | None:
-    if current is None:
-        return None
-    return {key: np.asarray(getattr(current, key), dtype=float).tolist() for key in _CURRENT}
 
 
 def _current_from_node(node: Node) -> Current | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
 
 Array = NDArray[np.float64]
 
@@ -141,6 +140,8 @@ def sphere_table() -> tuple[Array, Array]:
     is wet, and ends at half; from awash on 1 - 3/8 (radius / depth of the centre)^3, one image (H. Lamb,
     Hydrodynamics, art. 138, with the sign of a free surface). Monotone between them.
     """
+    from scipy.interpolate import PchipInterpolator
+
     shallow = np.linspace(0.0, 1.0, 41) ** 2
     disc = 2.0 / np.pi * (2.0 * shallow) ** 1.5 / (1.0 + (2.0**3.5 / np.pi - 1.0) * shallow)
     deep = 2.0 + 0.25 * np.arange(33) ** 1.25

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from seacrane.water.added_mass import ROUNDING, ramp
 from seacrane.water.mesh_volume import MeshShape
@@ -77,20 +76,27 @@ class DepthTable:
     def fast(self, depths: Array) -> Array:
         """At infinite frequency: that of the section as it is wetted, a flat bottom's over its ramp."""
         piled = np.minimum(self.wetting * depths, np.maximum(depths, self.height))
-        out = np.asarray(PchipInterpolator(self.rungs, self.added)(piled))
+        out = between(self.rungs, self.added, piled)
         if self.over > 0.0:
             out[:, 2] += self.added[0, 2] * (ramp(depths, self.over) - 1.0)
         return np.maximum.accumulate(np.maximum(out, 0.0), axis=0)
 
     def slow(self, depths: Array) -> Array:
         """At zero frequency, without pile-up."""
-        return np.asarray(PchipInterpolator(self.rungs, self.low)(depths))
+        return between(self.rungs, self.low, depths)
 
     def slower(self) -> Array:
         """What a slow motion has over what a fast one has, at half its height, along the axes."""
         half = np.array([0.5 * self.height])
-        fast = PchipInterpolator(self.rungs, self.added)(half)[0]
+        fast = between(self.rungs, self.added, half)[0]
         return np.asarray(self.slow(half)[0] / np.maximum(fast, 1e-12 * fast.max()))
+
+
+def between(rungs: Array, values: Array, depths: Array) -> Array:
+    """Values (n, 3) at rungs (n,) by a monotone spline, at depths (m,): (m, 3)."""
+    from scipy.interpolate import PchipInterpolator
+
+    return np.asarray(PchipInterpolator(rungs, values)(depths))
 
 
 def at_touch(draughts: Array, values: Array, flat: float) -> Array:
