@@ -10,6 +10,7 @@ import numpy as np
 
 from seacrane import Curve, Scene, _core
 from seacrane.description.forces import add_load
+from seacrane.description.waves import Waves
 
 MASS, G = 2e4, 9.80665
 INERTIA = np.diag([3e4, 3e4, 3e4])
@@ -43,6 +44,28 @@ def swing(amplitude: float) -> Curve:
 def with_load(position: Any = (0.0, 0.0, -15.0), **body: Any) -> Scene:
     scene = Scene(name="sample")
     scene.add_body(**{"name": "load", "mass": MASS, "inertia": INERTIA, "position": position} | body)
+    return scene
+
+
+def at_the_surface() -> Scene:
+    """A load on a wire with its middle in the surface of a sea of one wave."""
+    scene = with_load((0.0, 0.0, 0.0))
+    one = np.ones(1)
+    scene.waves = Waves(omega=one, amplitude=0.3 * one, phase=0.0 * one, direction=0.0 * one, hulls={})
+    scene.add_line(name="wire", bodies=["ground", "load"], points=[(0, 0, 20), (0, 0, 1)], EA=5e7,
+                   tension_at_start=0.5 * MASS * G)  # fmt: skip
+    return scene
+
+
+def immersed(**numbers: Any) -> Scene:
+    scene = at_the_surface()
+    add_load(scene, _core.ImmersedPart(name="part", body="load", **numbers))
+    return scene
+
+
+def filled(**numbers: Any) -> Scene:
+    scene = at_the_surface()
+    add_load(scene, _core.EntrappedWater(name="water", body="load", **numbers))
     return scene
 
 
@@ -310,6 +333,33 @@ SAMPLES: Mapping[str, Sample] = {
             "diameter": 0.05, "length": 11.0, "coefficient": 1.2, "flow": (8.0, 0.0, 0.0),
         },
         scene=lambda n: between(_core.SpanDrag, n),
+    ),
+    "immersed part": Sample(
+        kind=_core.ImmersedPart,
+        numbers={
+            "point": (0.5, 0.0, -0.5), "axes": np.eye(3).tolist(), "size": (4.0, 3.0, 2.0), "fill": 0.5,
+            "density": 1025.0, "depths": (0.0, 0.5, 2.0, 4.0),
+            "added_masses": [(0, 0, 0), (1e3, 1e3, 1e4), (8e3, 9e3, 2e4), (8e3, 9e3, 4e4)],
+            "drag": (6e3, 8e3, 1.2e4), "place": 1.0, "count": 2.0, "step": (4.0, 0.0, 0.0), "wave_factor": 1.2,
+        },
+        scene=lambda n: immersed(shape="box", row="strips", **n),
+    ),
+    "immersed table": Sample(
+        kind=_core.ImmersedPart,
+        numbers={
+            "size": (4.0, 3.0, 2.0), "depths": (0.0, 0.5, 2.0, 4.0), "volumes": (0.0, 4.0, 14.0, 14.0),
+            "added_masses": [(0, 0, 0), (1e3, 1e3, 1e4), (8e3, 9e3, 2e4), (8e3, 9e3, 4e4)],
+        },
+        scene=lambda n: immersed(shape="table", density=1025.0, **n),
+    ),
+    "entrapped water": Sample(
+        kind=_core.EntrappedWater,
+        numbers={
+            "point": (0.3, 0.0, -1.0), "area": 3.0, "height": 2.0, "opening_points": [(0.3, 0.0, -1.0)],
+            "opening_areas": [0.1], "discharge_coefficient": 0.6, "initial": 1.5, "density": 1025.0,
+            "wave_factor": 1.2,
+        },
+        scene=lambda n: filled(**n),
     ),
     "immersed span": Sample(
         kind=_core.ImmersedSpan,

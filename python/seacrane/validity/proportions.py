@@ -209,6 +209,35 @@ def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
     yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
 
 
+def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
+    """Its size counts beside that of the body, its coefficients beside those of a plate of its size."""
+    body, sizes = around.scene.bodies[part.body], np.sort(part.size)
+    reach = 2.0 * math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)  # of a box with it
+    longest, face = float(sizes[2]), float(sizes[1] * sizes[2])
+    yield Proportion("size", "{:.3g} times the body's size", _over(longest, reach), 3e-3, 100.0, "m")
+    share = _over(float(np.linalg.norm(part.step)), longest)
+    yield Proportion("step", "{:.3g} times the size of a strip", share, 4e-3, 20.0, "m")
+    share = _over(part.depths[-1], longest)
+    yield Proportion("depths", "{:.3g} times the size", share, 0.02, 200.0, "m")
+    plate = part.density * face * float(sizes[1])
+    share = _over(float(part.added_masses[-1].max()), plate)
+    yield Proportion("added_masses", "{:.3g} times a plate's of this size", share, 4e-3, 50.0, "kg")
+    share = _over(float(np.max(part.drag)), 0.5 * part.density * face)
+    yield Proportion("drag", "a drag coefficient of {:.3g}", share, 5e-3, 100.0, "N s2/m2")
+    if len(part.volumes):
+        share = _over(part.volumes[-1], float(np.prod(sizes)))
+        yield Proportion("volumes", "{:.3g} of the box around it", share, 1e-3, 1.5, "m3")
+
+
+def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Proportion]:
+    mass = around.scene.bodies[water.body].mass
+    for field, unit in (("area", "m2"), ("height", "m")):
+        share = _over(water.density * water.area * water.height, mass)
+        yield Proportion(field, "{:.3g} times the body's mass of water", share, 1e-4, 50.0, unit)
+    share = _over(float(np.sum(water.opening_areas)), water.area)
+    yield Proportion("opening_areas", "{:.3g} of the section open", share, 1e-4, 12.0, "m2")
+
+
 def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:
     mass = around.mass(swing.second)
     share = _over(swing.mass, mass)
@@ -283,6 +312,8 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.FlowForce: ("flow force", _flow),
     _core.SpanDrag: ("span drag", _span),
     _core.ImmersedSpan: ("immersed span", _wet_span),
+    _core.ImmersedPart: ("immersed part", _part),
+    _core.EntrappedWater: ("entrapped water", _compartment),
     _core.PendulumDamping: ("pendulum damping", _pendulum),
     _core.Spring: ("spring", _spring),
     _core.Actuator: ("actuator", _actuator),

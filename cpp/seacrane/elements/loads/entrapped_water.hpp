@@ -40,7 +40,8 @@ struct EntrappedWaterDescription {
         required("opening_areas", &D::opening_areas, "m2", "of the openings").positive(),
         optional("discharge_coefficient", &D::discharge_coefficient, "",
                  "C_d: share of an opening's area that the jet fills")
-            .must_be({.minimum = 0.0, .maximum = 1.0, .above = true}),
+            .must_be({.minimum = 0.0, .maximum = 1.0, .above = true})
+            .usually(0.02, 1.0),
         optional("initial", &D::initial, "m3", "of water in it at the start").not_negative(),
         required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
         optional("wave_factor", &D::wave_factor, "",

@@ -45,7 +45,9 @@ struct ImmersedPartDescription {
         optional("point", &D::point, "m", "its centre, body coordinates"),
         optional("axes", &D::axes, "", "columns: its axes in those of the body"),
         required("size", &D::size, "m", "along its axes; of a cylinder, its length and twice its diameter"),
-        optional("fill", &D::fill, "", "share of its volume that keeps water out").within(0.0, 1.0),
+        optional("fill", &D::fill, "", "share of its volume that keeps water out")
+            .within(0.0, 1.0)
+            .usually(2e-3, 1.0),
         required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
         required("depths", &D::depths, "m", "of its lowest point below the surface, from 0").not_negative(),
         required("added_masses", &D::added_masses, "kg", "along its axes, at the depths").not_negative(),
