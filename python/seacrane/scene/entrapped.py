@@ -14,7 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
-from seacrane.scene.immersed import LEAST_DENSITY, SEA_WATER
+from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.openings import Opening
 
 LARGEST_LEAN = np.radians(30.0)  # as in the engine, which has the event "<name>.leans"
@@ -76,8 +76,7 @@ def add_entrapped_water(
     what = f"entrapped water {label!r}"
     if owner not in scene.bodies:
         raise SceneError(f"{what}: there is no body {owner!r}; add it first")
-    if positive_of(f"{what}: density", density, "kg/m3") < LEAST_DENSITY:
-        raise SceneError(f"{what}: density is {density:g}, which looks like t/m3; give kg/m3")
+    density_of(what, density)
     holes = _openings(what, openings)
     element = _core.EntrappedWater(
         name=label, body=owner, point=shaped_of(f"{what}: point", point, (3,)),
