@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import linear_model
-from seacrane.analysis.response_statistics import quadrature_frequencies
+from seacrane.analysis.response_quadrature import quadrature_frequencies
 from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError

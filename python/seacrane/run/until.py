@@ -158,7 +158,6 @@ class Until:
         )
 
     @staticmethod
-    @refusing
     def depth(part: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
         """The depth of a lowest point below still water, m: of a body with parts in water, or of one part.
 
