@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from seacrane import (
     Scene,
@@ -27,7 +29,7 @@ from seacrane import (
 from seacrane.analysis import drag_in_sea, response_summed
 from seacrane.analysis.drag_in_sea import mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.sea import jonswap
+from seacrane.sea import Current, jonswap
 from seacrane.water import BoxPart, CylinderPart, SpherePart
 from seacrane.water.parts import Part
 
@@ -45,7 +47,7 @@ def hung(depth: float, *parts: Part, sea: dict[str, Any] | None = None) -> Scene
     scene.add_body("load", mass=MASS, size=SIZE, position=(0.0, 0.0, middle))
     scene.add_line(
         "wire", first="ground", second="load", first_point=(0.0, 0.0, HOOK), second_point=(0.0, 0.0, 1.0),
-        EA=EA, tension_at_start=DRY - LIFT,
+        EA=EA, tension_at_start=DRY - LIFT, damping_ratio=0.0,
     )  # fmt: skip
     if sea is not None:
         scene.add_sea(vessel=None, **sea)
@@ -136,9 +138,9 @@ TILTED = TILTED * np.sign(np.linalg.det(TILTED))
 )
 def test_waves_on_parts_are_those_of_the_engine(part: Part, depth: float) -> None:
     """Accelerations at rest in small waves, by the linear model and by the engine itself."""
-    sea = {"hs": 1e-3, "tp": 5.0, "direction_deg": 30.0, "seed": 3, "depth": depth, "minimum_energy": 0.0}
-    del sea["minimum_energy"]
-    scene = hung(1.5, part, sea=sea)
+    scene = hung(1.5, part, sea={"hs": 1e-3, "tp": 5.0, "direction_deg": 30.0, "seed": 3})
+    assert scene.waves is not None
+    scene.waves = replace(scene.waves, depth=depth)
     linear = linear_model(scene)
     parts = PartsInWaves(linear)
     waves = scene.waves
@@ -157,3 +159,180 @@ def test_waves_on_parts_are_those_of_the_engine(part: Part, depth: float) -> Non
         found = linear.basis.T @ moved[model.twist_index(0) : model.twist_index(0) + 6]
         expected = (np.exp(1j * time * plane.omega) @ rates).real[dof : 2 * dof]
         assert found == pytest.approx(expected, abs=2e-3 * np.max(np.abs(expected)))
+
+
+@pytest.mark.parametrize(("size", "factor"), [(1, np.sqrt(8.0 / np.pi)), (2, 1.5 * np.sqrt(np.pi / 2.0)),
+                                              (3, 4.0 / 3.0 * np.sqrt(8.0 / np.pi))])  # fmt: skip
+def test_the_mean_slope_of_drag_in_all_directions_alike(size: int, factor: float) -> None:
+    """sqrt(8 / pi) sigma of one axis; of a common speed by the mean of a chi distribution."""
+    shape = {1: "box", 2: "cylinder", 3: "sphere"}[size]
+    found = mean_slope(np.array([3.0, 3.0, 3.0]), 0.49 * np.eye(3), shape=shape)
+    assert np.diag(found)[-1] == pytest.approx(3.0 * 0.7 * factor, rel=1e-6)
+    assert found == pytest.approx(np.diag(np.diag(found)), abs=1e-9)
+
+
+def test_the_mean_slope_of_drag_errs_least_of_all_matrices() -> None:
+    """By regression on a sample of a velocity that has a direction."""
+    rng = np.random.default_rng(5)
+    root = rng.normal(size=(3, 3))
+    v = rng.normal(size=(400_000, 3)) @ root.T
+    force = np.linalg.norm(v, axis=1, keepdims=True) * v
+    best = np.linalg.lstsq(v, force, rcond=None)[0].T
+    found = mean_slope(np.ones(3), root @ root.T, shape="sphere")
+    assert found == pytest.approx(best, abs=0.02 * np.max(best))
+
+
+DIRECTION = 0.5  # rad
+
+
+def heave_by_hand(scene: Scene, spectrum: _core.Spectrum, omega: Array) -> tuple[float, float]:
+    """Damping (N s/m) and standard deviation (m) of the heave of a box on a wire in deep water, by itself."""
+    line, element = scene.loads["wire"], scene.loads["load.1"]
+    stiffness, damping = EA / float(line.length.evaluate([0.0])[0, 0]), 0.0
+    k, z = omega**2 / G, float(scene.bodies["load"].position[2])
+    mean = np.sinh(0.5 * k * SIZE[2]) / (0.5 * k * SIZE[2])
+    for share in 0.5 * k * SIZE[0] * np.cos(DIRECTION), 0.5 * k * SIZE[1] * np.sin(DIRECTION):
+        mean *= np.where(share < np.pi, np.sin(share) / share, 0.0)
+    water = 1j * omega * mean * np.exp(k * z)  # up, per metre of amplitude
+    mass = MASS + added(scene)[2]
+    steps = np.diff(omega)
+    density = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)) * spectrum.density(omega)
+    for _ in range(500):
+        push = ((RHO * FILL * 24.0 + added(scene)[2]) * 1j * omega + damping) * water
+        heave = push / (stiffness - omega**2 * mass + 1j * omega * damping)
+        over = 1j * omega * heave - water
+        sigma = np.sqrt(np.sum(density * np.abs(over) ** 2))
+        damping = 0.5 * damping + 0.5 * np.sqrt(8.0 / np.pi) * sigma * float(element.drag[2])
+    return float(damping), float(np.sqrt(np.sum(density * np.abs(heave) ** 2)))
+
+
+def test_drag_of_a_box_becomes_the_damping_of_its_sea() -> None:
+    scene = hung(4.0)
+    spectrum = jonswap(hs=3.0, tp=8.0)
+    linear = drag_in_sea(linear_model(scene), spectrum=spectrum, direction=DIRECTION)
+    omega = np.linspace(*spectrum.default_range, 4000)
+    damping, heave = heave_by_hand(scene, spectrum, omega)
+    assert linear.drag_damping["load.1"][2, 2] == pytest.approx(damping, rel=1e-3)
+    told = response_statistics(scene, spectrum=spectrum, direction=DIRECTION, body="load")
+    assert told.std[2] == pytest.approx(heave, rel=1e-3)
+
+
+def test_a_run_in_the_sea_heaves_as_the_linear_model_says() -> None:
+    """A neutral sphere on a soft spring, whose resonance the waves meet: without drag it would heave far more."""
+    scene = Scene(name="float", gravity=G)
+    volume = np.pi / 6.0 * 27.0
+    scene.add_body("load", mass=RHO * volume, size=(2.0, 2.0, 2.0), position=(0.0, 0.0, -4.0))
+    stiffness = 1.5 * RHO * volume * (2.0 * np.pi / 8.0) ** 2
+    scene.add_spring(
+        "spring", first="ground", second="load", first_point=(0.0, 0.0, -104.0), stiffness=stiffness,
+        natural_length=100.0,
+    )  # fmt: skip
+    scene.add_sea(vessel=None, hs=1.0, tp=8.0, direction_deg=0.0, seed=4, stretching="none")
+    scene.add_immersed("load", parts=[SpherePart(diameter=3.0, drag=2.0)], density=RHO)
+    spectrum = jonswap(hs=1.0, tp=8.0)
+    told = response_statistics(scene, spectrum=spectrum, direction=0.0, body="load")
+    free = response_statistics(linear_model(scene), spectrum=spectrum, direction=0.0, body="load")
+    result = simulate(scene, t_end=1500.0, dt_out=0.5, channels=["position"], rtol=1e-4)
+    found = result.select("position", body="load", axis="z")[200:].std()
+    assert found == pytest.approx(told.std[2], rel=0.08)
+    assert free.std[2] > 1.5 * found
+
+
+def test_the_response_to_a_realised_sea_is_that_of_a_run_in_small_waves() -> None:
+    scene = hung(2.0, sea={"hs": 0.01, "tp": 6.0, "direction_deg": 20.0, "seed": 2, "stretching": "none"})
+    linear = linear_model(scene)
+    summed = response_summed(linear, body="load")
+    start = linear.full_state(summed.state_at(0.0))
+    result = simulate(scene, t_end=20.0, dt_out=0.5, start=start, channels=["position"])
+    rest = np.array(linear.state.values)[:3]
+    expected = rest + summed.at(result.time)[:, :3]
+    moved = float(np.abs(expected - rest).max())
+    assert result.select("position", body="load") == pytest.approx(expected, abs=0.03 * moved)
+
+
+def test_a_transfer_function_without_a_ship_is_of_the_parts_alone() -> None:
+    scene = hung(6.0)
+    rao = motion_rao(scene, omega=[0.8], direction=0.0, body="load")
+    k, z = 0.64 / G, -7.0
+    mean = np.sin(2.0 * k) / (2.0 * k) * np.sinh(k) / k
+    water = -0.64 * mean * np.exp(k * z)  # acceleration upwards, per metre of amplitude
+    stiffness = EA / float(scene.loads["wire"].length.evaluate([0.0])[0, 0])
+    mass = RHO * FILL * 24.0 + added(scene)[2]
+    expected = mass * water / (stiffness - 0.64 * (MASS + added(scene)[2]))
+    assert rao[0, 2] == pytest.approx(expected, rel=1e-9)
+
+
+def test_waves_on_what_crosses_the_surface_are_refused_by_name() -> None:
+    with pytest.raises(SceneError, match=r"immersed part 'load.1': crosses the surface at rest, 1.* m deep of 2 m"):
+        motion_rao(hung(-1.0), omega=[0.8], direction=0.0, body="load")
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.UnstableRestWarning")  # it turns broadside
+def test_a_current_and_compartments_are_refused_by_name() -> None:
+    scene = hung(4.0)
+    scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=0.5, direction_deg=0.0))
+    with pytest.raises(SceneError, match="'load.1': is in a current"):
+        motion_rao(scene, omega=[0.8], direction=0.0, body="load")
+    scene = hung(4.0)
+    scene.add_entrapped_water(
+        "load", area=1.0, height=1.0, openings=[{"point": (0.0, 0.0, 0.0), "area": 0.1}], initial=1.0
+    )
+    with pytest.raises(SceneError, match="entrapped water 'water in load': flows by the root of a head"):
+        motion_rao(scene, omega=[0.8], direction=0.0, body="load")
+
+
+# --- summaries, margins ---------------------------------------------------------------------------------
+
+
+def test_the_static_load_of_what_hangs_in_water_is_that_of_the_scene_at_rest() -> None:
+    result = simulate(hung(30.0), t_end=1.0, dt_out=0.5, start="rest", channels=["line_tension", "slack_margin"])
+    row = summary(result)["hoist tension wire"]
+    assert row.static == pytest.approx(DRY - LIFT, rel=1e-6)
+    assert row.factor == pytest.approx(1.0, abs=1e-5)
+    assert result["slack_margin"] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_in_air_the_margin_is_over_the_weight_under_water() -> None:
+    result = simulate(hung(-6.0), t_end=0.1, dt_out=0.1, start="rest", channels=["slack_margin"])
+    assert result["slack_margin"][0] == pytest.approx(DRY / (DRY - LIFT), rel=1e-6)
+
+
+def test_what_floats_has_no_margin() -> None:
+    scene = hung(30.0, BoxPart(size=(6.0, 4.0, 2.0)))
+    with pytest.raises(SceneError, match="channel 'slack_margin' is unknown to this scene"):
+        simulate(scene, t_end=0.1, channels=["slack_margin"])
+
+
+# --- stages ---------------------------------------------------------------------------------------------
+
+
+def lowered(until: Any, **more: Any) -> Any:
+    scene = hung(-4.0, BoxPart(size=SIZE, fill=FILL, point=(0.0, 0.0, 0.5)),
+                 CylinderPart(length=2.0, diameter=1.0, point=(0.0, 0.0, -1.5), axes=TILTED, strips=1))  # fmt: skip
+    scene.add_winch("wire", lag=0.1)
+    stages = [
+        Stage(name="lower", until=until, maximum_duration=60.0, commands={"wire.rate": 0.5}),
+        Stage(name="stop", duration=1.0, commands={"wire.rate": 0.0}),
+    ]
+    return simulate_stages(scene, stages, dt_out=0.1, start="rest", **more)
+
+
+@pytest.mark.parametrize("name", ["load", "load.1"])
+def test_a_stage_ends_at_the_depth_of_a_lowest_point(name: str) -> None:
+    result = lowered(Until.depth(name, minimum=3.0), channels=["position", "quaternion", "immersed_depth"])
+    found = result.select("immersed_depth", immersed=name)
+    points = np.array(list(np.ndindex(2, 2, 2))) * SIZE - 0.5 * np.array(SIZE) + [0.0, 0.0, 0.5]
+    if name == "load":  # both rims of the cylinder too
+        angle = np.linspace(0.0, 2.0 * np.pi, 2001)
+        rims = [[end, 0.5 * np.cos(one), 0.5 * np.sin(one)] for end in (-1.0, 1.0) for one in angle]
+        points = np.concatenate([points, np.array(rims) @ TILTED.T + [0.0, 0.0, -1.5]])
+    turns = Rotation.from_quat(np.asarray(result.select("quaternion", body="load")), scalar_first=True)
+    lowest = [np.min(turn.apply(points)[:, 2]) for turn in turns]
+    z = result.select("position", body="load", axis="z")
+    assert found == pytest.approx(-(z + lowest), abs=1e-5)
+    assert found[np.flatnonzero(result.stage("stop"))[0]] == pytest.approx(3.0, abs=1e-6)
+
+
+def test_a_depth_of_nothing_wet_is_refused_by_name() -> None:
+    with pytest.raises(SceneError, match=r"immersed is 'hook'; this stage has load, load\.1, load\.2"):
+        lowered(Until.depth("hook", minimum=3.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from math import gamma
 from typing import TYPE_CHECKING
 
@@ -86,7 +87,10 @@ def drag_in_sea(
     rough = np.linspace(first, last, ROUGH)
     quiet = _Sea(still, rough, base, spectrum, angles, shares)
     moving = still.damped(quiet.slopes(quiet.flows))  # as if nothing moved but the water
-    sea = _Sea(moving, quadrature_frequencies(moving.linear, first, last), base, spectrum, angles, shares)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of modes that drag does not damp: whoever sums a response tells them
+        omega = quadrature_frequencies(moving.linear, first, last)
+    sea = _Sea(moving, omega, base, spectrum, angles, shares)
     for _ in range(MOST_STEPS):
         known = [moving.linear.drag_damping[part.element.name] for part in moving.parts]
         found = sea.slopes(sea.over(moving))
