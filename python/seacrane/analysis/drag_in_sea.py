@@ -88,7 +88,9 @@ def drag_in_sea(
     quiet = _Sea(still, rough, base, spectrum, angles, shares)
     moving = still.damped(quiet.slopes(quiet.flows))  # as if nothing moved but the water
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of modes that drag does not damp: whoever sums a response tells them
+        warnings.simplefilter(
+            "ignore"
+        )  # of modes that drag does not damp: whoever sums a response tells them
         omega = quadrature_frequencies(moving.linear, first, last)
     sea = _Sea(moving, omega, base, spectrum, angles, shares)
     for _ in range(MOST_STEPS):
