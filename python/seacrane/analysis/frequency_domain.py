@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.analysis.parts_in_waves import PartsInWaves, PlaneWaves
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
@@ -212,20 +212,9 @@ def response_summed(
         x += linear.excited(vessel).response(omega=omega, force=force)
     parts = PartsInWaves(linear)
     if parts:
-        x += linear.response_to_rates(omega, _on_parts(parts, sea))
+        x += linear.response_to_rates(omega, parts.rates(omega, parts.flow_of(sea)))
     amplitude = x @ linear.output(body=body, point=point).T
     return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
-
-
-def _on_parts(parts: PartsInWaves, sea: Waves) -> Complex:
-    """Rates of x by the components of a sea on parts under water."""
-    components = sea.components()
-    amplitude = np.array(components.amplitude) * np.exp(1j * np.array(components.phase))
-    waves = PlaneWaves(
-        omega=np.array(components.omega), direction=np.array(components.direction), origin=np.zeros(2),
-        depth=sea.depth, gravity=parts.linear.scene.gravity,
-    )  # fmt: skip
-    return np.asarray(amplitude[:, None] * parts.rates(waves.omega, parts.flow(waves)))
 
 
 def component_forces(sea: Waves) -> tuple[Array, dict[str, Complex]]:

@@ -16,6 +16,7 @@ from seacrane.analysis.reduced_coordinates import Terms
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.loads import changed
+from seacrane.description.waves import Waves
 from seacrane.description.wet_parts import displaced_volume, half_height, immersed_parts, waters_in
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import heading_of, rotation_matrix
@@ -162,12 +163,25 @@ class PartsInWaves:
         none: Complex = np.zeros((waves.omega.size, 0), dtype=complex)
         return np.concatenate([none, *(part.flow(waves) for part in self.parts)], axis=1)
 
+    def flow_of(self, sea: Waves) -> Complex:
+        """Velocities of the water at all parts by the components of a sea, (k, 3 p), m/s."""
+        components = sea.components()
+        waves = PlaneWaves(
+            omega=np.array(components.omega), direction=np.array(components.direction), origin=np.zeros(2),
+            depth=sea.depth, gravity=self.linear.scene.gravity,
+        )  # fmt: skip
+        wave = np.array(components.amplitude) * np.exp(1j * np.array(components.phase))
+        return np.asarray(wave[:, None] * self.flow(waves))
+
+    def forces(self, omega: Array, flow: Complex) -> Complex:
+        """On the parts in a flow, (k, 3 p), N: by its inertia, and by drag that is linear."""
+        return np.asarray(1j * omega[:, None] * (flow @ self._inertia.T) + flow @ self._damping().T)
+
     def rates(self, omega: Array, flow: Complex) -> Complex:
-        """Rates of x of the linear model in a flow (k, 3 p): by its inertia, and by drag that is linear."""
+        """Rates of x of the linear model in a flow (k, 3 p)."""
         dof = self.linear.degrees_of_freedom
-        force = 1j * omega[:, None] * (flow @ self._inertia.T) + flow @ self._damping().T
         out: Complex = np.zeros((omega.size, len(self.linear.a)), dtype=complex)
-        out[:, dof : 2 * dof] = force @ self._load.T
+        out[:, dof : 2 * dof] = self.forces(omega, flow) @ self._load.T
         return out
 
     def damped(self, damping: Sequence[Array]) -> PartsInWaves:
