@@ -30,7 +30,13 @@ AREA, HEIGHT, C_D = 3.0, 4.0, 0.62
 
 def filled(scene: Scene, *openings: tuple[Any, float], **more: Any) -> _core.EntrappedWater:
     """A compartment of a body "load"."""
-    given = {"area": AREA, "height": HEIGHT, "discharge": C_D, "density": RHO, "name": "water"} | more
+    given = {
+        "area": AREA,
+        "height": HEIGHT,
+        "discharge_coefficient": C_D,
+        "density": RHO,
+        "name": "water",
+    } | more
     holes = [Opening(point=point, area=area) for point, area in openings]
     return scene.add_entrapped_water("load", openings=holes, **given)
 
@@ -57,7 +63,7 @@ def guided(axis: tuple[float, float, float], z: float, mass: float = 4e3, **more
     return scene
 
 
-def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "recursive", **more: Any) -> Any:
+def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "auto", **more: Any) -> Any:
     return simulate(
         scene, t_end=t_end, dt_out=dt_out, channels=CHANNELS, formulation=formulation, **EXACT | more
     )
@@ -151,9 +157,8 @@ def test_an_opening_above_the_water_inside_fills_it_under_constant_head() -> Non
     assert loss == pytest.approx(fallen, rel=1e-6), "its fall to the level inside is lost too"
 
 
-@pytest.mark.parametrize("formulation", FORMS)
-def test_an_opening_above_both_lets_nothing_through(formulation: str) -> None:
-    result = run(standing(-1.0, ((0.0, 0.0, 1.5), 0.2), initial=2.5), 20.0, 1.0, formulation)
+def test_an_opening_above_both_lets_nothing_through() -> None:
+    result = run(standing(-1.0, ((0.0, 0.0, 1.5), 0.2), initial=2.5), 20.0, 1.0)
     assert np.all(states(result)[0] == 2.5)
 
 
@@ -185,7 +190,9 @@ def test_a_compartment_that_comes_out_in_troughs_keeps_its_bounds_and_its_steps(
     volume, loss = states(result)
     assert volume.max() <= AREA * HEIGHT * (1.0 + 1e-7)
     assert volume.min() >= -1e-7 * AREA * HEIGHT
-    assert len(events(result)["full"]) == pytest.approx(10, abs=1)
+    full = events(result)["full"]
+    assert len(full) == 8
+    assert np.diff(full)[1:] == pytest.approx(8.0, abs=1e-4), "once in each wave, after it has filled"
     assert np.all(np.diff(loss) >= -1e-6)
     assert result.stats["steps"] < 4000
     assert np.max(np.abs(result["energy_balance"])) < 1e-5 * np.max(result["absolute_work"])
@@ -539,7 +546,7 @@ HOLE = {"point": (0.0, 0.0, 0.0), "area": 0.1}
         ({"height": 0.0}, "height is 0"),
         ({"density": 1.025}, "t/m3"),
         ({"initial": -1.0}, "initial"),
-        ({"discharge": "0.6"}, "discharge"),
+        ({"discharge_coefficient": "0.6"}, "discharge_coefficient"),
         ({"point": (0.0, 1.0)}, "point has shape"),
         ({"openings": []}, "openings"),
         ({"openings": [3.0]}, "seacrane.water.Opening"),
@@ -561,7 +568,7 @@ def test_bad_calls_are_refused(given: dict[str, Any], message: str) -> None:
         ({"openings": [HOLE | {"area": 300.0}]}, "more than the section of 2 m2"),
         ({"openings": [HOLE] * 13}, "1 to 12"),
         ({"initial": 6.5}, "it holds 6 m3"),
-        ({"discharge": 1.1}, "discharge"),
+        ({"discharge_coefficient": 1.1}, "discharge_coefficient"),
     ],
 )  # fmt: skip
 def test_what_does_not_fit_is_refused_when_the_scene_is_compiled(given: dict[str, Any], message: str) -> None:

@@ -120,8 +120,8 @@ def test_a_sphere_has_the_added_mass_of_hulme_in_both_limits() -> None:
 
 
 def test_a_long_cylinder_has_the_added_mass_of_greenhow_and_li_but_at_its_ends() -> None:
-    """Half immersed, per length from the difference of two lengths: pi/2 of density R^2. The shorter one has
-    about a tenth less by its ends."""
+    """Half immersed, per length from the difference of two lengths: pi/2 of density R^2. The ends take
+    what DNV-RP-C205 has of a cylinder in an unbounded fluid (unverified), which is twice this one."""
     radius, lengths = 1.0, (6.0, 10.0)
     parts = [
         from_mesh(mesh_shapes.prism(mesh_shapes.circle(radius), length), panels=300, draughts=(1.0, 2.1))
@@ -130,7 +130,8 @@ def test_a_long_cylinder_has_the_added_mass_of_greenhow_and_li_but_at_its_ends()
     depth = 0.5 * parts[0].height  # of a polygon
     found = [np.interp(depth, part.depths, part.added_masses[:, 2]) / RHO for part in parts]
     assert (found[1] - found[0]) / (lengths[1] - lengths[0]) == pytest.approx(np.pi / 2.0, rel=0.04)
-    assert 0.82 < found[0] / (lengths[0] * np.pi / 2.0) < 0.97
+    ratios = [value / (length * np.pi / 2.0) for value, length in zip(found, lengths, strict=True)]
+    assert ratios == pytest.approx([0.81, 0.90], abs=0.02)  # its table, read at 3 and 5 diameters
 
 
 def double_wedge(deadrise: float) -> float:
@@ -185,16 +186,17 @@ def test_a_flat_bottom_gains_half_of_a_plates_added_mass_over_the_depth_of_its_s
     side = 2.0
     mesh = mesh_shapes.box((side, side, 1.0))
     first = 0.5 * 0.579 * np.pi / 4.0 * side**3  # m3, DNV-RP-N103 as of `BoxPart`
+    early, found = 0.02, {}  # m
     for slam in (None, 8.0):
         part = from_mesh(mesh, slam=slam, panels=200, draughts=(0.04, 0.1, 0.5, 1.0))
         up, coefficient = part.added_masses[:, 2] / RHO, slam or 5.0
         over = 2.0 * first / (coefficient * side**2)
-        early = np.flatnonzero(part.depths < 0.5 * over)
-        slopes = np.diff(up[early]) / np.diff(part.depths[early])
         assert up[0] == 0.0
-        assert slopes[0] == pytest.approx(0.5 * coefficient * side**2, rel=0.15)  # the sides add a little
-        assert np.interp(1.3 * over, part.depths, up) == pytest.approx(first, rel=0.25)
-        assert np.interp(1.3 * over, part.depths, up) > first
+        found[coefficient] = float(np.interp(early, part.depths, up))
+        sides = found[coefficient] - 0.5 * coefficient * side**2 * early
+        assert 0.0 < sides < 0.1 * first
+        assert first < np.interp(1.3 * over, part.depths, up) < 1.3 * first
+    assert found[8.0] - found[5.0] == pytest.approx(0.5 * (8.0 - 5.0) * side**2 * early, rel=0.01)
 
 
 def test_perforation_and_density_are_factors() -> None:
@@ -341,10 +343,10 @@ def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
 
 
 def test_panels_that_do_not_suffice_are_told() -> None:
-    thin = mesh_shapes.box((2.0, 2.0, 0.01))
+    thin = mesh_shapes.box((2.0, 2.0, 0.1))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        part = from_mesh(thin, panels=60, draughts=(0.01, 0.5))
+        part = from_mesh(thin, panels=50, draughts=(0.1, 0.5))
     assert part.panel_error > 0.05
     told = [str(one.message) for one in caught if one.category is MeshConvergenceWarning]
     assert f"changes by {part.panel_error:.1%} with half the panels" in told[0]

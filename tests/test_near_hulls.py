@@ -17,7 +17,9 @@ from seacrane.warnings import ScatteredWavesWarning
 from seacrane.water import SpherePart
 
 
-def lowered(*, y: float, x: float = 0.0, z: float = -3.0, hs: float | None = 2.0, heading: float = 0.0) -> Scene:
+def lowered(
+    *, y: float, x: float = 0.0, z: float = -3.0, hs: float | None = 2.0, heading: float = 0.0
+) -> Scene:
     """A load in the water beside the shipped hull, y and x in her axes."""
     scene = Scene(name="lowered")
     scene.add_vessel(shipped_database(), position=(40.0, -20.0, 0.0), heading_deg=heading)

@@ -29,8 +29,8 @@ def wet_parts(*, repeats: int) -> Section:
         title="Water on a load",
         text=(
             "Shipped hull and held crane, alone or in a sea of 200 components (Hs 1.5 m, Tp 7 s); a box of "
-            f"{SIZE[0]:g} x {SIZE[1]:g} x {SIZE[2]:g} m on the wire of a winch, its middle at the surface, cut "
-            f"into strips in a row. Best of {repeats}."
+            f"{SIZE[0]:g} x {SIZE[1]:g} x {SIZE[2]:g} m on the wire of a winch, its middle at the surface, "
+            f"cut into strips in a row. Best of {repeats}."
         ),
         head=["formulation", "strips", "dry, no sea [ns]", "dry, in waves [ns]", "wet, no sea [ns]",
               "wet, in waves [ns]", "over dry, no sea", "over dry, in waves"],

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -2267,6 +2267,118 @@ class HydraulicCylinder:
         """
         N s/m, of the seals
         """
+class ImmersedPart:
+    """
+    Water on a part of a body: buoyancy, added mass over depth, slam, drag; see Scene.add_immersed. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
+    STIFF: typing.ClassVar[bool] = False
+    @staticmethod
+    def example() -> ImmersedPart:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> ImmersedPart:
+        ...
+    def __deepcopy__(self, memo: dict) -> ImmersedPart:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, body: str, shape: str = ..., point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike, fill: typing.SupportsFloat = ..., density: typing.SupportsFloat, depths: numpy.typing.ArrayLike, added_masses: numpy.typing.ArrayLike, volumes: numpy.typing.ArrayLike = ..., drag: numpy.typing.ArrayLike = ..., row: str = ..., place: typing.SupportsFloat = ..., count: typing.SupportsFloat = ..., step: numpy.typing.ArrayLike = ..., source: str = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def added_masses(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        kg, along its axes, at the depths
+        """
+    @property
+    def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        columns: its axes in those of the body
+        """
+    @property
+    def body(self) -> str:
+        """
+        body
+        """
+    @property
+    def count(self) -> float:
+        """
+        strips of its row
+        """
+    @property
+    def density(self) -> float:
+        """
+        kg/m3, of the water
+        """
+    @property
+    def depths(self) -> list[float]:
+        """
+        m, of its lowest point below the surface, from 0
+        """
+    @property
+    def drag(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        N s2/m2, density / 2 times C_D times area, along its axes
+        """
+    @property
+    def fill(self) -> float:
+        """
+        share of its volume that keeps water out
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def place(self) -> float:
+        """
+        in its row, from 0
+        """
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, its centre, body coordinates
+        """
+    @property
+    def row(self) -> str:
+        """
+        name of a row of strips at equal steps, for which the sea is summed at once
+        """
+    @property
+    def shape(self) -> str:
+        """
+        'box', 'cylinder', 'sphere' or 'table'
+        """
+    @property
+    def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, along its axes; of a cylinder, its length and twice its diameter
+        """
+    @property
+    def source(self) -> str:
+        """
+        where its coefficients are from
+        """
+    @property
+    def step(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, from strip to strip of its row, body coordinates
+        """
+    @property
+    def volumes(self) -> list[float]:
+        """
+        m3, of a table: what is wet, at the depths
+        """
 class EntrappedWater:
     """
     Water in a compartment of a body, which comes and goes through openings; see Scene.add_entrapped_water. Immutable.
@@ -2290,7 +2402,7 @@ class EntrappedWater:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, discharge: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat) -> None:
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2312,7 +2424,7 @@ class EntrappedWater:
         kg/m3, of the water
         """
     @property
-    def discharge(self) -> float:
+    def discharge_coefficient(self) -> float:
         """
         C_d: share of an opening's area that the jet fills
         """
@@ -3129,6 +3241,11 @@ class Simulation:
         copy
         """
     @property
+    def steps(self) -> int:
+        """
+        Steps so far; `statistics` tells more, and takes longer.
+        """
+    @property
     def time(self) -> float:
         ...
 class LaneEvaluator:
@@ -3222,6 +3339,10 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
 def kept_apart(runs: collections.abc.Sequence[Simulation]) -> str:
     """
     Why runs cannot be stepped side by side; empty: they can.
+    """
+def lanes_differ(one: Model, other: Model) -> str:
+    """
+    What two models differ in of what runs side by side share; empty: nothing.
     """
 def lanes_of(module: types.ModuleType) -> int:
     """
@@ -3429,4 +3550,4 @@ def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
     """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'entrapped water': EntrappedWater, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'limit': Limit}

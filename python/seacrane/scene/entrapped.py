@@ -22,8 +22,9 @@ LARGEST_LEAN = np.radians(30.0)  # as in the engine, which has the event "<name>
 
 def add_entrapped_water(
     scene: Description, body: str, *, area: float, height: float,
-    openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0), discharge: float = 0.6,
-    initial: float = 0.0, density: float = SEA_WATER, name: str | None = None,
+    openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0),
+    discharge_coefficient: float = 0.6, initial: float = 0.0, density: float = SEA_WATER,
+    name: str | None = None,
 ) -> _core.EntrappedWater:  # fmt: skip
     """Let water come into a compartment of a body, and leave it, through openings.
 
@@ -44,7 +45,7 @@ def add_entrapped_water(
         `seacrane.water.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
     point : array_like, shape (3,)
         Centre of its bottom, m, body coordinates.
-    discharge : float
+    discharge_coefficient : float
         C_d of the openings, above 0 to 1: 0.6 of a sharp edge.
     initial : float
         m3 of water in it at the start.
@@ -76,18 +77,18 @@ def add_entrapped_water(
     what = f"entrapped water {label!r}"
     if owner not in scene.bodies:
         raise SceneError(f"{what}: there is no body {owner!r}; add it first")
-    density_of(what, density)
     holes = _openings(what, openings)
     element = _core.EntrappedWater(
         name=label, body=owner, point=shaped_of(f"{what}: point", point, (3,)),
         area=positive_of(f"{what}: area", area, "m2"), height=positive_of(f"{what}: height", height, "m"),
         opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
         opening_areas=[float(hole.area) for hole in holes],
-        discharge=finite_of(f"{what}: discharge", discharge),
-        initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density,
+        discharge_coefficient=finite_of(f"{what}: discharge_coefficient", discharge_coefficient),
+        initial=not_negative_of(f"{what}: initial", initial, "m3"), density=density_of(what, density),
     )  # fmt: skip
     _check_upright(what, scene.bodies[owner])
-    return add_load(scene, element)
+    add_load(scene, element)
+    return element
 
 
 def _openings(what: str, given: Any) -> list[Opening]:

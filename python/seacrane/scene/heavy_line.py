@@ -19,7 +19,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
-from seacrane.scene.wind_current import SEA_WATER
+from seacrane.water.density import SEA_WATER
 
 Array = NDArray[np.float64]
 MEDIA = {"air": AIR, "sea": SEA_WATER}  # kg/m3

@@ -15,8 +15,8 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import numbers_of, positive_of, rows_of
-from seacrane.scene.wind_current import SEA_WATER
 from seacrane.warnings import SecondOrderFlowWarning
+from seacrane.water.density import SEA_WATER
 
 if TYPE_CHECKING:
     import xarray

@@ -26,9 +26,9 @@ from seacrane.inputs.checked import (
 )
 from seacrane.inputs.plausible import direction_of
 from seacrane.warnings import DoubleCountedDampingWarning
+from seacrane.water.density import SEA_WATER
 
 Array = NDArray[np.float64]
-SEA_WATER = 1025.0  # kg/m3
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
 

@@ -1,4 +1,4 @@
-"""Parts of a load beside a ship in a sea: the waves that the ship scatters and makes are not in their water."""
+"""Parts of a load beside a ship in a sea: the waves that she scatters and makes are not in their water."""
 
 from __future__ import annotations
 

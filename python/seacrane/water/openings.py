@@ -17,7 +17,7 @@ class Opening:
     point : array_like, shape (3,)
         Its centre, m, body coordinates, between bottom and top of the compartment.
     area : float
-        m2, of the hole itself; the jet fills `discharge` of it.
+        m2, of the hole itself; the jet fills `discharge_coefficient` of it.
     """
 
     point: Any

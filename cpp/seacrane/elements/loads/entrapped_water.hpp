@@ -21,7 +21,7 @@ struct EntrappedWaterDescription {
   double area = 0.0, height = 0.0;
   std::vector<Vec3d> opening_points;  // likewise
   std::vector<double> opening_areas;
-  double discharge = 0.6;
+  double discharge_coefficient = 0.6;
   double initial = 0.0;
   double density = 0.0;
 
@@ -38,7 +38,8 @@ struct EntrappedWaterDescription {
         required("height", &D::height, "m", "along the body's z").positive(),
         required("opening_points", &D::opening_points, "m", "centres of its openings, body coordinates"),
         required("opening_areas", &D::opening_areas, "m2", "of the openings").positive(),
-        optional("discharge", &D::discharge, "", "C_d: share of an opening's area that the jet fills")
+        optional("discharge_coefficient", &D::discharge_coefficient, "",
+                 "C_d: share of an opening's area that the jet fills")
             .must_be({.minimum = 0.0, .maximum = 1.0, .above = true}),
         optional("initial", &D::initial, "m3", "of water in it at the start").not_negative(),
         required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0));
@@ -241,7 +242,7 @@ struct EntrappedWater {
   T through(double area, const T& heads) const {
     using std::sqrt;
     const T size = sqrt(heads * heads + T(kRoundedHead * kRoundedHead));
-    return T(d.discharge * area * std::sqrt(2.0 * gravity)) * heads / sqrt(size);
+    return T(d.discharge_coefficient * area * std::sqrt(2.0 * gravity)) * heads / sqrt(size);
   }
 
   /// What comes in and goes out. Returns the rate of the volume: full, it takes no more than it gives; dry,
