@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import (
+    Lift,
     Scene,
     SceneError,
     Stage,
@@ -29,8 +31,9 @@ from seacrane import (
 from seacrane.analysis import drag_in_sea, response_summed
 from seacrane.analysis.drag_in_sea import mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.pictures.page_sea import sea_words, without_sea
 from seacrane.sea import Current, jonswap
-from seacrane.water import BoxPart, CylinderPart, SpherePart
+from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
@@ -349,3 +352,141 @@ def test_a_stage_ends_at_the_depth_of_a_lowest_point(name: str) -> None:
 def test_a_depth_of_nothing_wet_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match=r"immersed is 'hook'; this stage has load, load\.1, load\.2"):
         lowered(Until.depth("hook", minimum=3.0))
+
+
+# --- lift files, reports, pages --------------------------------------------------------------------------
+
+EVERY_PART = """
+[[body]]
+name = "load"
+mass_kg = 1000
+inertia_kg_m2 = [1, 1, 1]
+
+[[immersed]]
+body = "load"
+name = "wet"
+density_kg_per_m3 = 1000
+
+[[immersed.parts]]
+kind = "box"
+size_m = [1, 2, 0.5]
+strips = [2, 1]
+slam = 6
+drag = 2
+perforation = 0.2
+fill = 0.5
+added_mass_kg = [10, 20, 30]
+source = "a tank"
+point_m = [0.1, 0.2, 0.3]
+axes = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+
+[[immersed.parts]]
+kind = "plate"
+size_m = [1, 2]
+thickness_m = 0.1
+strips = [1, 2]
+slam = 5.5
+drag = 3
+perforation = 0.1
+added_mass_kg = [0, 0, 30]
+source = "another tank"
+
+[[immersed.parts]]
+kind = "cylinder"
+length_m = 3
+diameter_m = 0.5
+strips = [4]
+slam = 4
+drag = 0.9
+end_drag = 0.8
+
+[[immersed.parts]]
+kind = "sphere"
+diameter_m = 0.4
+drag = 0.4
+
+[[immersed.parts]]
+kind = "table"
+height_m = 1
+depths_m = [0, 1, 2]
+volumes_m3 = [0, 0.5, 0.5]
+added_masses_kg = [[0, 0, 0], [1, 2, 3], [2, 3, 4]]
+drag_area_m2 = [0.1, 0.2, 0.3]
+source = "a third"
+
+[[entrapped_water]]
+body = "load"
+name = "in it"
+density_kg_per_m3 = 1000
+area_m2 = 0.5
+height_m = 1
+point_m = [0, 0, -0.5]
+discharge_coefficient = 0.7
+initial_m3 = 0.1
+openings = [{ point_m = [0, 0, -0.5], area_m2 = 0.01 }]
+
+[[stage]]
+name = "down"
+until = [{ depth = "load", minimum_m = 5 }]
+maximum_duration_s = 10
+"""
+
+
+def every_part() -> Scene:
+    scene = Scene(name="every part")
+    scene.add_body("load", mass=1000.0, inertia=(1.0, 1.0, 1.0))
+    turned = ((0, -1, 0), (1, 0, 0), (0, 0, 1))
+    tables = {
+        "depths": (0, 1, 2),
+        "volumes": (0, 0.5, 0.5),
+        "added_masses": ((0, 0, 0), (1, 2, 3), (2, 3, 4)),
+    }
+    parts = [
+        BoxPart(
+            size=(1, 2, 0.5), strips=(2, 1), slam=6, drag=2, perforation=0.2, fill=0.5, source="a tank",
+            added_mass=(10, 20, 30), point=(0.1, 0.2, 0.3), axes=turned,
+        ),
+        PlatePart(
+            size=(1, 2), thickness=0.1, strips=(1, 2), slam=5.5, drag=3, perforation=0.1,
+            added_mass=(0, 0, 30), source="another tank",
+        ),
+        CylinderPart(length=3, diameter=0.5, strips=4, slam=4, drag=0.9, end_drag=0.8),
+        SpherePart(diameter=0.4, drag=0.4),
+        TablePart(height=1, drag_area=(0.1, 0.2, 0.3), source="a third", **tables),
+    ]  # fmt: skip
+    scene.add_immersed("load", name="wet", parts=parts, density=1000.0)
+    scene.add_entrapped_water(
+        "load", name="in it", density=1000.0, area=0.5, height=1.0, point=(0, 0, -0.5), initial=0.1,
+        discharge_coefficient=0.7, openings=[{"point": (0, 0, -0.5), "area": 0.01}],
+    )  # fmt: skip
+    return scene
+
+
+def test_every_word_of_parts_goes_through_lift_and_scene_files(tmp_path: Path) -> None:
+    path = tmp_path / "lift.toml"
+    head = 'format = "seacrane lift"\nversion = 2\n\n[scene]\nname = "every part"\n'
+    path.write_text(head + EVERY_PART, encoding="utf-8")
+    lift, expected = Lift.load(path), every_part()
+    assert lift.scene() == expected
+    assert [stage.until for stage in lift.stages] == [(Until.depth("load", minimum=5.0),)]
+    for kind in (BoxPart, PlatePart, CylinderPart, SpherePart, TablePart):
+        (table,) = (line for line in EVERY_PART.split("kind = ") if line.startswith(f'"{kind.kind}"'))
+        unsaid = {"point", "axes", "source"} if kind is not BoxPart else set()
+        assert all(f"{one.name}" in table for one in fields(kind) if one.name not in unsaid)
+    expected.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == expected
+
+
+def test_the_report_of_a_scene_tells_where_coefficients_are_from() -> None:
+    rows = dict(hung(4.0, BoxPart(size=SIZE, strips=(2, 2))).report()["elements"])
+    (told,) = rows["coefficients in water"]
+    assert told.startswith("load: ")
+    assert "unverified" in told
+
+
+def test_a_page_of_a_wet_load_has_water_without_ship_and_sea() -> None:
+    assert not without_sea(hung(4.0))
+    assert sea_words(hung(4.0)) == "calm water"
+    dry = hung(4.0)
+    del dry.loads["load.1"]
+    assert without_sea(dry)
