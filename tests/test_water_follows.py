@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import (
+    Curve,
+    Kept,
     Lift,
     Scene,
     SceneError,
     Stage,
     Until,
     _core,
+    ensemble,
     equilibrium,
     linear_model,
     motion_rao,
@@ -31,6 +34,7 @@ from seacrane import (
 from seacrane.analysis import drag_in_sea, response_summed
 from seacrane.analysis.drag_in_sea import mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.ensembles import LatinHypercube
 from seacrane.pictures.page_sea import sea_words, without_sea
 from seacrane.sea import Current, jonswap
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
@@ -352,6 +356,43 @@ def test_a_stage_ends_at_the_depth_of_a_lowest_point(name: str) -> None:
 def test_a_depth_of_nothing_wet_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match=r"immersed is 'hook'; this stage has load, load\.1, load\.2"):
         lowered(Until.depth("hook", minimum=3.0))
+
+
+# --- scatter of coefficients ------------------------------------------------------------------------------
+
+HEAVE, OMEGA, DEEP = 0.6, 0.9, np.array([20e3, 30e3, 50e3])  # m, rad/s, kg
+
+
+def heaved(added_mass: float, drag: float) -> Scene:
+    """On a stiff wire below a tip that heaves; coefficients times these."""
+    scene = hung(
+        4.0, BoxPart(size=SIZE, fill=FILL, added_mass=added_mass * DEEP, drag=2.5 * drag, source="tank")
+    )
+    scene.add_body("tip", mass=1e4, size=(1.0, 1.0, 1.0), position=(0.0, 0.0, HOOK))
+    scene.add_joint(
+        kind="prismatic", name="up", first="ground", second="tip", point=(0.0, 0.0, HOOK), axis=(0, 0, 1)
+    )
+    scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=HEAVE, omega=OMEGA, phase=-0.5 * np.pi))
+    del scene.loads["wire"]
+    scene.add_line(
+        "wire", first="tip", second="load", second_point=(0.0, 0.0, 1.0), EA=2e9, tension_at_start=DRY - LIFT
+    )  # fmt: skip
+    return scene
+
+
+def test_scatter_of_coefficients_goes_into_the_least_pull_as_by_hand() -> None:
+    """T = W + (M + A) z'' + b z' |z'|, at eight places of a Latin hypercube."""
+    least = Kept(channel="line_tension", what="minimum", names={"line": "wire"}, after=12.0)
+    over = LatinHypercube(ranges={"added_mass": (0.6, 1.4), "drag": (0.5, 1.5)}, count=8, seed=1)
+    found = ensemble(heaved, over=over, keep={"least": least}, t_end=22.0, dt_out=0.05).dataset
+    time = np.linspace(0.0, 2.0 * np.pi / OMEGA, 2001)
+    speed, rate = HEAVE * OMEGA * np.sin(OMEGA * time), HEAVE * OMEGA**2 * np.cos(OMEGA * time)
+    expected = [
+        np.min(DRY - LIFT + (MASS + a * DEEP[2]) * rate + d * 0.5 * RHO * 2.5 * 12.0 * speed * np.abs(speed))
+        for a, d in zip(found.added_mass.values, found.drag.values, strict=True)
+    ]
+    assert found.least.values == pytest.approx(expected, rel=0.03)
+    assert np.ptp(found.least.values) > 0.05 * (DRY - LIFT)
 
 
 # --- lift files, reports, pages --------------------------------------------------------------------------
