@@ -93,6 +93,20 @@ def test_a_template_goes_through_the_waves_taut(tmp_path: Path) -> None:
     assert all(max(0.1, hand) < share < 1.0 for *_, share in kinds["run"])
 
 
+def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:
+    """Archimedes, drag at the lowering rate, resonance over depth, and what compensation leaves."""
+    told = run(FOLDER / "subsea_lowering.py", tmp_path).splitlines()
+    kinds = {word: [re.findall(NUMBER, line) for line in told if line.startswith(word)]
+             for word in ("hook", "heave", "hoist", "stop")}  # fmt: skip
+    assert [len(rows) for rows in kinds.values()] == [3, 5, 5, 2]
+    for rows, within in ((kinds["hook"], 0.003), (kinds["heave"], 0.01), (kinds["stop"], 0.3)):
+        for *_, found, by_hand in rows:
+            assert float(found) == pytest.approx(float(by_hand), rel=within)
+    periods = [float(row[-1]) for row in kinds["heave"]]
+    assert periods == sorted(periods)
+    assert all(0.1 < float(row[-1]) < 1.0 for row in kinds["hoist"])
+
+
 def test_controller_example_calms_its_load(tmp_path: Path) -> None:
     free, controlled = (
         float(line.split()[-2]) for line in run(FOLDER / "sampled_controller.py", tmp_path).splitlines()

@@ -10,6 +10,7 @@ from seacrane.analysis.linear_system import LinearModel as LinearModel
 from seacrane.analysis.frequency_domain import motion_rao as motion_rao
 from seacrane.analysis.response_statistics import response_statistics as response_statistics
 from seacrane.analysis.response_statistics import ResponseStatistics as ResponseStatistics
+from seacrane.analysis.drag_in_sea import drag_in_sea as drag_in_sea
 from seacrane.analysis.frequency_domain import response_summed as response_summed
 from seacrane.analysis.frequency_domain import SummedResponse as SummedResponse
 from seacrane.analysis.inverse import inverse_dynamics as inverse_dynamics

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
@@ -42,6 +43,9 @@ def motion_rao(
 ) -> Complex:
     """Complex motion of a point of any body per metre of wave amplitude.
 
+    Waves load the vessel, and what parts of other bodies are under water at rest; their drag only where
+    `drag_in_sea` made it linear. Without a vessel, parts alone: directions and phase are then inertial.
+
     Parameters
     ----------
     scene : Scene or LinearModel
@@ -72,10 +76,17 @@ def motion_rao(
         with a ship whose motion is given, or where the model's memory is not of the database's speed.
     """
     linear = linear_of(scene, state, memory, database)
-    database = excitation_of(linear, database)
+    parts = PartsInWaves(linear)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(direction, dtype=float))
-    force = database.force_at(w.ravel(), b.ravel()).reshape(-1, 6)
-    x = linear.response(omega=encounter_frequency_at(database, w.ravel(), b.ravel()), force=force)
+    along, to = w.ravel(), b.ravel()
+    met, rates, depth = along, np.zeros((along.size, len(linear.a)), dtype=complex), parts.water_depth
+    if linear.vessel is not None or not parts:
+        database = excitation_of(linear, database)
+        met, depth = encounter_frequency_at(database, along, to), database.depth
+        rates = rates + database.force_at(along, to).reshape(-1, 6) @ linear.b.T
+    if parts:
+        rates = rates + parts.rates(along, parts.flow(parts.waves(along, to, depth)))
+    x = linear.response_to_rates(met, rates)
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
 
 
@@ -199,6 +210,9 @@ def response_summed(
     x: Complex = np.zeros((omega.size, len(linear.a)), dtype=complex)
     for vessel, force in forces.items():
         x += linear.excited(vessel).response(omega=omega, force=force)
+    parts = PartsInWaves(linear)
+    if parts:
+        x += linear.response_to_rates(omega, parts.rates(omega, parts.flow_of(sea)))
     amplitude = x @ linear.output(body=body, point=point).T
     return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
 

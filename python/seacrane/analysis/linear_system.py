@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -65,6 +66,8 @@ class LinearModel:
     memories : tuple of FrequencyMemory
         Memory that depends on the frequency and is in `response`, not in `a`: that of convolutions, or of a
         database. `at_frequency` puts its matrices of one frequency into `a`.
+    drag_damping : mapping of str to ndarray, shape (3, 3)
+        N s/m of immersed parts, inertial axes, as `drag_in_sea` put it into `a`; empty without.
     """
 
     scene: Description
@@ -78,8 +81,14 @@ class LinearModel:
     neutral: Array
     memories: tuple[FrequencyMemory, ...]
     _terms: Terms
+    drag_damping: Mapping[str, Array] = field(default_factory=dict)
 
     __repr__ = brief
+
+    @property
+    def model(self) -> _core.Model:
+        """Of the scene with its references held."""
+        return self._terms.model
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -136,7 +145,7 @@ class LinearModel:
 
     @one_thread
     def response(self, *, omega: ArrayLike, force: ArrayLike) -> Complex:
-        """Complex amplitudes of x under wave loads Re force exp(i omega t), in the steady state.
+        """Complex amplitudes of x under loads Re force exp(i omega t) on the vessel, in the steady state.
 
         Parameters
         ----------
@@ -161,8 +170,16 @@ class LinearModel:
             raise SceneError(
                 f"omega has shape {w.shape}, force {f.shape}; give (k,) and (k, 6) finite numbers"
             )
-        resolvent = Resolvent(self)
-        x = resolvent.response(w, f @ self.b.T)
+        return self.response_to_rates(w, f @ self.b.T)
+
+    @one_thread
+    def response_to_rates(self, omega: Array, rates: Complex) -> Complex:
+        """Complex amplitudes of x (k, n) under rates of x, Re rates exp(i omega t), in the steady state.
+
+        Raises SceneError at the frequency of an undamped mode.
+        """
+        w, resolvent = omega, Resolvent(self)
+        x = resolvent.response(w, rates)
         if not self.memories:
             return x
         load, motion = self._memory_loads()
@@ -323,7 +340,8 @@ def linear_model(
 
     The quaternions do not appear: poses are perturbed by translations and rotation vectors within the null
     space of the constraints, so the model has exactly 2 degrees of freedom + memory states. Loads
-    proportional to u |u| have no linear part at rest and drop out.
+    proportional to u |u| have no linear part at rest and drop out; `drag_in_sea` gives that of immersed parts
+    one for a sea.
 
     Parameters
     ----------

@@ -10,9 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.drag_in_sea import band_of, drag_in_sea
 from seacrane.analysis.frequency_domain import excitation_of, linear_of
 from seacrane.analysis.linear_system import LinearModel
-from seacrane.analysis.modal_analysis import natural_modes
+from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.analysis.response_quadrature import (
+    GRID,
+    about_resonances,
+    directions_of,
+    quadrature_frequencies,
+    weights_of,
+)
 from seacrane.description.description import Description
 from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
@@ -33,12 +41,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 NARROWEST = 1e-6  # bandwidth
-UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
-BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
-GRID = 1500  # frequencies over the band of the database
-GRID_OF_MODE = 120  # more on either side of each resonance
 FINE = 20_001  # frequencies at which the encounter is looked up
-DIRECTIONS = 48  # of the quadrature over the directions
 MOST_UNKNOWN = 0.1  # of the energy of the waves, met outside the table of a database at speed
 
 
@@ -144,6 +147,9 @@ def response_statistics(
     forward speed (``memory="database"``) all is integrated over the frequency of the waves, so that nothing
     is singular where following waves are met at the same frequency.
 
+    Parts of loads under water are loaded by waves too. Their drag is made linear for this sea
+    (`drag_in_sea`), but not of a LinearModel, which has it already or not.
+
     Parameters
     ----------
     scene, body, point, state, memory, database
@@ -172,26 +178,19 @@ def response_statistics(
     span = positive_of("duration", duration, "s")
     if spreading is not None and not isinstance(spreading, Spreading):
         raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
-    linear = linear_of(scene, state, memory, database)
-    database = excitation_of(linear, database)
-    low, high = float(database.omega[0]), float(database.omega[-1])
-    if database.trusted_band is not None and database.trusted_band[0] > low:
-        below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(
-            0
-        )
-        warn_of_waves_below_band(database, below, "waves of a spectrum")
-    main, output = float(direction), linear.output(body=body, point=point)
-    directions, shares = np.array([main]), np.ones(1)
-    if spreading is not None:
-        angles, shares = spreading.quadrature(DIRECTIONS)
-        directions = main + angles
-    along, *parts = _responses(linear, database, np.append(main, directions), output)
+    main = float(direction)
+    linear, database = _in_sea(scene, state, memory, database, spectrum, main, spreading)
+    low, high = band_of(database, spectrum)
+    _warn_below_band(database, spectrum, low)
+    directions, shares = directions_of(spreading, main)
+    headings, output = np.append(main, directions), linear.output(body=body, point=point)
+    along, *parts = _responses(linear, database, headings, output, (low, high))
     moments, density, unknown = np.zeros((6, 4)), np.zeros(along.rao.shape), 0.0
     for share, part in zip(shares, parts, strict=True):
         each = np.abs(part.rao) ** 2 * np.asarray(spectrum.density(part.omega))[:, None]
         moments += share * part.moments(each)
         density += share * part.at(along.omega, each)
-        unknown += share * part.unknown(database, spectrum)
+        unknown += 0.0 if database is None else share * part.unknown(database, spectrum)
     _warn_of_unknown(database, unknown)
     return ResponseStatistics(
         omega=along.omega,
@@ -207,6 +206,28 @@ def response_statistics(
     )
 
 
+def _in_sea(
+    scene: Description | LinearModel, state: _core.State | None, memory: str, database: HydroDatabase | None,
+    spectrum: _core.Spectrum, main: float, spreading: Spreading | None,
+) -> tuple[LinearModel, HydroDatabase | None]:  # fmt: skip
+    """The linear model, with drag of its parts for this sea, and the database of waves on its vessel."""
+    linear = linear_of(scene, state, memory, database)
+    if not isinstance(scene, LinearModel):
+        linear = drag_in_sea(
+            linear, spectrum=spectrum, direction=main, spreading=spreading, database=database
+        )
+    if linear.vessel is None and PartsInWaves(linear):
+        return linear, None
+    return linear, excitation_of(linear, database)
+
+
+def _warn_below_band(database: HydroDatabase | None, spectrum: _core.Spectrum, low: float) -> None:
+    if database is None or database.trusted_band is None or database.trusted_band[0] <= low:
+        return
+    below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(0)
+    warn_of_waves_below_band(database, below, "waves of a spectrum")
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Response:
     """Motions (k, 6) per metre of waves of one direction, by their frequency and that of encounter (k,)."""
@@ -217,7 +238,7 @@ class _Response:
 
     def moments(self, density: Array) -> Array:
         """m0, m1, m2, m4 (6, 4) of a density (k, 6) over the frequency of the waves."""
-        weights, met = _weights(self.omega), np.abs(self.encounter)
+        weights, met = weights_of(self.omega), np.abs(self.encounter)
         return np.stack([(weights * met**order) @ density for order in (0, 1, 2, 4)], axis=1)
 
     def at(self, omega: Array, density: Array) -> Array:
@@ -229,7 +250,7 @@ class _Response:
     def unknown(self, database: HydroDatabase, spectrum: _core.Spectrum) -> float:
         """Share of the energy of the waves that is met outside the frequencies of the database."""
         outside = ~inside_table(database.omega, self.encounter)
-        energy = _weights(self.omega) * np.asarray(spectrum.density(self.omega))
+        energy = weights_of(self.omega) * np.asarray(spectrum.density(self.omega))
         return float(energy[outside].sum() / spectrum.moment(0))
 
 
@@ -239,18 +260,14 @@ def _bandwidth(m0: Array, m1: Array, m2: Array) -> Array:
     return np.asarray(np.sqrt(np.maximum(1.0 - ratio, 0.0)))
 
 
-def _weights(omega: Array) -> Array:
-    """Weights of the trapezoidal rule."""
-    steps = np.diff(omega)
-    return np.asarray(0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)))
-
-
 def _responses(
-    linear: LinearModel, database: HydroDatabase, headings: Array, output: Array
-) -> Iterator[_Response]:
+    linear: LinearModel, database: HydroDatabase | None, headings: Array, output: Array,
+    band: tuple[float, float],
+) -> Iterator[_Response]:  # fmt: skip
     """Responses to each direction; at rest all share their frequencies, and what the ship makes of a load."""
-    if database.speed != 0.0:
-        about = _about_resonances(linear, 0.0, float(np.inf))
+    parts = PartsInWaves(linear)
+    if database is not None and database.speed != 0.0:
+        about = about_resonances(linear, 0.0, float(np.inf))
         for heading in headings:
             omega = _met_frequencies(database, float(heading), about)
             encounter = encounter_frequency_at(database, omega, heading)
@@ -258,16 +275,22 @@ def _responses(
             rao = linear.response(omega=encounter, force=force) @ output.T
             yield _Response(omega=omega, encounter=encounter, rao=rao)
         return
-    omega = quadrature_frequencies(linear, float(database.omega[0]), float(database.omega[-1]))
-    unit = np.repeat(np.eye(6), len(omega), axis=0)
-    moved = linear.response(omega=np.tile(omega, 6), force=unit) @ output.T
-    by_load = moved.reshape(6, len(omega), 6)
-    for force in force_on_grid(database, omega, headings):
-        yield _Response(omega=omega, encounter=omega, rao=np.einsum("lkm,kl->km", by_load, force))
+    omega = quadrature_frequencies(linear, *band)
+    raos: Complex = np.zeros((len(headings), len(omega), 6), dtype=complex)
+    if database is not None:
+        unit = np.repeat(np.eye(6), len(omega), axis=0)
+        by_load = (linear.response(omega=np.tile(omega, 6), force=unit) @ output.T).reshape(6, -1, 6)
+        raos += np.einsum("lkm,qkl->qkm", by_load, force_on_grid(database, omega, headings))
+    depth = parts.water_depth if database is None else database.depth
+    for heading, rao in zip(headings, raos, strict=True):
+        if parts:
+            flow = parts.flow(parts.waves(omega, heading, depth))
+            rao = rao + linear.response_to_rates(omega, parts.rates(omega, flow)) @ output.T
+        yield _Response(omega=omega, encounter=omega, rao=rao)
 
 
-def _warn_of_unknown(database: HydroDatabase, share: float) -> None:
-    if share > MOST_UNKNOWN:
+def _warn_of_unknown(database: HydroDatabase | None, share: float) -> None:
+    if database is not None and share > MOST_UNKNOWN:
         warn_caller(
             f"database {database.name!r}: at {database.speed:g} m/s {share:.0%} of the energy of the waves "
             f"is met outside {database.omega[0]:.3g} to {database.omega[-1]:.3g} rad/s; the matrices there "
@@ -275,12 +298,6 @@ def _warn_of_unknown(database: HydroDatabase, share: float) -> None:
             "of the scene's springs, and no linear theory holds",
             EncounterFrequencyWarning,
         )
-
-
-def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Array:
-    """Even over a band, rad/s, and about each resonance."""
-    omega = np.unique(np.concatenate([np.linspace(low, high, GRID), _about_resonances(linear, low, high)]))
-    return omega[(omega >= low) & (omega <= high)]
 
 
 def _met_frequencies(database: HydroDatabase, heading: float, about: Array) -> Array:
@@ -299,24 +316,3 @@ def _met_frequencies(database: HydroDatabase, heading: float, about: Array) -> A
             inside = wanted[(wanted > met[branch].min()) & (wanted < met[branch].max())]
             parts.append(np.interp(inside, met[branch][rising], fine[branch][rising]))
     return np.unique(np.concatenate(parts))
-
-
-def _about_resonances(linear: LinearModel, low: float, high: float) -> Array:
-    """Frequencies about each resonance, geometrically away from a tenth of its half width."""
-    modes = natural_modes(linear)
-    parts = [np.zeros(0)]
-    for i, value in enumerate(modes.eigenvalues):
-        if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
-            continue
-        if modes.damping_ratio[i] < UNDAMPED:
-            warn_caller(
-                f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
-                f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
-                "finite value; add damping",
-                UserWarning,
-            )
-            continue
-        width = abs(value.real)
-        away = np.geomspace(0.1 * width, max(0.5 * value.imag, width), GRID_OF_MODE)
-        parts.append(np.concatenate([value.imag - away, [value.imag], value.imag + away]))
-    return np.concatenate(parts)

@@ -136,7 +136,8 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "slack_margin": _derived(
             "weighed",
             "1",
-            "load on the lower end over the weight that hangs on it alone; slack at zero",
+            "load on the lower end over the weight that hangs on it alone, under water where parts in water "
+            "hang; slack at zero",
             f"tension line_tension {_POSE}",
             by_default=False,
         ),
@@ -153,6 +154,13 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "hook load over what the crane's table allows at this radius, times its design factor",
             f"tension line_tension {_POSE}",
             several="hook",
+            by_default=False,
+        ),
+        "immersed_depth": _derived(
+            "immersed",
+            "m",
+            "depth below still water of the lowest point of a body's parts in water, and of each of them",
+            _POSE,
             by_default=False,
         ),
         "wire_paid_out": _derived(

@@ -12,6 +12,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import RIGID, WITH_MASS
+from seacrane.description.wet_parts import buoyancy_of, waters_in, wet_bodies
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -127,6 +128,38 @@ def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
             found[one.channel] = (weight, one.falls)
             found[one.top] = (weight + ties.weight_of(_inside(scene, one)), one.falls)
     return found
+
+
+@once_in_any_sea
+def static_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
+    """`weights_on`, without what hangs in water: that carries too, by how deep it is."""
+    known, wet = weights_on(scene), _wet_suspensions(scene)
+    return {channel: pair for channel, pair in known.items() if channel not in wet}
+
+
+@once_in_any_sea
+def least_weights(scene: Description) -> Mapping[str, float]:
+    """Least weight (N) on every suspension that alone carries it, by its `channel`: with all parts in water.
+
+    None of what water comes into, and of what floats.
+    """
+    ties, filled, found = _ties_of(scene), {water.body for water in waters_in(scene)}, {}
+    for one in suspensions(scene):
+        below, weight = ties.below(one), ties.weight(one)
+        if weight is None or filled & set(below):
+            continue
+        left = weight - buoyancy_of(scene, below)
+        if left > 0.0:
+            found[one.channel] = left
+            found[one.top] = left + ties.weight_of(_inside(scene, one))
+    return found
+
+
+def _wet_suspensions(scene: Description) -> set[str]:
+    """Channels of suspensions below which are parts in water, or water in compartments."""
+    wet, ties = wet_bodies(scene), _ties_of(scene)
+    held = [one for one in suspensions(scene) if wet & set(ties.below(one))]
+    return {name for one in held for name in (one.channel, one.top)}
 
 
 @once_in_any_sea

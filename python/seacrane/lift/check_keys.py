@@ -255,8 +255,8 @@ def _chosen(node: Node, key: Key) -> str:
 def _array(node: Node, key: Key) -> Any:
     """An array of the shape that fits; lists become tuples, so that what is checked stays as it is."""
     shapes = [shape for shape in key.shapes if _deep(node.value) == len(shape)] or key.shapes
-    array = node.array(shapes[0])
-    return _fixed(array.tolist())
+    shape = next((one for one in shapes if one[0] == len(node.values())), shapes[0])
+    return _fixed(node.array(shape).tolist())
 
 
 def _deep(value: Any) -> int:

@@ -12,6 +12,7 @@ COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m", "1", "m2"))
 WAITS = {
     "tension": "Line whose tension ends the stage.",
     "length": "Line whose unstretched length ends it.",
+    "depth": "Body with parts in water, or part, the depth of whose lowest point ends it.",
     "channel": "Channel that ends it.",
     "contact": "Limit that takes hold.",
     "release": "Limit that lets go.",

@@ -23,7 +23,7 @@ from seacrane.run.stage import Stage
 from seacrane.run.until import Condition, Until
 from seacrane.scene.scene import Scene
 
-LIMITED = {"tension": "line_tension", "length": "line_unstretched_length"}
+LIMITED = {"tension": "line_tension", "length": "line_unstretched_length", "depth": "immersed_depth"}
 WAYS = ("to", "by", "value", "curve")
 OF_LOADS = {
     "rate": "m/s", "tension": "N", "brake": "1", "length": "m", "command": "1", "reference": "m", HOLE: "m2",
@@ -103,9 +103,8 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     require_unit_of_channel(keys, table, channel, names)
     if kind == "channel":
         return Until.channel(values[kind], **bounds, **names)
-    return (
-        Until.tension(values[kind], **bounds) if kind == "tension" else Until.length(values[kind], **bounds)
-    )
+    by_name = {"tension": Until.tension, "length": Until.length, "depth": Until.depth}
+    return by_name[kind](values[kind], **bounds)
 
 
 def _commands(keys: tuple[Key, ...], tables: Iterable[Mapping[str, Any]]) -> dict[str, Command]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium, held
 from seacrane.description.waves import calm_water
 from seacrane.ensembles.other_sea import require_same_sea
@@ -428,6 +429,7 @@ def steady_start(scene: Scene, rest: _core.State) -> Start:
     assert scene.waves is not None
     try:
         model = linear_model(scene, state=rest, vessel=next(iter(scene.waves.hulls)))
+        PartsInWaves(model)
     except SceneError:
         return rest
     return rest if model.memories else SteadyStart(model=model)

@@ -1,16 +1,18 @@
-"""Channels of a scene as its linear model knows them: y = rest + C x + D f, by differences of outputs."""
+"""Channels of a scene as its linear model has them: y = rest + C x + D f + E g, by differences of outputs."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import held
 from seacrane.errors import SceneError
 from seacrane.operability.criterion import Criterion
@@ -27,19 +29,29 @@ PUSH = 1e-3  # m/s2 and rad/s2, of states of the fluid and of loads on the vesse
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LinearChannels:
-    """y = rest + c x + d f of small motions x under loads f on the vessel.
+    """y = rest + c x + d f + e g of small motions x under loads f on the vessel, g on parts under water.
 
     Attributes
     ----------
     rest : (m,) Values at rest, in the units of the channels.
     c : (m, n) Per x of the model.
     d : (m, 6) Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
+    e : (m, 3 p) Per force (N) at the centre of each part, inertial axes.
+    parts : PartsInWaves
+        Their drag has no part in it: it is of second order.
     """
 
     model: LinearModel
     rest: Array
     c: Array
     d: Array
+    e: Array
+    parts: PartsInWaves
+
+    def by_flow(self, omega: Array, flow: Complex) -> tuple[Complex, Complex]:
+        """Channels (k, m), and x (k, n), by water that flows at the parts, (k, 3 p)."""
+        x = self.model.response_to_rates(omega, self.parts.rates(omega, flow))
+        return np.asarray(x @ self.c.T + self.parts.forces(omega, flow) @ self.e.T), x
 
     def transfer(self, omega: Array) -> Complex:
         """Channels per load on the vessel, (k, m, 6), at frequencies (k,) in rad/s."""
@@ -76,7 +88,27 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
         # States of the fluid add loads in proportion: one side is enough.
         below = look.at(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
         columns.append((above - below) / (2.0 * size))
-    return LinearChannels(model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria))
+    parts = PartsInWaves(model)
+    return LinearChannels(
+        model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria),
+        e=_by_part(model, criteria, parts), parts=parts,
+    )  # fmt: skip
+
+
+def _by_part(model: LinearModel, criteria: Sequence[Criterion], parts: PartsInWaves) -> Array:
+    columns = [np.zeros((len(criteria), 0))]
+    for part in parts.parts:
+        element = part.element
+        size = PUSH * model.scene.bodies[element.body].mass
+        for axis in np.eye(3):
+            pushed = [
+                _Look(_pushed(model, element.body, element.point, sign * size * axis), criteria).at(
+                    model.state
+                )
+                for sign in (1.0, -1.0)
+            ]
+            columns.append(((pushed[0] - pushed[1]) / (2.0 * size))[:, None])
+    return np.concatenate(columns, axis=1)
 
 
 def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
@@ -84,21 +116,28 @@ def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
     axes = model.yaw_axes()
     for i, accelerations in enumerate(np.abs(model.b[dof : 2 * dof]).max(axis=0)):
         size = PUSH / accelerations
+        assert model.vessel is not None
         pushed = [
-            _Look(_loaded(model, sign * size * axes[:, i]), criteria).at(model.state) for sign in (1.0, -1.0)
+            _Look(_loaded(model, model.vessel, sign * size * axes[:, i]), criteria).at(model.state)
+            for sign in (1.0, -1.0)
         ]
         columns.append((pushed[0] - pushed[1]) / (2.0 * size))
     return np.stack(columns, axis=1)
 
 
-def _loaded(model: LinearModel, wrench: Array) -> Scene:
-    """The scene held as at the model's time, with one more load (6,) about the vessel's origin."""
-    assert model.vessel is not None
+def _pushed(model: LinearModel, body: str, point: Any, force: Array) -> Scene:
+    return _loaded(model, body, np.concatenate([force, np.zeros(3)]), point)
+
+
+def _loaded(model: LinearModel, body: str, wrench: Array, point: Any = (0.0, 0.0, 0.0)) -> Scene:
+    """The scene held as at the model's time, with one more load (6,) about a point of a body."""
     scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
     name = "operability"
     while name in scene.force_tables:
         name += "'"
-    scene.add_force_table(name=name, body=model.vessel, times=[0.0, 1.0], loads=np.array([wrench] * 2))
+    scene.add_force_table(
+        name=name, body=body, times=[0.0, 1.0], loads=np.array([wrench] * 2), point=point
+    )  # fmt: skip
     return scene
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import linear_model
-from seacrane.analysis.response_statistics import quadrature_frequencies
+from seacrane.analysis.response_quadrature import quadrature_frequencies
 from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
@@ -37,7 +37,8 @@ class LinearSeas:
         At rest.
     criteria : sequence of Criterion
 
-    Raises SceneError where the scene has no linear model, or its spectrum changes shape with Hs.
+    Raises SceneError where the scene has no linear model, its spectrum changes shape with Hs, or a part of a
+    load crosses the surface. Drag of parts under water is left out: it is not proportional to Hs.
     """
 
     def __init__(self, scene: Scene, state: _core.State, criteria: Sequence[Criterion]) -> None:
@@ -67,8 +68,16 @@ class LinearSeas:
         found = np.zeros(self._transfer.shape[:2])
         for angle in angles:
             force = self._database.force_at(self._omega, angle)
-            found += np.abs(np.einsum("kmi,ki->km", self._transfer, force)) ** 2
+            found += np.abs(np.einsum("kmi,ki->km", self._transfer, force) + self._by_parts(angle)) ** 2
         return np.asarray(found / angles.size)
+
+    def _by_parts(self, angle: float) -> Complex | float:
+        """What waves on parts under water add, per metre of wave amplitude."""
+        parts = self.channels.parts
+        if not parts:
+            return 0.0
+        flow = parts.flow(parts.waves(self._omega, angle, self._database.depth))
+        return self.channels.by_flow(self._omega, flow)[0]
 
     def _spread(self) -> Array:
         if self._known.spreading is None:
@@ -115,6 +124,9 @@ class LinearSeas:
         force = wave[:, None] * np.asarray(hull.transfer).reshape(-1, 6)
         x = self.channels.model.response(omega=omega, force=force)
         y = x @ self.channels.c.T + force @ self.channels.d.T
+        if self.channels.parts:
+            more, moved = self.channels.by_flow(omega, self.channels.parts.flow_of(waves))
+            x, y = x + moved, y + more
         first = (np.exp(1j * start * omega) @ x).real
         turns = np.exp(1j * times[:, None] * omega)
         return self.channels.model.full_state(first), self.channels.rest + (turns @ y).real

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import Description
+from seacrane.description.wet_parts import wet_bodies
 
 Array = NDArray[np.float64]
 
@@ -28,13 +29,13 @@ def sea_components(scene: Description) -> Array:
 
 def without_sea(scene: Description) -> bool:
     """Whether there is no water to draw."""
-    return scene.waves is None and not scene.vessels
+    return scene.waves is None and not scene.vessels and not wet_bodies(scene)
 
 
 def sea_words(scene: Description) -> str:
     """The sea in words, for the caption."""
     if scene.waves is None:
-        return "calm water" if scene.vessels else ""
+        return "" if without_sea(scene) else "calm water"
     known = scene.waves.provenance
     parts = [f"{np.size(scene.waves.omega)} wave components"]
     parts += [text for value, text in _settings(known) if value is not None]

@@ -16,6 +16,7 @@ from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.suspension import names_of_suspensions
+from seacrane.description.wet_parts import immersed_depths, wet_names
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.run.hanging import (
@@ -61,6 +62,7 @@ def derived_coords(scene: Description) -> Mapping[str, list[str]]:
         "piston": list(piston_areas(scene)),
         "suspension": list(names_of_suspensions(scene)),
         "weighed": weighed_suspensions(scene),
+        "immersed": list(wet_names(scene)),
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
         "expression": list(scene.channels),
@@ -89,6 +91,7 @@ NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
     "weighed": "a link, a wire or a line that alone carries a load: add one",
+    "immersed": "parts in water: add_immersed them",
     "gap": "a clearance: add_clearance one",
     "pair": "two points: add_relative them",
     "expression": "an expression: add_channel one",
@@ -161,6 +164,7 @@ def named_channels(
             None if loads is None or "utilisation" not in wanted else utilisations(scene, arrays, loads)
         ),
         "clearance": clearances(scene, arrays),
+        "immersed_depth": immersed_depths(scene, arrays) if "immersed_depth" in wanted else None,
         "tip_velocity": _without_axis_of_one(
             tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
         ),

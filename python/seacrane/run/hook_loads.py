@@ -15,8 +15,8 @@ from seacrane.description.loads import lines_of, path_of
 from seacrane.description.suspension import (
     hooked_body,
     hung_loads,
+    least_weights,
     names_of_suspensions,
-    weights_on,
 )
 
 if TYPE_CHECKING:
@@ -55,17 +55,17 @@ def link_tensions(scene: Description, arrays: Mapping[str, Array], loads: Array 
 
 def weighed_suspensions(scene: Description) -> list[str]:
     """Names of the suspensions that alone carry what hangs on them."""
-    weights = weights_on(scene)
-    return [name for name in names_of_suspensions(scene) if weights.get(name, (0.0, 1))[0] > 0.0]
+    weights = least_weights(scene)
+    return [name for name in names_of_suspensions(scene) if name in weights]
 
 
 def slack_margins(scene: Description, loads: Array) -> Array | None:
-    """Hook loads (time, suspension) over the weights that hang there, (time, weighed); None without any."""
-    names, weights = names_of_suspensions(scene), weights_on(scene)
+    """Hook loads (time, suspension) over the least weights there, (time, weighed); None without any."""
+    names, weights = names_of_suspensions(scene), least_weights(scene)
     known = weighed_suspensions(scene)
     if not known:
         return None
-    return np.asarray(loads[:, [names.index(name) for name in known]] / [weights[name][0] for name in known])
+    return np.asarray(loads[:, [names.index(name) for name in known]] / [weights[name] for name in known])
 
 
 def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:

@@ -11,7 +11,7 @@ from seacrane.description.file_origin import roles_to_data
 from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
-from seacrane.description.suspension import hung_loads, weights_on
+from seacrane.description.suspension import hung_loads, static_weights
 from seacrane.description.waves import Waves
 from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About
@@ -57,7 +57,7 @@ def about_of(scene: Scene) -> About:
         outline=outline_of(scene),
         bounds=bounds_of(scene),
         hung=hung_notes(scene),
-        hanging_weight=weights_on(scene),
+        hanging_weight=static_weights(scene),
     )
 
 

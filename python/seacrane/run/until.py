@@ -158,6 +158,16 @@ class Until:
         )
 
     @staticmethod
+    def depth(part: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
+        """The depth of a lowest point below still water, m: of a body with parts in water, or of one part.
+
+        Waves neither end a stage early nor hold it up. Above the water the depth is negative.
+        """
+        return Until.channel(
+            "immersed_depth", minimum=minimum, maximum=maximum, immersed=name_of("until: part", part)
+        )
+
+    @staticmethod
     def contact(limit: str) -> Contact:
         """A limit takes hold: a stop is touched, a wire is taut."""
         return Contact(name_of("until: limit", limit), True)

@@ -1,0 +1,189 @@
+"""Drag of parts under water made linear for a sea: its mean slope over a Gaussian response."""
+
+from __future__ import annotations
+
+import warnings
+from math import gamma
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.frequency_domain import excitation_of
+from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
+from seacrane.errors import SceneError
+from seacrane.hydro.data.excitation import force_on_grid
+from seacrane.one_thread import one_thread
+from seacrane.sea.spreading import Spreading
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+TOGETHER = {"cylinder": ((0,), (1, 2)), "sphere": ((0, 1, 2),)}  # axes whose drag is by their common speed
+ALONE = ((0,), (1,), (2,))
+ANGLES, HEIGHTS = 32, 16  # of the mean over directions of a velocity
+MOST_STEPS = 200
+SETTLED = 1e-9  # relative change of the damping
+RELAXED = 0.6  # of a step to the next: the more damping, the less speed
+ROUGH = 400  # frequencies over which the water alone is summed
+
+
+@one_thread
+def drag_in_sea(
+    linear: LinearModel,
+    *,
+    spectrum: _core.Spectrum,
+    direction: float,
+    spreading: Spreading | None = None,
+    database: HydroDatabase | None = None,
+) -> LinearModel:
+    """A linear model with the drag of its immersed parts as damping, and as a load of the waves, in a sea.
+
+    Drag along an axis, b |v| v with v over the water, becomes sqrt(8 / pi) sigma b v, which errs least in the
+    mean square where v is Gaussian with the standard deviation sigma. sigma is that of the response itself,
+    found by iteration. Where drag goes by a common speed (cylinders across, spheres), the matrix is the mean
+    of its slope over all directions.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Of `seacrane.sea`.
+    direction : float
+        rad, main direction of travel from the vessel's x towards its y; without a vessel, inertial.
+    spreading : Spreading, optional
+        Of the energy about `direction`. Default: long-crested.
+    database : HydroDatabase, optional
+        As `motion_rao`.
+
+    Returns
+    -------
+    LinearModel
+        `drag_damping` holds the matrices. The model itself where no part is under water.
+
+    Raises
+    ------
+    SceneError
+        For parts that cross the surface at rest, entrapped water, a current, a vessel without a database, or
+        damping that does not settle.
+
+    Notes
+    -----
+    T. S. Atalik, S. Utku, "Stochastic linearization of multi-degree-of-freedom non-linear systems",
+    Earthquake Eng. Struct. Dyn. 4 (1976) 411; along one axis L. E. Borgman, "The spectral density for ocean
+    wave forces", 1965 (both unverified: the equation was derived anew).
+    """
+    parts = PartsInWaves(linear)
+    if not parts:
+        return linear
+    base = excitation_of(linear, database) if linear.vessel is not None else None
+    first, last = band_of(base, spectrum)
+    angles, shares = directions_of(spreading, direction)
+    still = parts.damped([np.zeros((3, 3))] * len(parts.parts))
+    rough = np.linspace(first, last, ROUGH)
+    quiet = _Sea(still, rough, base, spectrum, angles, shares)
+    moving = still.damped(quiet.slopes(quiet.flows))  # as if nothing moved but the water
+    with warnings.catch_warnings():
+        warnings.simplefilter(
+            "ignore"
+        )  # of modes that drag does not damp: whoever sums a response tells them
+        omega = quadrature_frequencies(moving.linear, first, last)
+    sea = _Sea(moving, omega, base, spectrum, angles, shares)
+    for _ in range(MOST_STEPS):
+        known = [moving.linear.drag_damping[part.element.name] for part in moving.parts]
+        found = sea.slopes(sea.over(moving))
+        apart = max(float(np.max(np.abs(a - b))) for a, b in zip(found, known, strict=True))
+        if apart <= SETTLED * max(float(np.max(np.abs(each))) for each in found):
+            return moving.linear
+        moving = moving.damped([a + RELAXED * (b - a) for a, b in zip(known, found, strict=True)])
+    raise SceneError(
+        f"scene {linear.scene.name!r}: the damping of its parts in water did not settle in {MOST_STEPS} "
+        "steps; simulate the scene"
+    )
+
+
+def band_of(database: HydroDatabase | None, spectrum: _core.Spectrum) -> tuple[float, float]:
+    """Frequencies (rad/s) over which a response is summed: those of a database, or all that a sea has."""
+    first, last = spectrum.default_range if database is None else database.omega[[0, -1]]
+    return float(first), float(last)
+
+
+class _Sea:
+    """Waves of several directions on a model, and what speeds they make over the parts."""
+
+    def __init__(
+        self, parts: PartsInWaves, omega: Array, database: HydroDatabase | None, spectrum: _core.Spectrum,
+        angles: Array, shares: Array,
+    ) -> None:  # fmt: skip
+        self._omega, self._parts = omega, parts
+        self._density = np.outer(shares, weights_of(omega) * np.asarray(spectrum.density(omega)))
+        depth = parts.water_depth if database is None else database.depth
+        self.flows = [parts.flow(parts.waves(omega, angle, depth)) for angle in angles]
+        none: Complex = np.zeros((omega.size, len(parts.linear.a)), dtype=complex)
+        self._on_vessel = [none] * len(angles)
+        if database is not None:
+            forces = force_on_grid(database, omega, angles)
+            self._on_vessel = [force @ parts.linear.b.T for force in forces]
+
+    def over(self, parts: PartsInWaves) -> list[Complex]:
+        """Velocities of all parts over the water, by direction, (k, 3 p), per metre of wave amplitude."""
+        dof, found = parts.linear.degrees_of_freedom, []
+        for flow, rates in zip(self.flows, self._on_vessel, strict=True):
+            x = parts.linear.response_to_rates(self._omega, rates + parts.rates(self._omega, flow))
+            found.append(np.asarray(x[:, dof : 2 * dof] @ parts.along.T - flow))
+        return found
+
+    def slopes(self, velocities: list[Complex]) -> list[Array]:
+        """Of the drag of each part, (3, 3), inertial axes."""
+        found = []
+        for i, part in enumerate(self._parts.parts):
+            local = [each[:, 3 * i : 3 * i + 3] @ part.axes for each in velocities]
+            covariance = sum(
+                np.real(np.einsum("ki,kj,k->ij", each, each.conj(), density))
+                for each, density in zip(local, self._density, strict=True)
+            )
+            slope = mean_slope(
+                np.asarray(part.element.drag), np.asarray(covariance), shape=part.element.shape
+            )
+            found.append(np.asarray(part.axes @ slope @ part.axes.T))
+        return found
+
+
+def mean_slope(drag: Array, covariance: Array, *, shape: str) -> Array:
+    """E[d(drag |v| v) / dv] (3, 3), N s/m, of a Gaussian velocity along the axes of a part.
+
+    It is the matrix C of least E[(drag |v| v - C v)^2]; sqrt(8 / pi) drag sigma along one axis.
+    """
+    out = np.zeros((3, 3))
+    for axes in TOGETHER.get(shape, ALONE):
+        out[np.ix_(axes, axes)] = drag[list(axes)][:, None] * _slope(covariance[np.ix_(axes, axes)])
+    return out
+
+
+def _slope(covariance: Array) -> Array:
+    """E[|v| 1 + v v^T / |v|]: v is r, apart from all else, times a stretched direction on the sphere."""
+    size = len(covariance)
+    values, vectors = np.linalg.eigh(covariance)
+    directions, shares = _sphere(size)
+    along = directions * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    speed = np.linalg.norm(along, axis=1)
+    outer = np.einsum("qi,qj,q->qij", along, along, 1.0 / np.where(speed > 0.0, speed, 1.0))
+    radius = np.sqrt(2.0) * gamma(0.5 * (size + 1)) / gamma(0.5 * size)
+    return np.asarray(radius * np.einsum("q,qij->ij", shares, outer + speed[:, None, None] * np.eye(size)))
+
+
+def _sphere(size: int) -> tuple[Array, Array]:
+    """Unit vectors (q, size) and their shares (q,)."""
+    if size == 1:
+        return np.ones((1, 1)), np.ones(1)
+    angle = (np.arange(ANGLES) + 0.5) * 2.0 * np.pi / ANGLES
+    ring, even = np.stack([np.cos(angle), np.sin(angle)], axis=1), np.full(ANGLES, 1.0 / ANGLES)
+    if size == 2:
+        return ring, even
+    heights, weights = np.polynomial.legendre.leggauss(HEIGHTS)
+    points = [np.column_stack([np.sqrt(1.0 - z * z) * ring, np.full(ANGLES, z)]) for z in heights]
+    return np.concatenate(points), np.concatenate([0.5 * weight * even for weight in weights])

@@ -1,0 +1,91 @@
+"""Parts of bodies in the water, as `add_immersed` described them: what they displace, how deep they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.body_motion import place_in, position_of
+from seacrane.description.once import once_in_any_sea
+from seacrane.inputs.frames import rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
+
+Array = NDArray[np.float64]
+
+
+def immersed_parts(scene: Description) -> dict[str, _core.ImmersedPart]:
+    """By name."""
+    return {name: load for name, load in scene.loads.items() if isinstance(load, _core.ImmersedPart)}
+
+
+def waters_in(scene: Description) -> list[_core.EntrappedWater]:
+    """Compartments that water comes into."""
+    return [load for load in scene.loads.values() if isinstance(load, _core.EntrappedWater)]
+
+
+def wet_bodies(scene: Description) -> set[str]:
+    """Bodies with parts in water, or with compartments."""
+    return {load.body for load in (*immersed_parts(scene).values(), *waters_in(scene))}
+
+
+def displaced_volume(part: _core.ImmersedPart) -> float:
+    """m3 that a part keeps water out of, where it is under water."""
+    size = np.asarray(part.size, dtype=float)
+    volumes = {
+        "box": np.prod(size),
+        "cylinder": np.pi / 4.0 * size[0] * size[1] ** 2,
+        "sphere": np.pi / 6.0 * size[0] ** 3,
+    }
+    whole = volumes.get(part.shape)
+    return float(part.fill * (np.asarray(part.volumes)[-1] if whole is None else whole))
+
+
+def buoyancy_of(scene: Description, bodies: Iterable[str]) -> float:
+    """N on bodies that are under water."""
+    held = set(bodies)
+    parts = [part for part in immersed_parts(scene).values() if part.body in held]
+    return scene.gravity * sum(part.density * displaced_volume(part) for part in parts)
+
+
+def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
+    """From the centre of a part down to its lowest point, m (...), with its axes in columns (..., 3, 3)."""
+    size, up = np.asarray(part.size, dtype=float), np.abs(turn[..., 2, :])
+    if part.shape == "box":
+        return np.asarray(0.5 * up @ size)
+    if part.shape == "cylinder":
+        across = np.sqrt(np.maximum(1.0 - up[..., 0] ** 2, 0.0))
+        return np.asarray(0.5 * (size[0] * up[..., 0] + size[1] * across))
+    return np.full(turn.shape[:-2], 0.5 * size[2])
+
+
+@once_in_any_sea
+def wet_names(scene: Description) -> Mapping[str, tuple[str, ...]]:
+    """Names along `immersed`: bodies with parts, each with the names of these; then the parts."""
+    parts = immersed_parts(scene)
+    found: dict[str, tuple[str, ...]] = {}
+    for name, part in parts.items():
+        found[part.body] = (*found.get(part.body, ()), name)
+    return found | {name: (name,) for name in parts if name not in found}
+
+
+def immersed_depths(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
+    """Depths of lowest points below z = 0, m, (time, immersed); None without parts, or without poses."""
+    parts = immersed_parts(scene)
+    if not parts or not {"position", "quaternion"} <= set(arrays):
+        return None
+    turns = {
+        body: rotation_matrix(arrays["quaternion"][:, place_in(scene, body)])
+        for body in {part.body for part in parts.values()}
+    }
+    depths = {
+        name: half_height(part, turns[part.body] @ np.asarray(part.axes))
+        - position_of(scene, arrays, part.body, part.point)[:, 2]
+        for name, part in parts.items()
+    }
+    return np.stack([np.max([depths[one] for one in of], axis=0) for of in wet_names(scene).values()], axis=1)

@@ -1,0 +1,56 @@
+"""The linear route of operability for a load under water, and what it refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from operability_scenes import vessel
+
+from seacrane import Criterion, Scene, SceneError, allowable_hs, equilibrium, simulate
+from seacrane.analysis.rest_state import held
+from seacrane.operability.linear_seas import LinearSeas
+from seacrane.water import SpherePart
+
+MASS, DIAMETER, RHO, G = 30e3, 2.5, 1025.0, 9.80665  # kg, m, kg/m3, m/s2
+TOP = (-50.0, 0.0, 20.0)
+
+
+def towed(depth: float, **sea: float) -> Scene:
+    """A sphere below the stern, its centre at a depth (m)."""
+    scene = vessel(**sea)
+    scene.add_body("load", mass=MASS, size=(2.0, 2.0, 2.0), position=(TOP[0], TOP[1], -depth))
+    volume = np.pi / 6.0 * DIAMETER**3 if depth > 0.5 * DIAMETER else 0.0
+    scene.add_line(
+        "wire", bodies=["vessel", "load"], points=[TOP, (0.0, 0.0, 0.0)], EA=2e7,
+        tension_at_start=(MASS - RHO * volume) * G, damping_ratio=0.05,
+    )  # fmt: skip
+    scene.add_point("ball", body="load")
+    scene.add_pendulum_damping("swing", first="vessel", second="load", first_point=TOP, ratio=0.05)
+    scene.add_immersed("load", parts=[SpherePart(diameter=DIAMETER, drag=0.0)], density=RHO)
+    return scene
+
+
+def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
+    """Waves load ship and sphere, and go straight into the sphere's acceleration."""
+    criteria = (
+        Criterion(channel="line_tension", names={"line": "wire"}, maximum=1e6),
+        Criterion(channel="position", names={"body": "load", "axis": "x"}, maximum=1.0),
+        Criterion(channel="point_acceleration", names={"point": "ball", "axis": "x"}, maximum=1.0),
+    )
+    scene = towed(6.0, hs=0.002)
+    rest = equilibrium(scene)
+    still = held(scene).copy(waves=scene.waves)
+    linear = LinearSeas(still, rest, criteria)
+    assert still.waves is not None
+    start, told = linear.in_waves(still.waves, 0.0, 0.5 * np.arange(61))
+    run = simulate(
+        still, t_end=30.0, start=start, dt_out=0.5, rtol=1e-8, channels=[one.channel for one in criteria]
+    )
+    found = np.stack([run.curve(one.channel, **one.names) for one in criteria], axis=1)
+    assert np.all(np.std(found - told, axis=0) < 0.02 * np.std(told, axis=0))
+
+
+def test_a_part_that_crosses_the_surface_has_no_linear_route() -> None:
+    criterion = Criterion(channel="line_tension", names={"line": "wire"}, maximum=1e6)
+    with pytest.raises(SceneError, match=r"immersed part 'load\.1': crosses the surface at rest"):
+        allowable_hs(towed(0.5), criteria=[criterion], tp=[8.0], direction_deg=[180.0], domain="frequency")
