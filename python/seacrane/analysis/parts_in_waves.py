@@ -71,7 +71,7 @@ class WetPart:
         bottom = 1.0 - np.where(waves.floor < SHALLOW, np.exp(-2.0 * np.minimum(waves.floor, SHALLOW)), 0.0)
         across, up = ((np.exp(level) + sign * floor) / bottom for sign in (1.0, -1.0))
         phase = np.exp(-1j * k * (turn @ (self.center[:2] - waves.origin)))
-        wave = waves.omega * mean * phase
+        wave = self.element.wave_factor * waves.omega * mean * phase
         return np.stack([turn[:, 0] * across * wave, turn[:, 1] * across * wave, 1j * up * wave], axis=1)
 
 
