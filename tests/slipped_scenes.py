@@ -371,6 +371,14 @@ SAMPLES: Mapping[str, Sample] = {
         },
         scene=lambda n: between(_core.ImmersedSpan, n),
     ),
+    "wound span": Sample(
+        kind=_core.WoundSpan,
+        numbers={
+            "first_point": (0.0, 0.0, 2.0), "second_point": (0.0, 0.0, 1.0), "mass_per_length": 20.0,
+            "length": 11.0, "below_first": 1.0, "below_second": 0.5,
+        },
+        scene=lambda n: between(_core.WoundSpan, n),
+    ),
     "pendulum damping": Sample(
         kind=_core.PendulumDamping,
         numbers={

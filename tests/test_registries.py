@@ -13,7 +13,7 @@ from seacrane.pictures.wires import wires_of
 
 IN_NO_TEXT = {"function force"}  # the address of a C function
 ENDS = {"first", "second", "first_point", "second_point"}
-SHOWN_BY_WHAT_THEY_ACT_ON = {"pendulum damping", "span drag", "immersed span"}
+SHOWN_BY_WHAT_THEY_ACT_ON = {"pendulum damping", "span drag", "immersed span", "wound span"}
 
 
 def test_every_kind_of_load_is_in_a_lift_file() -> None:

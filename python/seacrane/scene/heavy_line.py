@@ -59,13 +59,16 @@ def chain_of_segments(
     Adds the lines and bodies "<name>.1", "<name>.2", ... from the first end on, segments and one body less;
     half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
     what is not the ground. It starts in its rest shape. Keywords as of `Scene.add_line`; `rung` is that of
-    every segment.
+    every segment. With a curve for its length the masses stay at equal shares of it, and what they gain and
+    what moves past them is "<name>.1 winding", ...
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
     count = _count(what, segments)
     span = float(np.linalg.norm(last.place - first.place))
-    whole = positive_of(f"{what}: length", span if length is None else length)
+    wound = length if isinstance(length, _core.Curve) else None
+    given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
+    whole = positive_of(f"{what}: length", span if given is None else given)
     step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
     chain = Chain(
         span=last.place - first.place,
@@ -73,7 +76,8 @@ def chain_of_segments(
         stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
     )
-    fluid = fluid.checked(what)
+    fluid = fluid.checked(what, wound=wound is not None)
+    lengths = step if wound is None else scaled(wound, 1.0 / count)
     places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
@@ -86,12 +90,30 @@ def chain_of_segments(
     for i, (one, two) in enumerate(pairwise(path), start=1):
         segment = _core.Line(
             name=f"{name}.{i}", bodies=[one[0], two[0]], points=[one[1], two[1]], EA=cast(float, EA),
-            length=step, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
+            length=lengths, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
         )  # fmt: skip
         lines.append(add_load(scene, segment))
         if fluid.diameter > 0.0:
-            add_load(scene, fluid.along(f"{name}.{i}", (one, two), step))
+            add_load(scene, fluid.along(f"{name}.{i}", (one, two), lengths))
+        if wound is not None:
+            winding = _core.WoundSpan(
+                name=f"{name}.{i} winding", first=one[0], second=two[0], first_point=one[1],
+                second_point=two[1], mass_per_length=mass_per_length, length=lengths,
+                below_first=(count - i + 1) / count, below_second=(count - i) / count,
+            )  # fmt: skip
+            add_load(scene, winding)
     return lines
+
+
+def scaled(curve: _core.Curve, factor: float) -> _core.Curve:
+    """A curve times a factor."""
+    pieces = curve.to_pieces()
+    cosines = np.array(pieces["cosines"], dtype=float).reshape(-1, 3) * [factor, 1.0, 1.0]
+    return _core.Curve.pieces(
+        starts=pieces["starts"],
+        coefficients=(np.array(pieces["coefficients"], dtype=float) * factor).tolist(),
+        cosines=cosines.tolist(),
+    )
 
 
 def _at_rest(

@@ -40,7 +40,7 @@ class Fluid:
         """Whether it is the water of the scene."""
         return self.medium == "sea"
 
-    def checked(self, what: str) -> Fluid:
+    def checked(self, what: str, *, wound: bool) -> Fluid:
         """The same with a density in kg/m3."""
         if text_of(f"{what}: medium", self.medium) not in MEDIA:
             raise SceneError(f"{what}: medium is {self.medium!r}; choose 'air' or 'sea'")
@@ -51,6 +51,11 @@ class Fluid:
                     raise SceneError(
                         f"{what}: {name} is of a line in water; leave it out, or choose medium 'sea'"
                     )
+            if wound and self.diameter > 0.0:
+                raise SceneError(
+                    f"{what}: has drag in a fluid that flows steadily, which takes no length that changes; leave "
+                    "out its diameter, or choose medium 'sea'"
+                )
             return replace(self, density=AIR if self.density is None else self.density)
         if np.any(self.flow):
             raise SceneError(f"{what}: is in the sea and has a flow; give the current to add_sea")
@@ -73,7 +78,7 @@ class Fluid:
             f"{what}: {given:g}, {text if given == own else 'given'}" for what, given, own, text in usual
         )
 
-    def along(self, name: str, ends: tuple[_Point, _Point], length: float) -> Any:
+    def along(self, name: str, ends: tuple[_Point, _Point], length: float | _core.Curve) -> Any:
         """What it does to a segment of a length (m)."""
         (first, first_point), (second, second_point) = ends
         span = {"first": first, "second": second, "first_point": first_point, "second_point": second_point,

@@ -118,7 +118,8 @@ def add_line(
         Axial stiffness, the tension over the strain, N; left out with a table, and rigid.
     length : Curve or float, optional
         Unstretched, m; for a line on a winch, that at the start. Default: the one with `tension_at_start`,
-        or that of the path as described. Rigid, and with mass, a number.
+        or that of the path as described. Rigid, a number. With mass, a curve pays it out and hauls it in at
+        its first end; its rate must not jump.
     tension_at_start : float, optional
         N, that the line carries along its path as described, in place of a length; default: 0.
     rung : {"rigid", "quasi-static", "elastic", "auto", "with mass"}

@@ -199,13 +199,15 @@ def _fluid(density: float, speed: float, field: str) -> Iterator[Proportion]:
         yield Proportion(field, "water at {:.3g} m/s", speed, 0.0, FAST_WATER, "m/s")
 
 
-def _wet_span(around: _Around, span: _core.SpanDrag | _core.ImmersedSpan) -> Iterator[Proportion]:
-    distance = around.distance(span)
-    yield Proportion("length", "{:.3g} times the span", _over(span.length, distance), 0.05, 20.0, "m")
+def _wet_span(around: _Around, span: _core.ImmersedSpan | _core.WoundSpan) -> Iterator[Proportion]:
+    start = float(span.length.evaluate(around.times[:1])[0, 0])
+    share = _over(start, around.distance(span))
+    yield Proportion("length", "{:.3g} times the span", share, 0.05, 20.0, "m")
 
 
 def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
-    yield from _wet_span(around, span)
+    distance = around.distance(span)
+    yield Proportion("length", "{:.3g} times the span", _over(span.length, distance), 0.05, 20.0, "m")
     yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
 
 
@@ -314,6 +316,7 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.ImmersedSpan: ("immersed span", _wet_span),
     _core.ImmersedPart: ("immersed part", _part),
     _core.EntrappedWater: ("entrapped water", _compartment),
+    _core.WoundSpan: ("wound span", _wet_span),
     _core.PendulumDamping: ("pendulum damping", _pendulum),
     _core.Spring: ("spring", _spring),
     _core.Actuator: ("actuator", _actuator),
