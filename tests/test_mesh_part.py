@@ -124,7 +124,7 @@ def test_a_long_cylinder_has_the_added_mass_of_greenhow_and_li_but_at_its_ends()
     what DNV-RP-C205 has of a cylinder in an unbounded fluid (unverified), which is twice this one."""
     radius, lengths = 1.0, (6.0, 10.0)
     parts = [
-        from_mesh(mesh_shapes.prism(mesh_shapes.circle(radius), length), panels=300, draughts=(1.0, 2.1))
+        from_mesh(mesh_shapes.prism(mesh_shapes.circle(radius, 12), length), panels=400, draughts=(1.0, 2.1))
         for length in lengths
     ]
     depth = 0.5 * parts[0].height  # of a polygon
@@ -153,7 +153,7 @@ def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_o
     for length in lengths:
         mesh = mesh_shapes.prism(mesh_shapes.wedge(deadrise, height), length)
         plain, wetted = (
-            from_mesh(mesh, panels=300, draughts=(0.5, 1.0), wetting=w) for w in (1.0, np.pi / 2.0)
+            from_mesh(mesh, panels=700, draughts=(0.5, 1.0), wetting=w) for w in (1.0, np.pi / 2.0)
         )
         wet = 0.5 / (np.pi / 2.0)
         assert at(wetted, wet)[0] == pytest.approx(at(plain, 0.5)[0], rel=1e-3)

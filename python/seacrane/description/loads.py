@@ -91,8 +91,8 @@ def refuse_heavy_winch(line: _core.Line) -> None:
     if whole != line.name:
         raise SceneError(
             f"line {line.name!r}: is a segment of line {whole!r}; rung 'with mass' takes no winch, as what "
-            "it pays out would have no mass, so that it would carry too little. Give the whole line a Curve for "
-            "its length, or let the winch haul a line of another rung on which this one hangs"
+            "it pays out would have no mass, so that it would carry too little. Give the whole line a Curve "
+            "for its length, or let the winch haul a line of another rung on which this one hangs"
         )
 
 

@@ -53,8 +53,8 @@ class Fluid:
                     )
             if wound and self.diameter > 0.0:
                 raise SceneError(
-                    f"{what}: has drag in a fluid that flows steadily, which takes no length that changes; leave "
-                    "out its diameter, or choose medium 'sea'"
+                    f"{what}: has drag in a fluid that flows steadily, which takes no length that changes; "
+                    "leave out its diameter, or choose medium 'sea'"
                 )
             return replace(self, density=AIR if self.density is None else self.density)
         if np.any(self.flow):

@@ -28,7 +28,7 @@ from seacrane.water.mesh_volume import MeshShape
 
 Array = NDArray[np.float64]
 
-VERSION = 2  # raised with every change of what is solved
+VERSION = 3  # raised with every change of what is solved
 KIND, SUFFIX = "added_mass", ".ladder"
 AXES = ("Surge", "Sway", "Heave")
 MOST_PANELS = 3000  # 16 bytes for each pair of them, two matrices: 0.3 GB
@@ -37,6 +37,7 @@ NO_AREA = 1e-14  # of the square of the size
 RUNGS, CLUSTERED = 10, 1.5  # to awash; denser near touch
 CLEARANCES = (0.04, 0.1, 0.25, 0.5, 1.0, 2.0)  # below awash, of the root of the plan's box
 FIRST_FLAT = (0.02, 0.05)  # of the root of a flat bottom's area
+MANY, LONGER = 1.3, 1.2  # times the panels asked for; steps towards them
 SETTLED = 0.005  # of the unbounded value: what the surface may still take
 
 
@@ -197,9 +198,20 @@ class _Panels:
 
 
 def refined(triangles: Array, count: float) -> Array:
-    """Triangles cut in halves across their longest edge, until about `count` are as long as wide."""
+    """Triangles cut in halves across their longest edge, until about `count` are as long as wide.
+
+    Narrow ones, which cannot be, are left longer, so that they do not become many more.
+    """
     area = np.linalg.norm(area_vectors(triangles), axis=1).sum()
     longest = 2.4 * np.sqrt(area / count)  # halves of right-angled ones with two equal sides, on the mean
+    while True:
+        panels = _no_longer_than(triangles, longest)
+        if len(panels) <= MANY * count or len(panels) == len(triangles):
+            return panels
+        longest *= LONGER
+
+
+def _no_longer_than(triangles: Array, longest: float) -> Array:
     done: list[Array] = []
     while len(triangles):
         edges = np.linalg.norm(np.roll(triangles, -1, axis=1) - triangles, axis=2)

@@ -56,7 +56,8 @@ void write_point_wave(const Output& o, double* out) {
   for (const Attachment& at : o.system.model().points) {
     const BodyKinematics<double>& k = o.terms.bodies()[idx(at.body)];
     const Vec3d place = k.position + k.rotation * at.point;
-    const LocalFlow<double> flow = o.terms.sea().at<double>(o.time, place);
+    const SeaField* field = o.terms.sea().field();
+    const LocalFlow<double> flow = field ? field->at<double>(o.time, place) : LocalFlow<double>();
     const double wet = place.z() <= flow.elevation ? 1.0 : 0.0;
     out[0] = flow.elevation;
     view<3>(out + 1) = wet * flow.velocity;
