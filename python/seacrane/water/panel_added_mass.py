@@ -1,6 +1,7 @@
 """Added mass of a closed mesh on a ladder of draughts, by Capytaine's panels.
 
-They carry potentials ("direct"): on a sphere they err a fifth of what sources do, on a cube a third more.
+They carry potentials ("direct"): on a sphere they err by a fifth of what sources do, on a cube by a third
+more, at sharp edges by more still.
 
 Two limits at the surface. A motion faster than all waves sees no pressure there (infinite frequency), one
 slower than all sees a wall (zero frequency). At the first, added mass cannot fall with depth in any
@@ -37,7 +38,7 @@ NO_AREA = 1e-14  # of the square of the size
 RUNGS, CLUSTERED = 10, 1.5  # to awash; denser near touch
 CLEARANCES = (0.04, 0.1, 0.25, 0.5, 1.0, 2.0)  # below awash, of the root of the plan's box
 FIRST_FLAT = (0.02, 0.05)  # of the root of a flat bottom's area
-MANY, LONGER = 1.3, 1.2  # times the panels asked for; steps towards them
+MANY, LONGER = 2.0, 1.2  # times the panels asked for; steps towards them
 SETTLED = 0.005  # of the unbounded value: what the surface may still take
 
 
