@@ -531,3 +531,15 @@ def test_a_page_of_a_wet_load_has_water_without_ship_and_sea() -> None:
     dry = hung(4.0)
     del dry.loads["load.1"]
     assert without_sea(dry)
+
+
+def test_waves_on_a_part_that_is_welded_on_a_body_load_its_carrier() -> None:
+    """A light frame below the load, stepped as one with it: the same as the part on the load itself."""
+    part = SpherePart(diameter=2.0, point=(0.0, 0.0, -2.0))
+    one, two = hung(3.0, part), hung(3.0, part)
+    del two.loads["load.1"]
+    two.add_body("frame", mass=1e-2, size=(0.05, 0.05, 0.05), position=(0.0, 0.0, -6.0))
+    two.add_joint(kind="weld", name="on", first="load", second="frame")
+    two.add_immersed("frame", parts=[SpherePart(diameter=2.0)], density=RHO)
+    found, expected = (motion_rao(scene, omega=[0.7], direction=0.4, body="load") for scene in (two, one))
+    assert found == pytest.approx(expected, rel=1e-5, abs=1e-8)

@@ -173,7 +173,7 @@ class LinearModel:
         return self.response_to_rates(w, f @ self.b.T)
 
     @one_thread
-    def response_to_rates(self, omega: Array, rates: Complex) -> Complex:
+    def response_to_rates(self, omega: Array, rates: Array | Complex) -> Complex:
         """Complex amplitudes of x (k, n) under rates of x, Re rates exp(i omega t), in the steady state.
 
         Raises SceneError at the frequency of an undamped mode.

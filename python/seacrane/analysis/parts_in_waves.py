@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -209,23 +210,31 @@ def blocks(each: list[Array]) -> Array:
 
 def _at_rest(linear: LinearModel) -> list[WetPart | None]:
     """Those under water; None for those in air."""
-    scene = linear.scene
-    for water in waters_in(scene):
-        raise SceneError(
-            f"entrapped water {water.name!r}: flows by the root of a head, and a linear model has no waves "
-            "on it; take it as filled, with its mass on the body, or simulate the scene"
-        )
-    return [_placed(linear, element) for element in immersed_parts(scene).values()]
+    for water in waters_in(linear.scene):
+        _, _, bottom = _place(linear, water.body, water.point)
+        if bottom[2] < 0.0:
+            raise SceneError(
+                f"entrapped water {water.name!r}: flows by the root of a head, and linear models have no "
+                "waves on it; take it as filled, with its mass on the body, or simulate the scene"
+            )
+    return [_placed(linear, element) for element in immersed_parts(linear.scene).values()]
+
+
+def _place(linear: LinearModel, name: str, point: Any) -> tuple[Array, Array, Array]:
+    """Where a body's origin is at rest, m, its quaternion, and where a point of it is, m."""
+    body = linear.scene.bodies[name]
+    at = linear.model.pose_index(linear.bodies.index(name))
+    pose = np.array(linear.state.values)[at : at + 7]
+    floating = {vessel.body for vessel in linear.scene.vessels.values()}
+    start = np.zeros(3) if name in floating else np.asarray(body.center_of_mass)
+    turn = rotation_matrix(pose[3:])
+    origin = pose[:3] - turn @ start
+    return origin, pose[3:], origin + turn @ np.asarray(point)
 
 
 def _placed(linear: LinearModel, element: _core.ImmersedPart) -> WetPart | None:
-    body = linear.scene.bodies[element.body]
-    at = linear.model.pose_index(linear.bodies.index(element.body))
-    pose = np.array(linear.state.values)[at : at + 7]
-    turn = rotation_matrix(pose[3:])
-    floating = {vessel.body for vessel in linear.scene.vessels.values()}
-    start = np.zeros(3) if element.body in floating else np.asarray(body.center_of_mass)
-    center = pose[:3] + turn @ (np.asarray(element.point) - start)
+    origin, quaternion, center = _place(linear, element.body, element.point)
+    turn = rotation_matrix(quaternion)
     axes = turn @ np.asarray(element.axes)
     half = float(half_height(element, axes))
     if center[2] - half >= 0.0:
@@ -236,7 +245,7 @@ def _placed(linear: LinearModel, element: _core.ImmersedPart) -> WetPart | None:
             f"{2.0 * half:.3g} m: its loads in waves are not linear. Simulate the scene in its sea, or lower "
             "the load until all of it is under water"
         )
-    added = _added_mass(linear.scene, element, pose[:3] - turn @ start, pose[3:])
+    added = _added_mass(linear.scene, element, origin, quaternion)
     dof = linear.degrees_of_freedom
     return WetPart(
         element=element, center=center, axes=axes,

@@ -202,8 +202,9 @@ def summary(
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
     heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
     The static tension of a link is the weight that hangs on it. Where something else carries that too, as of
-    slings, taglines and two cranes, it is that of the scene at rest, off any deck, its references held as at
-    the start. Of all else the value at the first output from `after` on takes its place, marked by a star.
+    slings, taglines, two cranes and in water, it is that of the scene at rest, off any deck, its references
+    held as at the start. Of all else the value at the first output from `after` on takes its place, marked
+    by a star.
 
     Parameters
     ----------

@@ -31,7 +31,8 @@ def waters_in(scene: Description) -> list[_core.EntrappedWater]:
 
 def wet_bodies(scene: Description) -> set[str]:
     """Bodies with parts in water, or with compartments."""
-    return {load.body for load in (*immersed_parts(scene).values(), *waters_in(scene))}
+    parts = {part.body for part in immersed_parts(scene).values()}
+    return parts | {water.body for water in waters_in(scene)}
 
 
 def displaced_volume(part: _core.ImmersedPart) -> float:
