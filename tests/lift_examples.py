@@ -310,7 +310,7 @@ rung = "with mass"
 bodies = ["ground", "box"]
 points_m = [[20, 5, -10], [0, 0, 1]]
 EA_N = 1e8
-length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 40, end = 44}
+length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 30, end = 34}
 mass_per_length_kg_per_m = 5
 segments = 2
 diameter_m = 0.05
@@ -549,7 +549,7 @@ def every_table() -> Scene:
     )  # fmt: skip
     scene.add_line(
         name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],
-        EA=1e8, length=Curve.quintic(start_time=1, end_time=9, start=40, end=44), mass_per_length=5,
+        EA=1e8, length=Curve.quintic(start_time=1, end_time=9, start=30, end=34), mass_per_length=5,
         segments=2, diameter=0.05, medium="sea", density=1000,
         drag_coefficient_along=0.02, added_mass_coefficient=0.9,
     )  # fmt: skip
