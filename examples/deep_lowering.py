@@ -4,8 +4,10 @@ Usage: python deep_lowering.py [FOLDER FOR A PICTURE]
 """
 
 import sys
+import warnings
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -13,12 +15,13 @@ from scipy.special import erf
 
 from seacrane import Curve, Result, Scene, natural_modes, shipped_database, simulate
 from seacrane.result import heavy_line_tension
+from seacrane.warnings import QuasiStaticLineWarning, StiffWarning
 from seacrane.water import BoxPart
 
 G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 7.0  # m/s2, kg/m3, m, s
 MASS, SIZE, FILL, OPEN = 120e3, (8.0, 6.0, 4.0), 0.15, 0.2  # kg, m, shares
-EA, WIRE, DIAMETER, SEGMENTS = 1.5e8, 20.0, 0.06, 12  # N, kg/m, m
-FIRST, LAST, RATE, WAIT = 40.0, 1500.0, 0.8, 100.0  # m, m, m/s on the average, s before and after
+EA, WIRE, DIAMETER, SEGMENTS = 1.5e8, 20.0, 0.06, 6  # N, kg/m, m
+FIRST, LAST, RATE, WAIT = 100.0, 1500.0, 1.2, 60.0  # m, m, m/s on the average, s before and after
 LEAST = 0.1  # of the least static pull
 BODY = BoxPart(size=SIZE, strips=(2, 2), fill=FILL, perforation=OPEN)
 PIECES = list(BODY.pieces(RHO))
@@ -34,11 +37,11 @@ def paid_out(length: float) -> Curve:
     return Curve.quintic(start_time=WAIT, end_time=WAIT + DOWN, start=length, end=length + LAST - FIRST)
 
 
-def hung(depth: float, hs: float = 0.0, seed: int = 1, lowers: bool = False) -> Scene:
+def hung(depth: float, hs: float = 0.0, lowers: bool = False, rung: Any = "elastic") -> Scene:
     """From the crane of a ship, its top so deep."""
     scene = Scene(name="deep lowering", gravity=G)
-    scene.add_given_vessel(shipped_database())
-    scene.add_sea(hs=hs, tp=TP, direction_deg=165.0, seed=seed)
+    scene.add_given_vessel(shipped_database(), duration=DOWN + 2.0 * WAIT)
+    scene.add_sea(hs=hs, tp=TP, direction_deg=165.0, seed=1)
     jib, head = scene.add_crane(slew=-np.pi / 2.0, s1=1.0, s2=2.0).tip
     x, y, z = scene.place_of("tip")
     top = np.array([x, y, -depth])
@@ -48,14 +51,18 @@ def hung(depth: float, hs: float = 0.0, seed: int = 1, lowers: bool = False) -> 
     length = (z + depth) / (1.0 + 0.5 * (LOAD + weight) / EA)
     scene.add_line(
         "wire", jib, "load", first_point=head, rung="with mass", EA=EA, mass_per_length=WIRE,
-        segments=SEGMENTS, diameter=DIAMETER, medium="sea", length=paid_out(length) if lowers else length,
+        segments=SEGMENTS, segment_rung=rung,
+        diameter=DIAMETER, medium="sea", length=paid_out(length) if lowers else length,
     )  # fmt: skip
     return scene
 
 
-def lowered(hs: float, seed: int = 1) -> Result:
-    """The whole way in one call, from rest."""
-    return simulate(hung(FIRST, hs, seed, lowers=True), t_end=DOWN + 2.0 * WAIT, dt_out=0.25, start="rest")
+def lowered(hs: float) -> Result:
+    """The whole way in one call, from rest; without waves nothing runs along the wire."""
+    rung = "elastic" if hs else "quasi-static"
+    return simulate(
+        hung(FIRST, hs, lowers=True, rung=rung), t_end=DOWN + 2.0 * WAIT, dt_out=0.25, start="rest"
+    )
 
 
 def by_hand(depth: float) -> float:
@@ -94,6 +101,8 @@ def response(omega: np.ndarray, heave: np.ndarray, depth: float, speed: float) -
     return float(np.linalg.norm(np.abs(gain) * heave) / np.linalg.norm(heave))
 
 
+for category in (StiffWarning, QuasiStaticLineWarning):  # both are meant, see above
+    warnings.simplefilter("ignore", category)
 calm, waves = lowered(0.0), lowered(HS)
 time = calm.time
 depth = -calm.select("position", body="load", axis="z") - 0.5 * SIZE[2]
