@@ -29,6 +29,7 @@ from measure import (
     lifts,
     line_methods,
     linear,
+    lines_in_water,
     memory_by_motion,
     memory_cost,
     memory_fits,
@@ -90,6 +91,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_speed.memory_speed(repeats=repeats)
     yield wave_loads.wave_loads(repeats=repeats)
     yield moving_points.moving_points(repeats=repeats)
+    yield lines_in_water.lines_in_water(repeats=repeats)
     yield wet_parts.wet_parts(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)

@@ -119,7 +119,8 @@ def test_at_a_steady_rate_an_upright_line_carries_its_weight_as_at_rest(directio
                    position=(0.0, 0.0, -first * (1.0 + tension / 1e9)))  # fmt: skip
     paid = Curve.quintic(start_time=0.0, end_time=120.0, start=first, end=last)
     scene.add_line("wire", "ground", "load", rung="with mass", EA=1e9, length=paid, mass_per_length=MU,
-                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), segments=6)  # fmt: skip
+                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), segments=6,
+                   segment_rung="quasi-static")  # fmt: skip
     result = simulate(scene, t_end=120.0, dt_out=20.0, rtol=1e-6)
     here = paid.evaluate(np.asarray(result.time))
     upper, lower = heavy_line_tension(result, line="wire").T
