@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -2474,7 +2474,7 @@ class ImmersedSpan:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ...) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: Curve | typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2516,9 +2516,9 @@ class ImmersedSpan:
         m, coordinates of the first body
         """
     @property
-    def length(self) -> float:
+    def length(self) -> Curve:
         """
-        m, of wire in the span
+        m, of wire in the span, a number or a Curve
         """
     @property
     def name(self) -> str:
@@ -2537,6 +2537,78 @@ class ImmersedSpan:
     def source(self) -> str:
         """
         where its coefficients are from
+        """
+class WoundSpan:
+    """
+    A segment of a line with mass that is paid out and hauled in: the mass that its ends gain, and that moves past them; see Scene.add_line. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = False
+    PASSIVE: typing.ClassVar[bool] = False
+    STIFF: typing.ClassVar[bool] = False
+    @staticmethod
+    def example() -> WoundSpan:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> WoundSpan:
+        ...
+    def __deepcopy__(self, memo: dict) -> WoundSpan:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., mass_per_length: typing.SupportsFloat, length: Curve | typing.SupportsFloat, below_first: typing.SupportsFloat, below_second: typing.SupportsFloat) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def below_first(self) -> float:
+        """
+        share of the line beyond the first end
+        """
+    @property
+    def below_second(self) -> float:
+        """
+        and beyond the second end, which is less
+        """
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the first body
+        """
+    @property
+    def length(self) -> Curve:
+        """
+        m, unstretched, of the segment
+        """
+    @property
+    def mass_per_length(self) -> float:
+        """
+        kg/m
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the second body
         """
 class Limit:
     """
@@ -3632,4 +3704,4 @@ def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
     """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'wound span': WoundSpan, 'limit': Limit}
