@@ -310,9 +310,9 @@ rung = "with mass"
 bodies = ["ground", "box"]
 points_m = [[20, 5, -10], [0, 0, 1]]
 EA_N = 1e8
-length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 40, end = 44}
+length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 24, end = 26}
 mass_per_length_kg_per_m = 5
-segments = 2
+segments = 3
 diameter_m = 0.05
 medium = "sea"
 density_kg_per_m3 = 1000
@@ -549,8 +549,8 @@ def every_table() -> Scene:
     )  # fmt: skip
     scene.add_line(
         name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],
-        EA=1e8, length=Curve.quintic(start_time=1, end_time=9, start=40, end=44), mass_per_length=5,
-        segments=2, diameter=0.05, medium="sea", density=1000,
+        EA=1e8, length=Curve.quintic(start_time=1, end_time=9, start=24, end=26), mass_per_length=5,
+        segments=3, diameter=0.05, medium="sea", density=1000,
         drag_coefficient_along=0.02, added_mass_coefficient=0.9,
     )  # fmt: skip
     scene.add_line(joint="rope", rung="rigid", restitution=0.2)
