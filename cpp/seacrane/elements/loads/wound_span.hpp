@@ -26,7 +26,7 @@ struct WoundSpanDescription : SpanDescription {
     return std::tuple_cat(
         SpanDescription::fields(),
         std::tuple(
-            required("mass_per_length", &D::mass_per_length, "kg/m", "").positive().usually(1e-3, 1e4),
+            required("mass_per_length", &D::mass_per_length, "kg/m", "").positive().usually(0.05, 1e4),
             required("length", &D::length, "m", "unstretched, of the segment").positive().usually(0.01, 1e5),
             required("below_first", &D::below_first, "", "share of the line beyond the first end")
                 .within(0.0, 1.0),
