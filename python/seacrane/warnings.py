@@ -383,7 +383,8 @@ class ScatteredWavesWarning(SceneWarning):
 
     Parts feel the undisturbed sea: the waves that the hull scatters, and those that it makes by moving, are
     not in it. Before a wall waves are twice as high, in a lee lower. The message tells the distance and the
-    breadth, for the nearest part of each ship. Vary `hs` to bound what that does. Parts that start half a
+    breadth, for the nearest part of each ship. Give `wave_factor` of `Scene.add_immersed`
+    what the hull makes of them; vary it to bound what that does. Parts that start half a
     wave length below the surface or deeper are not judged, nor what comes near later (`docs/water.md`).
     """
 

@@ -207,7 +207,8 @@ def heeling_stiffness(model: _core.Model, values: Array, time: float, body: str)
     u, size, vt = np.linalg.svd(-coordinates.stiffness())
     fixed = size > NEUTRAL
     moved = vt[fixed].T @ ((u.T @ acceleration)[fixed] / size[fixed])
-    return float(1.0 / (turn @ moved))
+    heel = float(turn @ moved)
+    return 1.0 / heel if heel else float("inf")  # a ship whose motion is given does not heel
 
 
 def attitude(values: Array, model: _core.Model, body: str) -> Array:
