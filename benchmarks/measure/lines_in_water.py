@@ -27,9 +27,10 @@ def lines_in_water(*, repeats: int) -> Section:
     return Section(
         title="Lines in water",
         text=(
-            f"{LENGTH:g} m of wire in {SEGMENTS} segments from 5 m below the surface, {LOAD / 1e3:g} t on it; "
-            f"the sea has {COMPONENTS} components (Hs 2 m, Tp 8 s). One evaluation, recursive form, and runs of {T_END:g} "
-            "s by the default method from rest, without finding it; best of all repeats."
+            f"{LENGTH:g} m of wire in {SEGMENTS} segments, from 5 m below the surface on, {LOAD / 1e3:g} t "
+            "on it. "
+            f"The sea has {COMPONENTS} components (Hs 2 m, Tp 8 s). One evaluation, recursive form, and runs "
+            f"of {T_END:g} s by the default method from rest, without finding it; best of all repeats."
         ),
         head=["in", "segments", "evaluation [us]", "evaluations per s", "times real time"],
         rows=rows,

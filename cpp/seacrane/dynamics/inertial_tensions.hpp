@@ -56,7 +56,7 @@ class InertialTensions {
     int place;  // among the tensions
   };
   std::vector<Tensioned> loads_;
-  std::vector<std::vector<int>> on_;  // bodies of each, without the ground, by place
+  std::vector<std::vector<int>> on_;                        // bodies of each, without the ground, by place
   std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;

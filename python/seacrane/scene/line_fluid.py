@@ -81,8 +81,10 @@ class Fluid:
     def along(self, name: str, ends: tuple[_Point, _Point], length: float | _core.Curve) -> Any:
         """What it does to a segment of a length (m)."""
         (first, first_point), (second, second_point) = ends
-        span = {"first": first, "second": second, "first_point": first_point, "second_point": second_point,
-                "density": self.density, "diameter": self.diameter, "length": length}  # fmt: skip
+        span: dict[str, Any] = {
+            "first": first, "second": second, "first_point": first_point, "second_point": second_point,
+            "density": self.density, "diameter": self.diameter, "length": length,
+        }  # fmt: skip
         if not self.in_sea:
             return _core.SpanDrag(
                 name=f"{name} drag", coefficient=self.drag_coefficient, flow=self.flow, **span

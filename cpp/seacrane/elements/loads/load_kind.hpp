@@ -30,7 +30,7 @@ class LoadContext {
   virtual int input(const std::string& name, int count = 1) = 0;
   /// A place among the inertial tensions.
   virtual int inertial_tension() = 0;
-  /// The number of a stencil of points at which the load looks at the sea, see SeaView; of equal ones the same.
+  /// Of a stencil of points at which the load looks at the sea, see SeaView: equal ones have one number.
   virtual int stencil(const FlowStencil& stencil) = 0;
   /// What a load of a kind follows, of those that were compiled before.
   virtual Followed followed(const std::string& kind, const std::string& name) const = 0;
