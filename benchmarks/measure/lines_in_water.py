@@ -63,5 +63,5 @@ def _cost(scene: Scene, repeats: int) -> tuple[float, float, float]:
         began = time.thread_time()
         run.advance(T_END)
         fastest = min(fastest, time.thread_time() - began)
-        evaluations = run.stats["evaluations"]
+        evaluations = run.stats()["evaluations"]
     return 1e-3 * min(took), evaluations / T_END, T_END / fastest
