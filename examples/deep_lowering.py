@@ -143,7 +143,7 @@ if len(sys.argv) > 1:
     for name, label in (("waves", f"Hs {HS:g} m, Tp {TP:g} s"), ("calm", "calm")):
         pull.plot(depth, pulls[name][:, 0] / 1e3, linewidth=0.8, label=f"at the tip, {label}")
         pull.plot(depth, pulls[name][:, 1] / 1e3, linewidth=0.8, label=f"at the load, {label}")
-    pull.plot(depths, [static(each) / 1e3 for each in depths], "k.", label="at the tip, by hand")
+    pull.plot(depths, [static(each) / 1e3 for each in depths], "k.", label="at the tip, at rest, by hand")
     pull.axhline(LEAST * LOAD / 1e3, color="tab:red", linestyle="--", label="tenth of the least static")
     pull.set_ylabel("pull [kN]")
     rise.plot(middles, ran, "o", label="run")

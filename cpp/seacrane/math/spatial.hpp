@@ -92,6 +92,16 @@ T dot(const Twist<T>& v, const Wrench<T>& w) {
   return dot<T>(v.linear(), w.force()) + dot<T>(v.angular(), w.moment());
 }
 
+/// To the inertia of a body, that of a mass `own` that differs by direction, at a lever from its state point.
+template <class T>
+void add_mass_at(const Vec3<T>& lever, const Mat3<T>& own, Mat6<T>& to) {
+  const Mat3<T> across = skew<T>(lever), turned = across * own;
+  to.template topLeftCorner<3, 3>() += own;
+  to.template bottomLeftCorner<3, 3>() += turned;
+  to.template topRightCorner<3, 3>() += turned.transpose();
+  to.template bottomRightCorner<3, 3>() -= turned * across;
+}
+
 /// Inertia of a rigid body about its centre of mass, or of what is as plain: wrench = inertia * acceleration.
 template <class T>
 struct CompactInertia {

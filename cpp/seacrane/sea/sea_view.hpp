@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <memory>
-#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -24,15 +23,6 @@ class SeaView {
 
   const SeaField* field() const { return field_.get(); }
   double depth() const { return field_ ? field_->depth() : std::numeric_limits<double>::infinity(); }
-
-  /// FlowEvaluator::line and cloud; what they return holds until the stencil is evaluated again.
-  std::span<const LocalFlow<double>> line(int stencil, double t, const Vec3d& first, const Vec3d& step,
-                                          bool whole = true) const {
-    return evaluators_[idx(stencil)].line(t, first, step, whole);
-  }
-  std::span<const LocalFlow<double>> cloud(int stencil, double t, std::span<const FlowPoint> points) const {
-    return evaluators_[idx(stencil)].cloud(t, points);
-  }
 
   /// The flow at an element of a stencil whose elements differ by equal steps, FlowEvaluator::row; with
   /// slopes where T is a Dual.

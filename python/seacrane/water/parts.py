@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
@@ -62,7 +63,7 @@ class Piece:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Part:
+class _Part(ABC):
     """What all parts have.
 
     Parameters
@@ -87,18 +88,18 @@ class _Part:
         text_of(f"{self.kind}: source", self.source, "")
 
     @property
+    @abstractmethod
     def extent(self) -> float:
         """Its longest side, m."""
-        raise NotImplementedError
 
+    @abstractmethod
     def pieces(self, density: float) -> Iterator[Piece]:
         """Its strips in water of a density, kg/m3."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def sources(self) -> str:
         """Where its coefficients are from."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,6 +13,7 @@
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/elements/loads/wet_volume.hpp"
 #include "seacrane/math/monotone_spline.hpp"
+#include "seacrane/math/spatial.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
@@ -186,12 +187,7 @@ struct ImmersedPart {
     if (!(at.depth > T(0))) return;
     const Vec3<T> along = added.at(at.depth).value;
     const Mat3<T> weighted = at.axes * along.asDiagonal(), a = weighted * at.axes.transpose();
-    const Mat3<T> lever = skew<T>(at.lever), turned = lever * a;
-    Mat6<T>& to = mass[body];
-    to.template topLeftCorner<3, 3>() += a;
-    to.template bottomLeftCorner<3, 3>() += turned;
-    to.template topRightCorner<3, 3>() += turned.transpose();
-    to.template bottomRightCorner<3, 3>() -= turned * lever;
+    add_mass_at<T>(at.lever, a, mass[body]);
   }
 
   template <class T>

@@ -9,6 +9,7 @@
 
 #include "seacrane/elements/loads/span.hpp"
 #include "seacrane/math/curve.hpp"
+#include "seacrane/math/spatial.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
@@ -114,13 +115,8 @@ struct ImmersedSpan {
     const Mat3<T> across_span = Mat3<T>::Identity() - at.direction * at.direction.transpose();
     for (const End<T>& end : at.ends) {
       if (!(end.wet > T(0))) continue;
-      const Mat3<T> lever = skew<T>(end.lever), own = across_span * (T(added) * end.wet);
-      const Mat3<T> turned = lever * own;
-      Mat6<T>& to = mass[end.body];
-      to.template topLeftCorner<3, 3>() += own;
-      to.template bottomLeftCorner<3, 3>() += turned;
-      to.template topRightCorner<3, 3>() += turned.transpose();
-      to.template bottomRightCorner<3, 3>() -= turned * lever;
+      const Mat3<T> own = across_span * (T(added) * end.wet);
+      add_mass_at<T>(end.lever, own, mass[end.body]);
     }
   }
 
