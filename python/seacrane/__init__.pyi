@@ -54,7 +54,7 @@ from seacrane import pictures as pictures
 
 # Rest, statics, linear theory
 from seacrane.analysis.rest_state import equilibrium as equilibrium
-from seacrane.analysis.inverse import balance as balance
+from seacrane.analysis.weight_balance import balance as balance
 from seacrane.answers.statics import statics as statics
 from seacrane.answers.load_chart import load_chart as load_chart
 from seacrane.analysis.modal_analysis import natural_modes as natural_modes

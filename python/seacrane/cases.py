@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis import quasi_static
-from seacrane.analysis.inverse import Balance, reflected_inertia, tuned_gains
-from seacrane.analysis.weight_balance import balance_by_force
+from seacrane.analysis.inverse import reflected_inertia, tuned_gains
+from seacrane.analysis.weight_balance import Balance, balance_by_force
 from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database

@@ -1,8 +1,8 @@
 """Rest, statics, inverse dynamics and linear theory of a scene."""
 
 from seacrane.analysis.rest_state import equilibrium as equilibrium
-from seacrane.analysis.inverse import balance as balance
-from seacrane.analysis.inverse import Balance as Balance
+from seacrane.analysis.weight_balance import balance as balance
+from seacrane.analysis.weight_balance import Balance as Balance
 from seacrane.analysis.modal_analysis import natural_modes as natural_modes
 from seacrane.analysis.modal_analysis import NaturalModes as NaturalModes
 from seacrane.analysis.linear_system import linear_model as linear_model

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.crane_poses import path_through, places_of, posed
-from seacrane.analysis.inverse import drive_loads, hold_vessel, weight_of
+from seacrane.analysis.inverse import drive_loads, hold_vessel
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
+from seacrane.analysis.weight_balance import weight_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.forces import add_point_force

@@ -1,12 +1,11 @@
-"""Static balance, inverse dynamics and driven scenes: which loads does a motion need?
+"""Inverse dynamics and driven scenes: which loads does a motion need?
 
-All three prescribe coordinates by drivers and read their multipliers.
+Both prescribe coordinates by drivers and read their multipliers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,52 +15,20 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description, Some
 from seacrane.description.drives import add_driver
-from seacrane.description.given import floating_bodies, given_vessels
+from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
-from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
+from seacrane.inputs.frames import heading_of, rotation_about_z
 
 Array = NDArray[np.float64]
 Motion = Mapping[tuple[str, str], _core.Curve]
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 RESTING = 1e-4  # of gravity: an acceleration below it is rest
 SMALLEST = 1e-6  # m/s2 or rad/s2: likewise without gravity
-
-
-@dataclass(frozen=True, kw_only=True)
-class Balance:
-    """Loads that hold a scene at rest as described.
-
-    Attributes
-    ----------
-    vessel_wrenches : mapping of str to ndarray, shape (6,)
-        By the vessel's body: force (N) and moment (N m) on it about its origin, inertial axes.
-    loads : mapping of str to float
-        Along each actuated joint coordinate, by actuator name: N (cylinders, positive pushes) or N m.
-    weight : float
-        Of all bodies that have weight, N.
-    weight_center : ndarray, shape (3,)
-        Their common centre of mass at the start, inertial frame, m.
-    """
-
-    vessel_wrenches: Mapping[str, Array]
-    loads: Mapping[str, float]
-    weight: float
-    weight_center: Array
-
-    @property
-    def vessel_wrench(self) -> Array | None:
-        """The wrench on the only vessel; None without one, SceneError with several."""
-        if len(self.vessel_wrenches) > 1:
-            raise SceneError(
-                f"balance: vessels {', '.join(map(repr, self.vessel_wrenches))} have a wrench each; take it "
-                "from vessel_wrenches by its name"
-            )
-        return next(iter(self.vessel_wrenches.values()), None)
 
 
 def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
@@ -138,43 +105,6 @@ def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state
     return np.array([loads[drivers.index(name)] for name in names])
 
 
-def balance(scene: Description) -> Balance:
-    """Loads that keep the described scene at rest.
-
-    Drivers hold the vessel's six motions and every actuated coordinate; what hangs is taken to hang at
-    rest. Waves are left out.
-
-    Raises
-    ------
-    SceneError
-        If a body would accelerate although everything driven is held (it is described off its rest pose).
-    """
-    held = locked_at_rest(scene)
-    model = compile_scene(held)
-    state = np.array(model.initial_state)
-    terms = _core.Evaluator(model).terms(0.0, state)
-    worst = int(np.argmax(np.abs(terms["acceleration"])))
-    if abs(terms["acceleration"][worst]) > at_rest(scene):
-        body = model.bodies[worst // 6]
-        raise SceneError(
-            f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all "
-            "driven coordinates held; describe it at its rest pose"
-        )
-    wrenches = {}
-    for vessel in (one for one in scene.vessels.values() if one.floats):
-        names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
-        wrenches[vessel.body] = _multipliers(model, names, time=0.0, state=state)
-    actuated = list(scene.actuators)
-    loads = _multipliers(model, [_driver_name(name) for name in actuated], time=0.0, state=state)
-    weight, center = weight_of(scene)
-    return Balance(
-        vessel_wrenches=wrenches,
-        loads=dict(zip(actuated, loads.tolist(), strict=True)),
-        weight=weight,
-        weight_center=center,
-    )
-
-
 def actuator_loads(scene: Description, held: Description, state: _core.State) -> Array:
     """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
     names = [_driver_name(name) for name in scene.actuators]
@@ -184,19 +114,6 @@ def actuator_loads(scene: Description, held: Description, state: _core.State) ->
 def drive_loads(model: _core.Model, names: Sequence[str], state: _core.State) -> Array:
     """Loads of drivers, by name, at a state."""
     return _multipliers(model, names, time=state.time, state=np.array(state.values))
-
-
-def weight_of(scene: Description) -> tuple[float, Array]:
-    """Weight of all bodies that have weight but vessels, N; and their centre of mass, inertial frame, m."""
-    floating = floating_bodies(scene)
-    masses, centers = [], []
-    for body in scene.bodies.values():
-        if body.gravity and body.name not in floating:
-            masses.append(body.mass)
-            centers.append(body.position + rotation_matrix(body.quaternion) @ body.center_of_mass)
-    total = float(np.sum(masses))
-    center = np.zeros(3) if not masses else np.average(centers, axis=0, weights=masses)
-    return total * scene.gravity, center
 
 
 def _driver_name(actuator: str) -> str:

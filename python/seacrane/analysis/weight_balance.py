@@ -1,13 +1,148 @@
-"""A constant force that carries the weight of what a vessel has on it."""
+"""Loads that hold a scene at rest, and a constant force that carries what a vessel has on it."""
 
 from __future__ import annotations
 
-from seacrane.analysis.inverse import Balance, balance
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.inverse import SIX, actuator_loads, at_rest, drive_loads, locked_at_rest
+from seacrane.analysis.rest_state import held, rest_states
+from seacrane.description.body_motion import position_of
+from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.forces import add_point_force
 from seacrane.description.given import floating_bodies, given_vessels
+from seacrane.description.places import place_of
+from seacrane.description.wet_parts import immersed_parts, waters_in, wet_bodies
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
+
+Array = NDArray[np.float64]
+WET = {"position", "quaternion", "load_force", "load_moment"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Balance:
+    """Loads that hold a scene at rest.
+
+    Attributes
+    ----------
+    vessel_wrenches : mapping of str to ndarray, shape (6,)
+        By the vessel's body: force (N) and moment (N m) on it about its origin, inertial axes.
+    loads : mapping of str to float
+        Along each actuated joint coordinate, by actuator name: N (cylinders, positive pushes) or N m.
+    weight : float
+        Of all bodies that have weight, N, less what water carries of them.
+    weight_center : ndarray, shape (3,)
+        Where it acts, inertial frame, m: without water the common centre of mass at the start.
+    """
+
+    vessel_wrenches: Mapping[str, Array]
+    loads: Mapping[str, float]
+    weight: float
+    weight_center: Array
+
+    @property
+    def vessel_wrench(self) -> Array | None:
+        """The wrench on the only vessel; None without one, SceneError with several."""
+        if len(self.vessel_wrenches) > 1:
+            raise SceneError(
+                f"balance: vessels {', '.join(map(repr, self.vessel_wrenches))} have a wrench each; take it "
+                "from vessel_wrenches by its name"
+            )
+        return next(iter(self.vessel_wrenches.values()), None)
+
+
+def balance(scene: Description) -> Balance:
+    """Loads that keep the described scene at rest.
+
+    Drivers hold the vessel's six motions and every actuated coordinate; what hangs is taken to hang at
+    rest. Where parts of it are in water they carry it too, so that it hangs higher than described: its rest
+    is looked for first. Waves are left out.
+
+    Raises
+    ------
+    SceneError
+        If a body would accelerate although everything driven is held (it is described off its rest pose);
+        with parts in water, if there is no rest near.
+    """
+    still = locked_at_rest(scene)
+    state = _resting(still) if wet_bodies(scene) else _as_described(still)
+    still = held(still) if wet_bodies(scene) else still
+    model = compile_scene(still)
+    wrenches = {}
+    for vessel in (one for one in scene.vessels.values() if one.floats):
+        names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
+        wrenches[vessel.body] = drive_loads(model, names, state)
+    weight, center = weight_of(scene)
+    return Balance(
+        vessel_wrenches=wrenches,
+        loads=dict(zip(scene.actuators, actuator_loads(scene, still, state).tolist(), strict=True)),
+        weight=weight,
+        weight_center=center,
+    )
+
+
+def _as_described(still: Description) -> _core.State:
+    """The state that is described; SceneError where it is no rest."""
+    model = compile_scene(still)
+    values = np.array(model.initial_state)
+    acceleration = _core.Evaluator(model).terms(0.0, values)["acceleration"]
+    worst = int(np.argmax(np.abs(acceleration)))
+    if abs(acceleration[worst]) > at_rest(still):
+        raise SceneError(
+            f"body {model.bodies[worst // 6]!r}: accelerates by {acceleration[worst]:.3g} (m/s2 or rad/s2) "
+            "with all driven coordinates held; describe it at its rest pose"
+        )
+    return _core.State(time=0.0, values=values, inputs=np.zeros(model.slots))
+
+
+def _resting(still: Description) -> _core.State:
+    """That in which what hangs in water is at rest, everything driven held."""
+    return next(rest_states(still, times=[0.0]))
+
+
+def weight_of(scene: Description) -> tuple[float, Array]:
+    """Weight of all bodies that have weight but vessels, less what water carries, N; where it acts, m.
+
+    In the inertial frame, as described; with parts in water, at the rest of what hangs.
+    """
+    floating = floating_bodies(scene)
+    heavy = [body for body in scene.bodies.values() if body.gravity and body.name not in floating]
+    weights = scene.gravity * np.array([body.mass for body in heavy])
+    if wet_bodies(scene) - floating:
+        return _weight_in_water(scene, heavy, weights)
+    centers = [place_of(scene, body=body.name, point=body.center_of_mass) for body in heavy]
+    center = np.average(centers, axis=0, weights=weights) if heavy else np.zeros(3)
+    return float(weights.sum()), center
+
+
+def _weight_in_water(scene: Description, heavy: Sequence[_core.Body], weights: Array) -> tuple[float, Array]:
+    """Of the bodies, and of what water does to their parts where they rest."""
+    still = held(locked_at_rest(scene))
+    state, model = _resting(still), compile_scene(still)
+    run = _core.Simulation(
+        model=model, start=_core.State(time=0.0, values=state.values, inputs=np.zeros(model.slots)),
+        options=_core.RunOptions(integrator="rk4", output_times=[0.0], channels=WET),
+    )  # fmt: skip
+    arrays = run.channels()
+    centers = np.array([position_of(scene, arrays, body.name, body.center_of_mass)[0] for body in heavy])
+    force = np.array([0.0, 0.0, -float(weights.sum())])
+    moment = np.cross(centers, np.outer(weights, [0.0, 0.0, -1.0])).sum(axis=0)
+    on = {body.name for body in heavy}
+    for load in (*immersed_parts(scene).values(), *waters_in(scene)):
+        if load.body in on:
+            at = model.axes["load"].index(load.name)
+            push = arrays["load_force"][0, at]
+            origin = position_of(scene, arrays, load.body, (0.0, 0.0, 0.0))[0]
+            force, moment = force + push, moment + arrays["load_moment"][0, at] + np.cross(origin, push)
+    weight = -float(force[2])
+    place = np.array([moment[1], -moment[0]]) / weight  # of a downward force with that moment
+    return weight, np.array([*place, np.average(centers[:, 2], weights=weights)])
 
 
 def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "balance") -> Balance:

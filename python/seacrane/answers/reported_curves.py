@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.suspension import ROD
+from seacrane.description.wet_parts import immersed_depths, immersed_parts, wet_names
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.overview import payload_bodies
 from seacrane.result import Result
-from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.result.traces import NO_ENERGY, NO_MOTION, Trace, beyond_rounding, traces
 from seacrane.run.hanging import swing_of
 
 Array = NDArray[np.float64]
@@ -31,7 +32,8 @@ REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
 POSES = ("position", "quaternion")
 CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
-SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
+SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0)),
+      "kJ": 1e-3}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,6 +56,10 @@ class Curve:
         In the unit, where the run noted it.
     rung : str
         Of what a load hangs on; empty for all else.
+    suspension : str
+        Of a tension: of which it is, as channels name it.
+    of_one_fall : bool
+        Whether it is the tension of each of several falls.
     """
 
     kind: str
@@ -64,6 +70,8 @@ class Curve:
     pulls: bool = False
     static: float | None = None
     rung: str = ""
+    suspension: str = ""
+    of_one_fall: bool = False
 
     @property
     def name(self) -> str:
@@ -72,7 +80,7 @@ class Curve:
 
 
 def reported_curves(result: Result) -> list[Curve]:
-    """Tensions, cylinder forces, slew torques, how loads hang, and the vessels' heave, roll and pitch.
+    """Tensions, cylinder forces, slew torques, depths in water, how loads hang, and the vessels' motions.
 
     What was not recorded, or is zero up to rounding, is left out. Raises FileFormatError where a result holds
     notes that no run writes.
@@ -115,7 +123,7 @@ def _curves(result: Result) -> list[Curve]:
         for one in (traces(result, GAPS) if GAPS in held else [])
     ]
     hoists = [curve for one in hung for curve in _hoist(result, one, hung)]
-    return [*hoists, *found, *_offsets(result), *leads, *gaps, *_motions(result)]
+    return [*hoists, *found, *_water(result), *_offsets(result), *leads, *gaps, *_motions(result)]
 
 
 def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, Any]]) -> list[Curve]:
@@ -130,15 +138,15 @@ def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, 
     found = []
     if load is not None:
         per_tonne = TONNES[load.unit] / STANDARD_GRAVITY
-        found.append((HOOK, "t", per_tonne * load.values, weights.get(lower, (None, 1))))
+        found.append((HOOK, "t", per_tonne * load.values, lower, weights.get(lower, (None, 1))))
     if pull is not None:
         factor, unit = REPORTED.get(pull.unit, (1.0, pull.unit))
-        found.append(("hoist tension", unit, factor * pull.values, weights.get(upper, (None, 1))))
+        found.append(("hoist tension", unit, factor * pull.values, upper, weights.get(upper, (None, 1))))
     return [
         Curve(kind=kind, label=label, unit=unit, values=values, load=True, pulls=True, rung=one["rung"],
-              static=None if weight is None else
+              suspension=name, of_one_fall=kind != HOOK, static=None if weight is None else
               weight * si_factor(unit) / (1 if kind == HOOK else falls))
-        for kind, unit, values, (weight, falls) in found
+        for kind, unit, values, name, (weight, falls) in found
     ]  # fmt: skip
 
 
@@ -163,7 +171,7 @@ def _same(result: Result, hook: Trace) -> bool:
     return bool(np.allclose(load, pull, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(pull)), equal_nan=True))
 
 
-SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad"}
+SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad", "kJ": "J"}
 
 
 def si_factor(unit: str) -> float:
@@ -180,20 +188,49 @@ def _load(result: Result, one: Trace) -> Curve:
         kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values,
         load=one.channel != "slew_torque",
         pulls=one.channel in TENSIONS,
+        suspension=_suspension(result, one) if one.channel in TENSIONS else "",
+        of_one_fall=one.channel == "line_tension",
         static=None if static is None else static * si_factor(unit),
     )  # fmt: skip
 
 
 def _hanging_weight(result: Result, one: Trace) -> float | None:
     """The weight of the load on a rod, wire or line, N, as the run noted it; on one of its falls."""
-    name = one.names[0] if one.names else ""
-    weights = result.about.hanging_weight
-    if one.channel == "line_tension" and f"{name} line" in weights:
-        name = f"{name} line"
+    name, weights = _suspension(result, one), result.about.hanging_weight
     if name not in weights:
         return None
     weight, falls = weights[name]
     return float(weight) / (falls if one.channel == "line_tension" else 1)
+
+
+def _suspension(result: Result, one: Trace) -> str:
+    """A rod, wire or line by its name in the channels over `suspension`."""
+    name = one.names[0] if one.names else ""
+    beside = f"{name} line"
+    known = result.coords.get("suspension", ())
+    return beside if one.channel == "line_tension" and beside in known else name
+
+
+def _water(result: Result) -> list[Curve]:
+    """Of each body with parts in water: the depth of its lowest point, and what slam took so far."""
+    scene = result.scene
+    parts = {} if scene is None else immersed_parts(scene)
+    if scene is None or not parts:
+        return []
+    arrays = {name: result[name] for name in POSES if name in result.channels}
+    depths, bodies = immersed_depths(scene, arrays), dict.fromkeys(part.body for part in parts.values())
+    found = [] if depths is None else [
+        Curve(kind=f"{body} depth", label="", unit="m", values=depths[:, list(wet_names(scene)).index(body)])
+        for body in bodies
+    ]  # fmt: skip
+    states = list(result.coords.get("state_name", ())) if "load_state" in result.channels else []
+    for body in bodies:
+        losses = [f"{name}.slam_loss" for name, part in parts.items() if part.body == body]
+        if states and set(losses) <= set(states):
+            lost = result["load_state"][:, [states.index(name) for name in losses]].sum(axis=1)
+            if np.nanmax(np.abs(lost)) > NO_ENERGY:
+                found.append(Curve(kind=f"{body} slam loss", label="", unit="kJ", values=1e-3 * lost))
+    return found
 
 
 def _offsets(result: Result) -> list[Curve]:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.analysis.least_pulls import least_pulls
 from seacrane.answers.hanging_rest import static_pulls
 from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
 from seacrane.answers.statics import Statics
 from seacrane.description.rungs import RIGID
-from seacrane.description.suspension import ROD
-from seacrane.errors import SceneError
+from seacrane.description.suspension import ROD, suspensions
+from seacrane.description.wet_parts import wet_bodies
+from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.tabular import Tabular
@@ -35,6 +37,10 @@ DASHED = (
 BLIND = (ROD, RIGID)  # a quasi-static line ends the run where it goes slack
 SLACK = 0.02  # of the static load: less is slack, or stands on something
 STARRED = "* at the first output told of: no static value is known."
+WET = (
+    "min/static is over the least static load of each line: with parts in water below, that with all of them "
+    "under water."
+)
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
@@ -58,7 +64,9 @@ class SummaryRow:
     factor : float or None
         Dynamic factor of a load: what is largest in the sense of the static load, over the static load. None
         where no static load is known.
-    slack_margin : Smallest tension over the static one, of what pulls; zero and below is slack.
+    slack_margin : float or None
+        Smallest tension over the least static one, of what pulls; zero and below is slack. The least is
+        `static` but with parts in water below, as of the channel `slack_margin`.
     blind : bool
         Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
     printed : The unit in which the row is printed.
@@ -237,12 +245,25 @@ def summary(
         replace(one, static=known[one.name] * si_factor(one.unit) if one.name in known else one.static)
         for one in curves
     ]
-    rows = [_row(one, time, one.values[part]) for one in every]
+    least = _least_pulls(result)
+    rows = [_row(one, time, one.values[part], least) for one in every]
     inside = [replace(one, values=one.values[part]) for one in every]
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
-        remarks=(*remarks_on(result, time, inside), *_restless(told)), utilisation=result.utilisation,
+        remarks=(*remarks_on(result, time, inside), *_restless(told), *([WET] if least else [])),
+        utilisation=result.utilisation,
     )  # fmt: skip
+
+
+def _least_pulls(result: Result) -> dict[str, tuple[float, int]]:
+    """Least static load (N) of each suspension of a scene with parts in water, and on how many falls."""
+    if result.scene is None or not wet_bodies(result.scene):
+        return {}
+    try:
+        falls = {name: one.falls for one in suspensions(result.scene) for name in (one.channel, one.top)}
+        return {name: (pull, falls.get(name, 1)) for name, pull in least_pulls(result.scene).items()}
+    except SeacraneError:  # what comes to no rest has no margin
+        return {}
 
 
 def _restless(told: dict[str, float] | str) -> list[str]:
@@ -282,13 +303,15 @@ def _part(result: Result, after: float | None, before: float | None) -> slice:
     return part
 
 
-def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
+def _row(curve: Curve, time: Array, values: Array, least: Mapping[str, tuple[float, int]]) -> SummaryRow:
     known = curve.static is not None
     first = values[np.isfinite(values)][0]
     static = float(first if curve.static is None else curve.static)
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
     per = si_factor(curve.unit)
     blind = known and curve.rung in BLIND and float(values[low]) < SLACK * static
+    pull, falls = least.get(curve.suspension, (0.0, 1))
+    over = pull * per / (falls if curve.of_one_fall else 1) or (static if known else 0.0)
     has_factor = curve.load and known and not blind
     return SummaryRow(
         name=curve.name, unit=SI_UNITS.get(curve.unit, curve.unit), printed=curve.unit,
@@ -298,7 +321,7 @@ def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
         maximum=float(values[high]) / per, maximum_at=float(time[high]),
         factor=_factor(static, float(values[low]), float(values[high])) if has_factor else None,
         blind=blind,
-        slack_margin=float(values[low]) / static if curve.pulls and known and static > 0.0 else None,
+        slack_margin=float(values[low]) / over if curve.pulls and over > 0.0 else None,
     )  # fmt: skip
 
 

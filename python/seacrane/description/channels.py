@@ -136,7 +136,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "slack_margin": _derived(
             "weighed",
             "1",
-            "load on the lower end over the weight that hangs on it alone, under water where parts in water "
+            "load on the lower end over the least static one there, that under water where parts in water "
             "hang; slack at zero",
             f"tension line_tension {_POSE}",
             by_default=False,

@@ -12,7 +12,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import RIGID, WITH_MASS
-from seacrane.description.wet_parts import buoyancy_of, waters_in, wet_bodies
+from seacrane.description.wet_parts import buoyancy_of, water_in, wet_bodies
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -139,20 +139,55 @@ def static_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
 
 @once_in_any_sea
 def least_weights(scene: Description) -> Mapping[str, float]:
-    """Least weight (N) on every suspension that alone carries it, by its `channel`: with all parts in water.
+    """Least weight (N) at rest on every suspension that alone carries it, by its `channel`.
 
-    None of what water comes into, and of what floats.
+    The lesser of two: in air, with compartments empty, and with all parts in water, compartments full. None
+    of what floats.
     """
-    ties, filled, found = _ties_of(scene), {water.body for water in waters_in(scene)}, {}
+    ties, found = _ties_of(scene), {}
     for one in suspensions(scene):
-        below, weight = ties.below(one), ties.weight(one)
-        if weight is None or filled & set(below):
-            continue
-        left = weight - buoyancy_of(scene, below)
+        left = _least_weight(scene, ties.below(one))
         if left > 0.0:
             found[one.channel] = left
             found[one.top] = left + ties.weight_of(_inside(scene, one))
     return found
+
+
+def _least_weight(scene: Description, bodies: Sequence[str]) -> float:
+    """N, of bodies that hang; below zero: they float."""
+    in_water = water_in(scene, bodies) - buoyancy_of(scene, bodies)
+    return _ties_of(scene).weight_of(bodies) + min(in_water, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rig:
+    """What hangs on one suspension, or on several between the same two bodies, as slings do.
+
+    Attributes
+    ----------
+    held : By which it hangs.
+    bodies : Those that it is made of, that at the lower end of `held` first.
+    inner : What hangs on what inside it, such as slings below a block.
+    """
+
+    held: tuple[Suspension, ...]
+    bodies: tuple[str, ...]
+    inner: tuple[Suspension, ...]
+
+
+@once_in_any_sea
+def rigs(scene: Description) -> Sequence[Rig]:
+    """All that hang on nothing else, are part of no larger one, and sink."""
+    ties, between = _ties_of(scene), {}
+    for one in suspensions(scene):
+        between.setdefault((one.held_at[0], one.lower[0]), []).append(one)
+    found = [(tuple(held), ties.below(*held)) for held in between.values()]
+    out: list[Rig] = []
+    for held, bodies in sorted(found, key=lambda pair: -len(pair[1])):
+        if bodies and not any(set(bodies) <= set(other.bodies) for other in out):
+            inner = [one for one in suspensions(scene) if one not in held and one.lower[0] in bodies]
+            out.append(Rig(held=held, bodies=tuple(bodies), inner=tuple(inner)))
+    return [rig for rig in out if _least_weight(scene, rig.bodies) > 0.0]
 
 
 def _wet_suspensions(scene: Description) -> set[str]:
@@ -261,7 +296,7 @@ class _Ties:
         self._bodies, self._gravity = dict(scene.bodies), scene.gravity
         self._held = floating_bodies(scene)
         self._ties = list(_ties(scene))
-        self._below: dict[Suspension, list[str]] = {}
+        self._below: dict[tuple[Suspension, ...], list[str]] = {}
 
     def weight(self, suspension: Suspension) -> float | None:
         """Weight of what hangs on it, N; None where that hangs on something else too."""
@@ -272,20 +307,21 @@ class _Ties:
         heavy = [self._bodies[body] for body in bodies if self._bodies[body].gravity]
         return sum(body.mass for body in heavy) * self._gravity
 
-    def below(self, suspension: Suspension) -> Sequence[str]:
-        """The bodies that it carries, that at its end first; none where something else carries them too."""
-        if suspension not in self._below:
-            self._below[suspension] = self._reached(suspension)
-        return self._below[suspension]
+    def below(self, *held: Suspension) -> Sequence[str]:
+        """The bodies that these alone carry, that at their end first; none where something else does too."""
+        if held not in self._below:
+            self._below[held] = self._reached(held)
+        return self._below[held]
 
-    def _reached(self, suspension: Suspension) -> list[str]:
+    def _reached(self, held: Sequence[Suspension]) -> list[str]:
+        parts = frozenset[str]().union(*(one.parts for one in held))
         neighbours: dict[str, list[str]] = {}
         for name, first, second in self._ties:
-            if name not in suspension.parts:
+            if name not in parts:
                 neighbours.setdefault(first, []).append(second)
                 neighbours.setdefault(second, []).append(first)
-        found, ahead = [], [suspension.lower[0]]
-        ends = {suspension.upper[0], suspension.first[0], *self._held}
+        found, ahead = [], [held[0].lower[0]]
+        ends = {*(end[0] for one in held for end in (one.upper, one.first)), *self._held}
         while ahead:
             body = ahead.pop()
             if body in ends or body not in self._bodies:

@@ -54,6 +54,13 @@ def buoyancy_of(scene: Description, bodies: Iterable[str]) -> float:
     return scene.gravity * sum(part.density * displaced_volume(part) for part in parts)
 
 
+def water_in(scene: Description, bodies: Iterable[str]) -> float:
+    """N, the weight of the water in the compartments of bodies that are under water."""
+    held = set(bodies)
+    full = [one for one in waters_in(scene) if one.body in held]
+    return scene.gravity * sum(one.density * one.area * one.height for one in full)
+
+
 def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
     """From the centre of a part down to its lowest point, m (...), with its axes in columns (..., 3, 3)."""
     size, up = np.asarray(part.size, dtype=float), np.abs(turn[..., 2, :])
@@ -63,6 +70,25 @@ def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
         across = np.sqrt(np.maximum(1.0 - up[..., 0] ** 2, 0.0))
         return np.asarray(0.5 * (size[0] * up[..., 0] + size[1] * across))
     return np.full(turn.shape[:-2], 0.5 * size[2])
+
+
+def carried_by_water(scene: Description, arrays: Mapping[str, Array], bodies: Iterable[str]) -> Array:
+    """N on bodies of parts that are wholly below z = 0, less the water in compartments there, (time,)."""
+    held = set(bodies)
+    total = np.zeros(len(arrays["position"]))
+    for part in immersed_parts(scene).values():
+        if part.body in held:
+            turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, part.body)]) @ np.asarray(
+                part.axes
+            )
+            top = position_of(scene, arrays, part.body, part.point)[:, 2] + half_height(part, turn)
+            total += np.where(top < 0.0, scene.gravity * part.density * displaced_volume(part), 0.0)
+    for one in waters_in(scene):
+        if one.body in held:
+            top = np.asarray(one.point) + np.array([0.0, 0.0, one.height])
+            under = position_of(scene, arrays, one.body, top)[:, 2] < 0.0
+            total -= np.where(under, scene.gravity * one.density * one.area * one.height, 0.0)
+    return total
 
 
 @once_in_any_sea

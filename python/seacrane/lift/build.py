@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from seacrane._core import Curve
-from seacrane.analysis.inverse import Balance, balance, reflected_inertia, tuned_gains
+from seacrane.analysis.inverse import reflected_inertia, tuned_gains
 from seacrane.analysis.quasi_static import feed_forward
-from seacrane.analysis.weight_balance import balance_by_force
+from seacrane.analysis.weight_balance import Balance, balance, balance_by_force
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
 from seacrane.lift.calls import Caller, Keywords, keywords

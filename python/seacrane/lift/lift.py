@@ -15,6 +15,7 @@ from seacrane.inputs.atomic import atomic_write
 from seacrane.lift.build import made, scene_of
 from seacrane.lift.check_keys import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
+from seacrane.lift.keys import Key
 from seacrane.lift.stages import check_stages, stages_of
 from seacrane.lift.toml_text import toml_text
 from seacrane.result.result import Result
@@ -193,11 +194,19 @@ def _listed(tables: Iterable[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
 
 def _relative(entry: Entry, folder: Path) -> tuple[str, dict[str, Any]]:
     """An entry's name and values, paths of files from a folder."""
-    values = plain(entry.values)
-    for key in entry.table.keys:
-        if key.type == "file" and values.get(key.name, SHIPPED[0]) not in SHIPPED:
-            values[key.name] = _path_from(folder, values[key.name])
-    return entry.table.name, values
+    return entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder)
+
+
+def _from_folder(keys: Iterable[Key], values: dict[str, Any], folder: Path) -> dict[str, Any]:
+    for key in keys:
+        value = values.get(key.name)
+        if key.type == "file" and value is not None and value not in SHIPPED:
+            values[key.name] = _path_from(folder, value)
+        elif key.type in ("table", "tables"):
+            for one in value if isinstance(value, list) else [value]:
+                if isinstance(one, dict):
+                    _from_folder(key.keys, one, folder)
+    return values
 
 
 def _path_from(folder: Path, path: str) -> str:

@@ -14,6 +14,7 @@ from seacrane.scene import given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.sea import Current, SeaState, WaveSystem
+from seacrane.water import from_mesh
 from seacrane.water.parts import PARTS
 
 READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
@@ -103,9 +104,13 @@ def part_keys() -> tuple[Key, ...]:
         "added_masses": {"type": "array", "unit": "kg", "shapes": ((-1, 3),)},
         "strips": {"type": "array", "shapes": ((2,), (1,))},
         "drag_area": {"type": "array", "unit": "m2", "shapes": ((3,),)},
+        "mesh": {"type": "file", "text": "Of a mesh: an STL or glTF file."},
+        "draughts": ROW | {"unit": "m"}, "slam": {"type": "number"}, "wetting": {"type": "number"},
     }  # fmt: skip
-    found = {key.name: key for kind in PARTS.values() for key in keys_of(kind, more=more)}
-    kind = Key(name="kind", type="text", required=True, choices=tuple(PARTS), text="What it is.")
+    of_mesh = keys_of(from_mesh, more=more, without=("density",))
+    found = {key.name: key for key in of_mesh}
+    found |= {key.name: key for kind in PARTS.values() for key in keys_of(kind, more=more)}
+    kind = Key(name="kind", type="text", required=True, choices=(*PARTS, "mesh"), text="What it is.")
     return (kind, *(replace(key, required=False) for key in found.values()))
 
 

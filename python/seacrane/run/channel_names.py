@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.analysis.least_pulls import least_pulls, weighed_suspensions
 from seacrane.description.body_motion import position_of
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.clearances import Clearance, distance_from_box
@@ -27,7 +28,7 @@ from seacrane.run.hanging import (
     tip_velocities,
     utilisations,
 )
-from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins, weighed_suspensions
+from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins
 from seacrane.run.motions import motions, winch_lines
 from seacrane.run.own import require_own, with_sources
 
@@ -84,13 +85,15 @@ def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, 
     """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
     usual = [*model.channel_names(), *(state.channel for state in scene.limit_states.values()), OWN]
     wanted = with_sources(scene, usual if asked is None else asked)
+    if "slack_margin" in wanted:
+        least_pulls(scene)  # before the run: what comes to no rest is refused
     return core_channels(wanted, model.channel_names(defaults_only=False))
 
 
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
-    "weighed": "a link, a wire or a line that alone carries a load: add one",
+    "weighed": "a link, a wire or lines that carry a load which nothing else holds: add one",
     "immersed": "parts in water: add_immersed them",
     "gap": "a clearance: add_clearance one",
     "pair": "two points: add_relative them",

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.analysis.least_pulls import least_pulls
 from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.crane_parts import hooks
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.suspension import (
     hooked_body,
     hung_loads,
-    least_weights,
     names_of_suspensions,
 )
 
@@ -53,19 +53,19 @@ def link_tensions(scene: Description, arrays: Mapping[str, Array], loads: Array 
     return np.stack([known[:, i] if i < known.shape[1] else unknown for i in columns], axis=1)
 
 
-def weighed_suspensions(scene: Description) -> list[str]:
-    """Names of the suspensions that alone carry what hangs on them."""
-    weights = least_weights(scene)
-    return [name for name in names_of_suspensions(scene) if name in weights]
-
-
 def slack_margins(scene: Description, loads: Array) -> Array | None:
-    """Hook loads (time, suspension) over the least weights there, (time, weighed); None without any."""
-    names, weights = names_of_suspensions(scene), least_weights(scene)
-    known = weighed_suspensions(scene)
-    if not known:
+    """Hook loads (time, suspension) over the least static ones, (time, weighed); None without any.
+
+    Zero of a sling that carries nothing at rest.
+    """
+    least, names = least_pulls(scene), names_of_suspensions(scene)
+    if not least:
         return None
-    return np.asarray(loads[:, [names.index(name) for name in known]] / [weights[name] for name in known])
+    columns = [
+        loads[:, names.index(name)] / pull if pull > 0.0 else np.zeros(len(loads))
+        for name, pull in least.items()
+    ]
+    return np.stack(columns, axis=1)
 
 
 def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:

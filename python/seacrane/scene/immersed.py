@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,10 +15,12 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, not_negative_of
 from seacrane.inputs.shown import shown
 from seacrane.water.density import SEA_WATER, density_of
+from seacrane.water.mesh_part import from_mesh
 from seacrane.water.parts import PARTS, BoxPart, CylinderPart, Part, PlatePart, SpherePart, TablePart
 
 Array = NDArray[np.float64]
 
+MAKERS: Mapping[str, Callable[..., Part]] = {**PARTS, "mesh": from_mesh}
 FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on it
 
 
@@ -40,7 +42,8 @@ def add_immersed(
         Name of the body. Its weight stays as it is.
     parts : sequence
         `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
-        `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries.
+        `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries; of the kind
+        "mesh" those of `from_mesh`.
     density : float
         kg/m3, of the water.
     wave_factor : float
@@ -101,13 +104,13 @@ def _part(what: str, given: Any) -> Part:
         raise SceneError(f"{what}: parts holds {shown(given)}; give parts of seacrane.water")
     entries = dict(given)
     kind = entries.pop("kind", None)
-    if kind not in PARTS:
-        raise SceneError(f"{what}: kind is {shown(kind)}; choose one of {', '.join(PARTS)}")
+    if kind not in MAKERS:
+        raise SceneError(f"{what}: kind is {shown(kind)}; choose one of {', '.join(MAKERS)}")
     if isinstance(entries.get("strips"), Sequence):  # numbers of a file
         strips = tuple(int(one) if float(one).is_integer() else one for one in entries["strips"])
         entries["strips"] = strips[0] if len(strips) == 1 else strips
     try:
-        return PARTS[kind](**entries)
+        return MAKERS[kind](**entries)
     except TypeError as error:
         raise SceneError(f"{what}: {kind}: {str(error).partition('() ')[2] or error}") from None
 

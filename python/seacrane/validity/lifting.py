@@ -13,7 +13,8 @@ from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.outline import box_edges, ship_size
 from seacrane.description.rungs import WITH_MASS
-from seacrane.description.suspension import hung_loads, suspensions, weights_on
+from seacrane.description.suspension import bodies_below, hung_loads, suspensions, weights_on
+from seacrane.description.wet_parts import carried_by_water
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
@@ -73,21 +74,26 @@ def _hanging(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
 
 
 def _overloads(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
+    carried = {one.name: bodies for one, bodies in bodies_below(scene)}
     for one in hung_loads(scene):
         roles = one.crane
         if roles is None or not _rated(scene, roles):
             continue
         weight = scene.bodies[one.load].mass * scene.gravity if one.weight is None else one.weight
         mass = weight / scene.gravity if scene.gravity else scene.bodies[one.load].mass
+        poses = {"position": position, "quaternion": quaternion}
+        water = carried_by_water(scene, poses, carried.get(one.suspension.name, (one.load,)))
+        left = mass - water / (scene.gravity or 1.0)
         radius = np.atleast_1d(tip_radius(scene, roles, position, quaternion))
         allowed = allowed_at(roles.capacity, radius)
-        at = int(allowed.argmin())
-        if mass > allowed[at]:
+        at = int((left - allowed).argmax())
+        if left[at] > allowed[at]:
+            lighter = f", of which water carries {(mass - left[at]) / 1e3:.4g} t," if left[at] < mass else ""
             yield (
                 OverloadWarning,
-                f"crane {roles.prefix!r}: its load {one.load!r} of {mass / 1e3:.4g} t, with what holds it, "
-                f"is above the {allowed[at] / 1e3:.4g} t of the crane's table at a radius of "
-                f"{radius[at]:.4g} m, where it is at t = {time[at]:.6g} s. Lift less, keep the tip nearer "
+                f"crane {roles.prefix!r}: its load {one.load!r} of {mass / 1e3:.4g} t, with what holds it"
+                f"{lighter or ','} is above the {allowed[at] / 1e3:.4g} t of the crane's table at a radius "
+                f"of {radius[at]:.4g} m, where it is at t = {time[at]:.6g} s. Lift less, keep the tip nearer "
                 "(seacrane.load_chart tells how near), or correct the table",
             )
 

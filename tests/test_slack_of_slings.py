@@ -1,0 +1,163 @@
+"""The slack criterion: each line and sling over its least static load, in air or under water."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+from scipy.spatial.transform import Rotation
+
+from seacrane import Scene, SceneError, simulate, summary
+from seacrane.analysis.least_pulls import least_pulls
+from seacrane.water import BoxPart, Opening
+
+Array = NDArray[np.float64]
+G, RHO, EA = 9.80665, 1025.0, 5e7
+MASS, BLOCK, SIZE = 40e3, 1e3, (6.0, 4.0, 3.0)  # kg, kg, m
+VOLUME = (3.0, 2.0, 2.0)  # m, of the box that keeps water out
+STEEP = np.radians(60.0)
+REACH = 0.5 * float(np.hypot(*SIZE[:2]))
+CORNERS = np.array([(x, y, 1.5) for x, y in ((3, 2), (3, -2), (-3, -2), (-3, 2))], dtype=float)
+THREE = np.array([(3.0, 2.0, 1.5), (3.0, -2.0, 1.5), (-3.0, 0.0, 1.5)])
+DRY, LIFT = MASS * G, RHO * G * float(np.prod(VOLUME))
+
+
+def rigged(
+    depth: float, *, at: Any = (0.0, 0.0, 0.0), points: Array = CORNERS, block: bool = True, wet: bool = True
+) -> Scene:
+    """A load on slings, its centre at a depth; below a block on a wire, or below the ground."""
+    scene = Scene(name="rig", gravity=G)
+    scene.add_body("load", mass=MASS, size=SIZE, position=(0.0, 0.0, -depth))
+    top = -depth + 1.5 + REACH * np.tan(STEEP)
+    held: dict[str, Any] = {"hook": "ground", "hook_point": (0.0, 0.0, top)}
+    if block:
+        scene.add_body("block", mass=BLOCK, size=(0.5, 0.5, 0.5), position=(0.0, 0.0, top))
+        scene.add_line(
+            "wire", first="ground", second="block", first_point=(0.0, 0.0, top + 10.0), EA=1e8,
+            tension_at_start=DRY + BLOCK * G,
+        )  # fmt: skip
+        held = {"hook": "block"}
+    scene.add_bridle("sling", load="load", points=points, EA=EA, **held)
+    if wet:
+        scene.add_immersed("load", parts=[BoxPart(size=VOLUME, point=at)], density=RHO)
+    return scene
+
+
+def by_energy(points: Array, lift: float, at: Any) -> Array:
+    """Tensions of slings from one point where the energy of a load that hangs on them is least, N."""
+    top = np.array([0.0, 0.0, 1.5 + REACH * np.tan(STEEP)])
+    lengths = np.linalg.norm(points - top, axis=1)
+
+    def pulls(x: Array) -> tuple[Array, Array, Rotation]:
+        turn = Rotation.from_rotvec(x[3:])
+        stretch = np.linalg.norm(x[:3] + turn.apply(points) - top, axis=1) / lengths - 1.0
+        return EA * np.maximum(stretch, 0.0), stretch, turn
+
+    def energy(x: Array) -> float:
+        tension, stretch, turn = pulls(x)
+        stored = 0.5 * float(np.sum(tension * np.maximum(stretch, 0.0) * lengths))
+        return (stored + DRY * x[2] - lift * (x[2] + float(turn.apply(at)[2]))) / DRY
+
+    found = np.zeros(6)
+    for _ in range(4):
+        found = minimize(energy, found, method="BFGS", options={"gtol": 1e-9}).x
+    return np.asarray(pulls(found)[0])
+
+
+def test_each_of_four_slings_carries_a_quarter_of_what_the_water_does_not() -> None:
+    least = least_pulls(rigged(-8.0))
+    assert least["wire"] == pytest.approx(DRY + BLOCK * G - LIFT, rel=1e-12)
+    quarter = (DRY - LIFT) / 4.0 / np.sin(STEEP)
+    assert [least[f"sling {i}"] for i in (1, 2, 3, 4)] == pytest.approx([quarter] * 4, rel=1e-3)
+
+
+@pytest.mark.parametrize("block", [True, False])
+@pytest.mark.parametrize(("points", "at"), [(THREE, (0.6, 0.4, 0.3)), (CORNERS, (1.0, 0.5, 0.0))])
+def test_slings_beside_the_centre_of_buoyancy_carry_what_least_energy_says(
+    points: Array, at: Any, block: bool
+) -> None:
+    """The lesser in air and under water, of three slings by statics alone and of four by their stretch."""
+    least = least_pulls(rigged(-8.0, points=points, at=at, block=block))
+    expected = np.minimum(by_energy(points, 0.0, at), by_energy(points, LIFT, at))
+    found = [least[f"sling {i + 1}"] for i in range(len(points))]
+    assert found == pytest.approx(expected.tolist(), rel=2e-4)
+    assert np.ptp(found) > 0.1 * np.mean(found)
+
+
+def test_the_pull_does_not_hang_on_where_the_load_is_described() -> None:
+    above, below = (
+        least_pulls(rigged(-8.0, at=(1.0, 0.5, 0.0))),
+        least_pulls(rigged(60.0, at=(1.0, 0.5, 0.0))),
+    )
+    assert list(above.values()) == pytest.approx(list(below.values()), rel=1e-6)
+
+
+def test_the_margin_under_water_is_one_at_rest_and_the_limit_state_knows_each_sling() -> None:
+    scene = rigged(30.0)
+    scene.add_limit_state("slack[sling 2]")
+    scene.add_limit_state("slack_margin", minimum=1.2, name="too much")
+    result = simulate(scene, t_end=0.5, dt_out=0.1, start="rest")
+    assert result.coords["weighed"] == ("wire", "sling 1", "sling 2", "sling 3", "sling 4")
+    assert result["slack_margin"] == pytest.approx(1.0, abs=1e-4)
+    one, other = result.utilisation
+    assert one.kept
+    assert one.utilisation == pytest.approx(0.1, rel=1e-3)
+    assert not other.kept
+
+
+def test_a_dry_sling_is_over_its_load_in_air() -> None:
+    result = simulate(rigged(-8.0, wet=False), t_end=0.2, dt_out=0.1, start="rest", channels=["slack_margin"])
+    assert result["slack_margin"] == pytest.approx(1.0, abs=1e-5)
+
+
+def test_a_sling_that_is_slack_at_rest_has_no_margin_left() -> None:
+    """The fourth is a tenth longer than its path."""
+    scene = rigged(-8.0)
+    loose = scene.loads["sling 4"]
+    scene.replace("sling 4", length=1.1 * loose.length.evaluate([0.0])[0, 0])
+    scene.add_limit_state("slack")
+    result = simulate(scene, t_end=0.1, dt_out=0.1, start="rest")
+    assert np.all(result.select("slack_margin", weighed="sling 4") == 0.0)
+    (state,) = result.utilisation
+    assert not state.kept
+    assert state.curve == "sling 4"
+
+
+def test_what_runs_into_a_compartment_weighs_under_water() -> None:
+    scene = rigged(-8.0)
+    holes = [Opening(point=(0.0, 0.0, -1.0), area=0.2), Opening(point=(0.0, 0.0, 1.0), area=0.2)]
+    scene.add_entrapped_water(
+        "load", area=3.0, height=2.0, point=(0.0, 0.0, -1.0), openings=holes, density=RHO
+    )
+    least, inside = least_pulls(scene), RHO * G * 6.0
+    assert least["wire"] == pytest.approx(DRY + BLOCK * G - LIFT + inside, rel=1e-12)
+    quarter = (DRY - LIFT + inside) / 4.0 / np.sin(STEEP)
+    assert least["sling 1"] == pytest.approx(quarter, rel=1e-3)
+
+
+def test_a_summary_has_the_margin_of_the_channel_the_depth_and_what_slam_took() -> None:
+    scene = rigged(-1.0)
+    scene.add_sea(vessel=None, hs=1.5, tp=6.0, direction_deg=0.0, seed=1)
+    channels = ["slack_margin", "line_tension", "hook_load", "position", "quaternion", "load_state"]
+    result = simulate(scene, t_end=4.0, dt_out=0.1, channels=channels, start="rest")
+    told = summary(result)
+    for name in ("sling 1", "wire"):
+        row = told[f"line tension {name}" if name != "wire" else "hoist tension wire"]
+        assert row.slack_margin == pytest.approx(result.select("slack_margin", weighed=name).min(), rel=1e-9)
+    lowest = result.select("position", body="load", axis="z") - 0.5 * VOLUME[2]
+    assert told["load depth"].maximum == pytest.approx(-lowest.min(), abs=1e-3)
+    assert told["load slam loss"].unit == "J"
+    assert told["load slam loss"].maximum == pytest.approx(result["load_state"].sum(axis=1).max(), rel=1e-12)
+    assert "under water" in str(told)
+
+
+def test_a_load_that_hangs_on_two_places_has_no_margin() -> None:
+    scene = rigged(30.0, block=False)
+    scene.add_body("post", mass=1e3, size=(1.0, 1.0, 1.0), position=(30.0, 0.0, -30.0))
+    scene.add_joint("foot", kind="weld", first="ground", second="post", point=(30.0, 0.0, -30.0))
+    scene.add_line("tag", first="post", second="load", EA=1e6, tension_at_start=1e3)
+    with pytest.raises(SceneError, match="channel 'slack_margin' is unknown to this scene"):
+        simulate(scene, t_end=0.1, channels=["slack_margin"])
