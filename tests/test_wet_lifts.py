@@ -1,0 +1,170 @@
+"""A load under water on a ship's crane: overload, balance, ballast, parts from meshes in lift files."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import mesh_shapes
+import numpy as np
+import pytest
+from test_mesh_part import stl
+
+from seacrane import Lift, Scene, balance, equilibrium, shipped_database, simulate
+from seacrane.errors import FileFormatError
+from seacrane.inputs.frames import heel_and_trim
+from seacrane.warnings import OverloadWarning
+from seacrane.water import BoxPart, Opening, from_mesh
+
+G, RHO = 9.80665, 1025.0
+MASS, BLOCK, SIZE, FILL = 40e3, 2e3, (6.0, 4.0, 3.0), 0.5
+LIFT = RHO * G * FILL * float(np.prod(SIZE))
+HOLES = [Opening(point=(0.0, 0.0, -1.0), area=0.1), Opening(point=(0.0, 0.0, 1.0), area=0.1)]
+
+
+def lift(height: float, *, capacity: object = (), afloat: bool = True, wet: bool = True) -> Scene:
+    """A load on slings over the side, its underside at a height."""
+    scene = Scene(name="over the side", gravity=G)
+    if afloat:
+        scene.add_vessel(shipped_database())
+        scene.add_crane(slew=-np.pi / 2.0, s1=1.0, s2=2.0)
+    else:
+        scene.add_crane(base="ground", held=True, s1=1.0, s2=2.0)
+    scene.add_hoist(
+        mass=MASS, size=SIZE, EA=1e8, block_mass=BLOCK, height=height, slings={"angle_deg": 60.0, "EA": 5e7}
+    )
+    scene.roles[""] = replace(scene.roles[""], capacity=capacity)
+    if wet:
+        scene.add_immersed("load", parts=[BoxPart(size=SIZE, fill=FILL)], density=RHO)
+    return scene
+
+
+# --- overload -------------------------------------------------------------------------------------------
+
+
+def overload(height: float, allowed: float) -> str:
+    scene = lift(height, capacity=((5.0, allowed), (60.0, allowed)), afloat=False)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulate(scene, t_end=0.1, dt_out=0.1, start="rest")
+    return "".join(str(one.message) for one in caught if one.category is OverloadWarning)
+
+
+def test_water_carries_its_share_of_a_load_above_the_table() -> None:
+    left = MASS + BLOCK - LIFT / G
+    assert "of 42 t, with what holds it, is above the 30 t" in overload(5.0, 30e3)
+    assert not overload(-20.0, 30e3)
+    assert not overload(-20.0, left + 10.0)
+    words = overload(-20.0, left - 10.0)
+    assert f"of 42 t, with what holds it, of which water carries {LIFT / G / 1e3:.4g} t, is above" in words
+
+
+# --- balance, ballast -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("height", "share"), [(-20.0, 1.0), (5.0, 0.0)])
+def test_water_carries_its_share_of_what_a_vessel_is_balanced_for(height: float, share: float) -> None:
+    wet, dry = balance(lift(height)), balance(lift(height, wet=False))
+    assert wet.weight == pytest.approx(dry.weight - share * LIFT, rel=1e-9)
+    at_load = np.array(lift(height).bodies["load"].position)[:2]
+    moment = dry.weight * dry.weight_center[:2] - share * LIFT * at_load
+    assert wet.weight_center[:2] == pytest.approx(moment / wet.weight, rel=1e-6)
+    assert wet.vessel_wrench is not None
+    assert wet.vessel_wrench[2] == pytest.approx(wet.weight, rel=1e-9)
+    assert wet.vessel_wrench[3] == pytest.approx(wet.weight * wet.weight_center[1], rel=1e-6)
+
+
+@pytest.mark.parametrize("height", [-1.5, -20.0])
+def test_with_its_ballast_a_vessel_floats_level_with_a_load_in_the_water(height: float) -> None:
+    """At its draught too, where the load is half under; water in a compartment weighs on it."""
+    scene = lift(height)
+    scene.add_entrapped_water(
+        "load", area=6.0, height=2.0, point=(0.0, 0.0, -1.0), openings=HOLES, density=RHO
+    )
+    found = scene.add_ballast()
+    dry = balance(lift(height, wet=False)).weight
+    if height < -3.0:
+        assert -found.weight == pytest.approx(dry - LIFT + RHO * G * 12.0, rel=1e-9)
+    state = equilibrium(scene)
+    model = scene.compile()
+    at = model.pose_index(list(model.bodies).index("vessel"))
+    values = np.asarray(state.values)
+    assert values[at + 2] == pytest.approx(scene.bodies["vessel"].position[2], abs=1e-5)
+    assert heel_and_trim(values[at + 3 : at + 7]) == pytest.approx((0.0, 0.0), abs=1e-8)
+
+
+# --- meshes in lift files -------------------------------------------------------------------------------
+
+MESHED = """
+format = "seacrane lift"
+version = 2
+
+[[body]]
+name = "load"
+mass_kg = 4000
+size_m = [2, 1, 1.5]
+
+[[immersed]]
+body = "load"
+
+[[immersed.parts]]
+kind = "mesh"
+mesh = "shapes/load.stl"
+scale = 1e-3
+draughts_m = [0.3, 0.75, 1.5]
+panels = 60
+wetting = 1.2
+perforation = 0.1
+drag_area_m2 = [1, 2, 3]
+point_m = [0, 0, 0.1]
+source = "drawn"
+
+[run]
+t_end_s = 1
+"""
+
+
+def meshed(folder: Path, text: str = MESHED) -> Path:
+    (folder / "shapes").mkdir()
+    stl(folder / "shapes" / "load.stl", 1e3 * mesh_shapes.box((2.0, 1.0, 1.5)))
+    (folder / "lift.toml").write_text(text, encoding="utf-8")
+    return folder / "lift.toml"
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.MeshConvergenceWarning")
+def test_a_mesh_in_a_lift_file_is_that_of_a_script(tmp_path: Path) -> None:
+    pytest.importorskip("capytaine", reason="Capytaine is not installed: pip install 'seacrane[hydro]'")
+    lifted = Lift.load(meshed(tmp_path))
+    scene = Scene(name="lift")
+    scene.add_body("load", mass=4000.0, size=(2.0, 1.0, 1.5))
+    part = from_mesh(
+        tmp_path / "shapes" / "load.stl", scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2,
+        perforation=0.1, drag_area=(1.0, 2.0, 3.0), point=(0.0, 0.0, 0.1), source="drawn",
+    )  # fmt: skip
+    (expected,) = scene.add_immersed("load", parts=[part])
+    assert lifted.scene().loads["load.1"] == expected
+    (tmp_path / "elsewhere").mkdir()
+    lifted.save(tmp_path / "elsewhere" / "again.toml")
+    written = (tmp_path / "elsewhere" / "again.toml").read_text(encoding="utf-8")
+    assert '"../shapes/load.stl"' in written
+    assert Lift.load(tmp_path / "elsewhere" / "again.toml").scene().loads["load.1"] == expected
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("shapes/load.stl", "shapes/lost.stl", r"lost\.stl"),
+        ("wetting = 1.2", "wetting = 3", "wetting is 3; give 1"),
+        ("scale = 1e-3", "", r"is 2000 m large, above 300 m; if it is in mm give scale=0\.001"),
+        ("panels = 60", "panels = 10.5", "panels"),
+        ("drag_area_m2 = [1, 2, 3]", "drag = 2.5", "drag"),
+        ('kind = "mesh"', 'kind = "mash"', "mash|nearest: mesh"),
+    ],
+)
+def test_bad_meshes_of_a_lift_file_are_refused_at_their_line(
+    tmp_path: Path, old: str, new: str, message: str
+) -> None:
+    path = meshed(tmp_path, MESHED.replace(old, new))
+    with pytest.raises(FileFormatError, match=rf"lift\.toml line \d+.*({message})"):
+        Lift.load(path).scene()
