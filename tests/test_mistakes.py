@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import mistaken_units
 import numpy as np
@@ -15,13 +16,25 @@ import pytest
 from hydraulic_scenes import raised
 
 import seacrane
-from seacrane import Curve, SampledController, Scene, SeaState, WaveSystem, balance, equilibrium, simulate
+from seacrane import (
+    Curve,
+    SampledController,
+    Scene,
+    SeaState,
+    Stage,
+    Until,
+    WaveSystem,
+    balance,
+    equilibrium,
+    simulate,
+)
 from seacrane.analysis import driven
 from seacrane.crane import Payload
 from seacrane.hydro import HydroDatabase, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import jonswap
+from seacrane.water import BoxPart, TablePart
 
 PAGE = (Path(__file__).parents[1] / "docs" / "mistakes.md").read_text()
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
@@ -345,6 +358,48 @@ def a_resonant_wire_as_quasi_static() -> None:
     simulate(scene, t_end=1.0)
 
 
+def lowered(depth: float, *, to: float, stages: bool) -> None:
+    """Down a shaft of water: by a stage that waits for it, or by time."""
+    scene = hoist(tension_at_start=None, length=10.0)
+    scene.add_winch(line="hoist", lag=0.1)
+    waves = WaveSystem(spectrum=jonswap(hs=0.5, tp=6.0), direction_deg=0.0)
+    scene.add_sea(vessel=None, sea=SeaState(systems=[waves], depth=depth))
+    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 2.0, 2.0), fill=0.5)])
+    down: dict[str, Any] = {"commands": {"hoist.rate": 5.0}}
+    deep = Stage(name="down", until=Until.depth("load", minimum=to), maximum_duration=60.0, **down)
+    by_time = Stage(name="down", duration=2.0, **down)
+    seacrane.simulate_stages(scene, [deep if stages else by_time], start="rest")
+
+
+def a_stage_below_the_seabed() -> None:
+    lowered(50.0, to=97.0, stages=True)
+
+
+def a_winch_that_pays_out_too_long() -> None:
+    lowered(15.0, to=97.0, stages=False)
+
+
+def on_its_side(part: Any) -> None:
+    scene = Scene(name="on its side")
+    half = np.sqrt(0.5)
+    scene.add_body("load", mass=40e3, size=(6, 4, 3), position=(0, 0, -9), quaternion=(half, 0, half, 0))
+    scene.add_immersed("load", parts=[part])
+    simulate(scene, t_end=0.1)
+
+
+def drag_of_the_world() -> None:
+    tables = {"depths": (0, 3), "volumes": (0, 36), "added_masses": ((0, 0, 0), (3e4, 4e4, 9e4))}
+    on_its_side(TablePart(height=3, drag_area=(40, 40, 90), source="a tank", **tables))
+
+
+def added_mass_in_tonnes() -> None:
+    on_its_side(BoxPart(size=(6, 4, 3), added_mass=(30, 40, 90), source="a tank"))
+
+
+def a_part_in_millimetres() -> None:
+    on_its_side(BoxPart(size=(6, 4, 3), point=(0, 0, 1500)))
+
+
 SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "degrees where radians are meant": [degrees_for_radians, a_pose_in_degrees],
     "RAOs in degrees per metre": [raos_in_degrees, headings_in_degrees],
@@ -377,6 +432,10 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a line too short for the pose": [a_hoist_ten_centimetres_short],
     "a line connected too short": [a_tagline_connected_short],
     "a wire that resonates, as quasi-static": [a_resonant_wire_as_quasi_static],
+    "water shallower than the path": [a_stage_below_the_seabed, a_winch_that_pays_out_too_long],
+    "drag along axes of the world": [drag_of_the_world],
+    "added mass in tonnes": [added_mass_in_tonnes],
+    "a part far from its body": [a_part_in_millimetres],
     "texts for numbers": [forces_as_text],
     **mistaken_units.SCRIPTS,
 }

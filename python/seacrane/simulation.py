@@ -90,7 +90,7 @@ def simulate(
         slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
     LoadInHullWarning, FreeCraneWarning, LiftedStartWarning, QuasiStaticLineWarning,
-    ScatteredWavesWarning
+    ScatteredWavesWarning, DragAxesWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """
     called = checked_controllers(controllers)

@@ -389,6 +389,16 @@ class ScatteredWavesWarning(SceneWarning):
     """
 
 
+class DragAxesWarning(SceneWarning):
+    """A part in the water that is given by tables lies more than 45 deg on its side as described, and its
+    `drag_area` along z is unlike that across.
+
+    Drag is along the axes of a part, which turn with its body. Where the sides of the world were meant,
+    give `drag_area` in the order of the part's axes, or turn the part by `axes`, so that its z axis is
+    upright as it enters the water. Silence it for a load that is upended later.
+    """
+
+
 class StiffWarning(SceneWarning):
     """An explicit method took many steps, each about as long as it stays stable with the fastest mode.
 

@@ -40,8 +40,17 @@ def check_bounds(stage: Stage, scene: Scene) -> None:
     """Raise SceneError for what no line or winch of the stage does, whatever it is commanded.
 
     A line does not push, and a winch stops at its `minimum_length`. Commands stay within its `maximum_rate`.
+    What is lowered stops above the seabed.
     """
     lines = lines_of(scene.loads)
+    bottom = np.inf if scene.waves is None else scene.waves.depth
+    for condition in stage.conditions:
+        deep = isinstance(condition, Level) and condition.channel == "immersed_depth" and condition.above
+        if deep and condition.value > bottom:
+            raise SceneError(
+                f"{stage.title}: waits for {condition.text}, and the sea is {bottom:g} m deep; wait for "
+                "less, or give the sea the depth of the place (SeaState)"
+            )
     for condition in stage.conditions if len(stage.conditions) == 1 else ():
         if not isinstance(condition, Level) or condition.above:
             continue
