@@ -1,4 +1,4 @@
-"""A load under water on a ship's crane: overload, balance, ballast, parts from meshes in lift files."""
+"""A load under water on a ship's crane: overload, ballast, what is drawn, meshes in lift files."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from test_mesh_part import stl
 from seacrane import Lift, Scene, balance, equilibrium, shipped_database, simulate
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import heel_and_trim
+from seacrane.pictures.drawn_bodies import looks
+from seacrane.pictures.shapes import MeshShape, TubeShape
 from seacrane.warnings import OverloadWarning
-from seacrane.water import BoxPart, Opening, from_mesh
+from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart, from_mesh
 
 G, RHO = 9.80665, 1025.0
 MASS, BLOCK, SIZE, FILL = 40e3, 2e3, (6.0, 4.0, 3.0), 0.5
@@ -92,6 +94,32 @@ def test_with_its_ballast_a_vessel_floats_level_with_a_load_in_the_water(height:
     values = np.asarray(state.values)
     assert values[at + 2] == pytest.approx(scene.bodies["vessel"].position[2], abs=1e-5)
     assert heel_and_trim(values[at + 3 : at + 7]) == pytest.approx((0.0, 0.0), abs=1e-8)
+
+
+# --- what is drawn --------------------------------------------------------------------------------------
+
+
+def test_parts_in_water_are_drawn_where_they_are() -> None:
+    scene = Scene(name="drawn")
+    scene.add_body("load", mass=1e3, size=(2.0, 2.0, 2.0), center_of_mass=(0.0, 0.0, 0.5))
+    turned = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # its x is the body's y
+    parts = [
+        CylinderPart(length=4.0, diameter=0.5, strips=1, point=(1.0, 0.0, 0.0), axes=turned),
+        SpherePart(diameter=1.0, point=(0.0, 0.0, 3.0)),
+        PlatePart(size=(3.0, 1.0), strips=(2, 1), point=(0.0, 0.0, -1.0)),
+    ]
+    scene.add_immersed("load", parts=parts)
+    look = looks(scene)["load"]
+    assert look.note.endswith("and its parts in water")
+    _, rod, ball, *strips = look.shapes
+    assert isinstance(rod, TubeShape)
+    assert np.sort(rod.points[:, 1]) == pytest.approx([-2.0, 2.0])
+    assert rod.points[:, [0, 2]] == pytest.approx(np.array([[1.0, -0.5], [1.0, -0.5]]))
+    assert isinstance(ball, MeshShape)
+    triangles = ball.vertices[ball.faces]
+    assert mesh_shapes.volume_of(triangles - [0.0, 0.0, 2.5]) == pytest.approx(np.pi / 6.0, rel=0.1)
+    assert ball.vertices.mean(axis=0) == pytest.approx([0.0, 0.0, 2.5], abs=1e-12)
+    assert np.ptp(np.concatenate([one.points for one in strips]), axis=0) == pytest.approx([3.0, 1.0, 0.01])
 
 
 # --- meshes in lift files -------------------------------------------------------------------------------

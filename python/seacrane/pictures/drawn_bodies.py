@@ -31,6 +31,7 @@ from seacrane.pictures.shapes import (
     equivalent_box,
     framework,
 )
+from seacrane.pictures.wet_shapes import wet_shapes
 
 Array = NDArray[np.float64]
 
@@ -174,18 +175,22 @@ def _is_shipped(scene: Description, name: str) -> bool:
 
 
 def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
-    """Tubes between the points at which other bodies take hold of it; with fewer than two, a box."""
-    body = scene.bodies[name]
+    """Tubes between the points at which other bodies take hold of it; with fewer than two, a box.
+
+    And its parts in the water.
+    """
+    body, wet = scene.bodies[name], wet_shapes(scene, name)
+    more = " and its parts in water" if wet else ""
     points = distinct([point - np.asarray(body.center_of_mass) for point in body_points(scene, name)])
     span = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if role != "payload" and len(points) > 1 and span > SMALLEST * extent:
         tubes: list[Shape] = list(framework(points, SLENDER * span))
-        return Look(role=role, shapes=tubes, note="bars between its joints")
+        return Look(role=role, shapes=[*tubes, *wet], note=f"bars between its joints{more}")
     box = equivalent_box(body.mass, np.asarray(body.inertia))
     size = np.maximum(box.size, SMALLEST * extent)
     return Look(
-        role=role, shapes=[BoxShape(centre=box.centre, axes=box.axes, size=size)],
-        note="the uniform box with its mass and inertia",
+        role=role, shapes=[BoxShape(centre=box.centre, axes=box.axes, size=size), *wet],
+        note=f"the uniform box with its mass and inertia{more}",
     )  # fmt: skip
 
 
