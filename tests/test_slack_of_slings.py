@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, SceneError, simulate, summary
 from seacrane.analysis.least_pulls import least_pulls
+from seacrane.answers.lift_particulars import lift_rows
 from seacrane.water import BoxPart, Opening
 
 Array = NDArray[np.float64]
@@ -152,6 +153,9 @@ def test_a_summary_has_the_margin_of_the_channel_the_depth_and_what_slam_took() 
     assert told["load slam loss"].unit == "J"
     assert told["load slam loss"].maximum == pytest.approx(result["load_state"].sum(axis=1).max(), rel=1e-12)
     assert "under water" in str(told)
+    rows = lift_rows(result)
+    assert ("in water", "load, keeps 12 m3 dry") in rows
+    assert any(what == "coefficients in water" and "unverified" in words for what, words in rows)
 
 
 def test_a_load_that_hangs_on_two_places_has_no_margin() -> None:

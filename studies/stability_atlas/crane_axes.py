@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, _core, cases
-from seacrane.analysis.inverse import balance
+from seacrane.analysis.weight_balance import balance
 from seacrane.crane import Payload
 from seacrane.trading.case import Case
 from stability_atlas.altered import change_actuator, change_body, scale_body

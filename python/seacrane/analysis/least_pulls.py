@@ -61,10 +61,10 @@ def _alone(scene: Description, rig: Rig) -> list[Description]:
         }
         for key in COMPILED
     }  # fmt: skip
+    kept["bodies"] = {name: body for name, body in scene.bodies.items() if name in rig.bodies}
     empty: dict[str, dict[str, Any]] = {key: {} for key in KINDS}
-    bodies = {name: body for name, body in scene.bodies.items() if name in rig.bodies}
-    whole = scene.copy(waves=None, **empty | kept | {"bodies": bodies})
-    wet = {one.name for one in (*immersed_parts(whole).values(), *waters_in(whole))}
+    whole = scene.copy(waves=None, **empty | kept)
+    wet = {*immersed_parts(whole), *(one.name for one in waters_in(whole))}
     dry = whole.copy(loads={name: one for name, one in whole.loads.items() if name not in wet})
     lowered = [_held(scene, rig, dry, 0.0)]
     return [*lowered, _held(scene, rig, whole, _depth(whole))] if wet else lowered

@@ -16,7 +16,7 @@ from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.holding import Drive, held_drives, with_holds
 from seacrane.description.loads import kind_of, named
-from seacrane.description.wet_parts import immersed_parts
+from seacrane.description.wet_parts import sources_in_water
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -96,7 +96,7 @@ def elements_of(scene: Description) -> Rows:
     rows += [(f"{kind} joints", names) for kind, names in kinds.items()]
     rows.append(("drivers", [f"{name} ({_place(driver)})" for name, driver in scene.drivers.items()]))
     rows += _loads_by_kind(scene)
-    rows.append(("coefficients in water", _sources(scene)))
+    rows.append(("coefficients in water", sources_in_water(scene)))
     given = given_vessels(scene)
     floating = [f"{name} ({v.body})" for name, v in scene.vessels.items() if v.body not in given]
     rows.append(("vessels", floating))
@@ -124,12 +124,6 @@ def _loads_by_kind(scene: Description) -> Rows:
         kind = kind_of(load)
         kinds.setdefault(LABELS.get(kind, f"{kind}s"), []).append(f"{load.name} ({_place(load)})")
     return list(kinds.items())
-
-
-def _sources(scene: Description) -> list[str]:
-    """Where the coefficients of parts in water are from, once for each body."""
-    found = {f"{part.body}: {part.source or 'unverified'}": None for part in immersed_parts(scene).values()}
-    return list(found)
 
 
 def _place(element: Any) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,7 +135,8 @@ def _weight_in_water(scene: Description, heavy: Sequence[_core.Body], weights: A
     force = np.array([0.0, 0.0, -float(weights.sum())])
     moment = np.cross(centers, np.outer(weights, [0.0, 0.0, -1.0])).sum(axis=0)
     on = {body.name for body in heavy}
-    for load in (*immersed_parts(scene).values(), *waters_in(scene)):
+    wet: list[Any] = [*immersed_parts(scene).values(), *waters_in(scene)]
+    for load in wet:
         if load.body in on:
             at = model.axes["load"].index(load.name)
             push = arrays["load_force"][0, at]

@@ -14,6 +14,7 @@ from seacrane.description.description import GROUND, Description
 from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, suspensions
+from seacrane.description.wet_parts import displaced_volume, immersed_parts, sources_in_water, waters_in
 from seacrane.plotting.html import table
 from seacrane.result import Result
 from seacrane.scene.lines import NO_BOUND, STRONGEST
@@ -30,15 +31,29 @@ BOUNDS = {  # of a winch: unit, and from where on there is none
 def lift_rows(result: Result) -> Rows:
     """Of a result that holds its scene: what carries, what hangs, and on what."""
     scene = result.scene
-    if scene is None or not scene.roles:
+    if scene is None:
         return []
+    if not scene.roles:
+        return _in_water(scene)
     hung = hung_loads(scene)
     found = [("ship", words) for words in _ships(scene)] + [
         ("crane", words) for words in _cranes(result, scene)
     ]
     for one in hung:
         found += [("wire", _wire(scene, one)), ("load", _load(scene, one))]
-    return found + [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in _hooks(result)]
+    found += [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in _hooks(result)]
+    return found + _in_water(scene)
+
+
+def _in_water(scene: Description) -> Rows:
+    """What parts keep water out of and compartments let in, and where coefficients are from."""
+    parts, rows = immersed_parts(scene).values(), []
+    for body in dict.fromkeys(part.body for part in parts):
+        own = [part for part in parts if part.body == body]
+        words = f"{body}, keeps {sum(map(displaced_volume, own)):.4g} m3 dry"
+        holds = sum(one.area * one.height for one in waters_in(scene) if one.body == body)
+        rows.append(("in water", f"{words}, holds {holds:.4g} m3 of water" if holds else words))
+    return rows + [("coefficients in water", words) for words in sources_in_water(scene)]
 
 
 def stage_table(result: Result) -> str:

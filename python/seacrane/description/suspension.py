@@ -178,7 +178,8 @@ class Rig:
 @once_in_any_sea
 def rigs(scene: Description) -> Sequence[Rig]:
     """All that hang on nothing else, are part of no larger one, and sink."""
-    ties, between = _ties_of(scene), {}
+    ties = _ties_of(scene)
+    between: dict[tuple[str, str], list[Suspension]] = {}
     for one in suspensions(scene):
         between.setdefault((one.held_at[0], one.lower[0]), []).append(one)
     found = [(tuple(held), ties.below(*held)) for held in between.values()]

@@ -35,6 +35,12 @@ def wet_bodies(scene: Description) -> set[str]:
     return parts | {water.body for water in waters_in(scene)}
 
 
+def sources_in_water(scene: Description) -> list[str]:
+    """Where the coefficients of parts are from, once for each body."""
+    parts = immersed_parts(scene).values()
+    return list(dict.fromkeys(f"{part.body}: {part.source or 'unverified'}" for part in parts))
+
+
 def displaced_volume(part: _core.ImmersedPart) -> float:
     """m3 that a part keeps water out of, where it is under water."""
     size = np.asarray(part.size, dtype=float)

@@ -45,8 +45,9 @@ def check_bounds(stage: Stage, scene: Scene) -> None:
     lines = lines_of(scene.loads)
     bottom = np.inf if scene.waves is None else scene.waves.depth
     for condition in stage.conditions:
-        deep = isinstance(condition, Level) and condition.channel == "immersed_depth" and condition.above
-        if deep and condition.value > bottom:
+        if not isinstance(condition, Level) or condition.channel != "immersed_depth" or not condition.above:
+            continue
+        if condition.value > bottom:
             raise SceneError(
                 f"{stage.title}: waits for {condition.text}, and the sea is {bottom:g} m deep; wait for "
                 "less, or give the sea the depth of the place (SeaState)"
