@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -44,11 +45,11 @@ KINDS: dict[str, dict[str, Any]] = {
 
 def asked(lag: float) -> Curve:
     """The rate that a winch with a lag is asked for to pay out as PAID does: r + lag r'."""
-    quintic = np.polynomial.Polynomial(PAID.to_pieces()["coefficients"][1])
+    quintic = np.polynomial.Polynomial(PAID.to_pieces()["coefficients"][0])
     rate = quintic.deriv(1) + lag * quintic.deriv(2)
     whole = np.zeros(6)
     whole[: rate.coef.size] = rate.coef
-    return Curve.pieces(starts=[-1.0, 0.0, OVER], coefficients=[np.zeros(6), whole, np.zeros(6)])
+    return Curve.pieces(starts=[0.0, OVER], coefficients=[whole, np.zeros(6)])
 
 
 def wet(
@@ -134,20 +135,18 @@ def hung(heave: Curve, *, deep: float = DEEP, segments: int = HEAVY, **winch: An
     stretch = deep * (MASS + 0.5 * MU * deep) * G / STIFF
     scene.add_body(name="load", mass=MASS, inertia=(1e6, 1e6, 1e6), position=(0.0, 0.0, -deep - stretch))
     scene.add_line(
-        "wire", "tip", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=STIFF, length=deep,
-        mass_per_length=MU, rung="with mass", segments=segments,
+        "wire", "tip", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=STIFF,
+        length=deep, mass_per_length=MU, rung="with mass", segments=segments,
     )  # fmt: skip
     scene.add_winch("wire", **{"lag": LAG} | winch)
     return scene
 
 
 def test_what_heave_compensation_leaves_runs_down_a_long_wire_as_in_a_bar() -> None:
-    """Its upper end is driven by the heave less what the winch pays out, and the load resonates on the bar."""
+    """Its upper end is driven by the heave less what the winch pays out, and the load rings on the bar."""
     period, lag, corner = 4.5, 0.1, 0.01  # s, s, Hz
     omega = 2.0 * np.pi / period
-    scene = hung(
-        Curve.pieces(starts=[0.0], coefficients=[[0.1, 0, 0, 0, 0, 0]], cosines=[[-0.1, omega, 0.0]])
-    )
+    scene = hung(Curve.harmonic(offset=0.1, amplitude=-0.1, omega=omega))
     scene.add_heave_compensation("active", body="tip", winch="wire", lag=lag, high_pass=corner)
     result = simulate(scene, t_end=220.0, dt_out=0.1, start=equilibrium(scene), rtol=1e-7)
     own = natural_modes(scene).natural_frequency
@@ -234,11 +233,27 @@ def test_parts_of_a_line_that_is_not_there_are_refused() -> None:
     scene = hung(Curve.constant(value=0.0), deep=40.0, segments=4)
     scene.replace("wire.3 winding", kind="load", paid_out_by="rope")
     with pytest.raises(
-        SceneError, match="paid out by 'rope', and no line before it has a winch of this name"
+        SceneError, match="paid out by 'rope', and no segment before it is on a winch of this name"
     ):
         scene.compile()
 
 
-def test_a_file_keeps_it() -> None:
+def test_a_file_keeps_it(tmp_path: Path) -> None:
     scene = wet(compensated=True)
-    assert Scene.from_dict(scene.to_dict()).loads == scene.loads
+    scene.save(tmp_path / "wet.json")
+    assert Scene.load(tmp_path / "wet.json").loads == scene.loads
+
+
+def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
+    scene = Scene(name="hoist", gravity=G)
+    scene.add_crane(slew=0.0, s1=1.0, s2=2.0)
+    scene.add_hoist("wire", mass=50e3, size=(4, 4, 4), length=20.0, EA=1.5e8, rung="with mass",
+                    mass_per_length=20.0, winch={"lag": 0.1}, wire={"segments": 5, "medium": "sea", "diameter": 0.06})  # fmt: skip
+    at_rest = equilibrium(scene)
+    assert at_rest.load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
+    assert [name for name in scene.loads if name.endswith("water")] == [
+        f"wire.{i} water" for i in range(1, 6)
+    ]
+    for wire, message in (({"EA": 1.0}, "wire has 'EA'; give some of"), (None, "needs a smooth length")):
+        with pytest.raises(SceneError, match=message):
+            scene.add_hoist("other", load="load", rung="with mass", winch=True, wire=wire)

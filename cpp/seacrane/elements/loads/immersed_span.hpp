@@ -48,7 +48,8 @@ struct ImmersedSpanDescription : SpanDescription {
                 .usually(1e-3, 1.0),
             optional("source", &D::source, "", "where its coefficients are from"),
             optional("paid_out_by", &D::paid_out_by, "", "line with mass, on a winch, that it is a part of"),
-            optional("share", &D::share, "", "of the length that this winch pays out").within(0.0, 1.0)));
+            optional("share", &D::share, "", "of the length that this winch pays out")
+                .must_be({.minimum = 0.0, .maximum = 1.0, .above = true})));
   }
 };
 
@@ -81,10 +82,7 @@ struct ImmersedSpan {
   std::array<int, 2> stencils = {-1, -1};
   PaidOut paid_out;
 
-  static void check(const Description& d, const Check& c, SceneNames& names) {
-    d.check(c, names);
-    if (!d.paid_out_by.empty()) check_paid_out(d.paid_out_by, d.share, c, names);
-  }
+  static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
 
   static Description example() {
     auto d = example_span<Description>({0.2, -0.3, 0.4});
@@ -110,7 +108,7 @@ struct ImmersedSpan {
     out.along = 0.25 * d.density * d.drag_coefficient_along * pi * d.diameter;
     out.stencils = {context.stencil(at_end(d.first, d.first_point)),
                     context.stencil(at_end(d.second, d.second_point))};
-    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, d.share, context);
+    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, d.share, Check(kind, d.name), context);
     return out;
   }
 

@@ -102,7 +102,7 @@ struct Line {
     if (d.winch) {
       line.wind(context);
     } else if (!d.paid_out_by.empty()) {
-      line.segment = context.followed(kind, d.paid_out_by).segment;
+      line.segment = segment_on(d.paid_out_by, Check(kind, d.name), context);
       for (const int b : line.segment->drives()) line.depend_on(b);
     }
     if (d.rung == kQuasiStatic) line.settle(context);
@@ -112,6 +112,18 @@ struct Line {
       context.lead(follows_as, d.paid_out_by, parts);
     }
     return line;
+  }
+
+  /// The segment on the winch of a line with mass, for a part of that line.
+  template <class Context>
+  static std::shared_ptr<const Line> segment_on(const std::string& winch, const Check& part,
+                                                const Context& context) {
+    std::shared_ptr<const Line> found = context.followed(kind, winch).segment;
+    if (!found) {
+      part.fail("is paid out by '" + winch +
+                "', and no segment before it is on a winch of this name; add it");
+    }
+    return found;
   }
 
   /// Takes another mass for its damping, kg.

@@ -14,14 +14,6 @@ namespace seacrane {
 
 inline constexpr const char* kQuasiStatic = "quasi-static";
 
-/// A part of a line with mass that a winch pays out: the segment on the winch stands before it.
-inline void check_paid_out(const std::string& winch, double share, const Check& c, const SceneNames& names) {
-  if (!names.input_owners.contains(winch)) {
-    c.fail("is paid out by '" + winch + "', and no line before it has a winch of this name; add that first");
-  }
-  if (!(share > 0.0)) c.fail("has no share of what '" + winch + "' pays out; give one above 0");
-}
-
 struct LineDescription : WinchDescription {
   std::string name;
   std::vector<std::string> bodies;
@@ -60,7 +52,8 @@ struct LineDescription : WinchDescription {
         optional("tensions", &D::tensions, "N", "at these strains, from 0"));
     const auto segment = std::tuple(
         optional("paid_out_by", &D::paid_out_by, "", "line with mass, on a winch, of which it is a segment"),
-        optional("share", &D::share, "", "of the length that this winch pays out").within(0.0, 1.0));
+        optional("share", &D::share, "", "of the length that this winch pays out")
+            .must_be({.minimum = 0.0, .maximum = 1.0, .above = true}));
     return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table, segment);
   }
 
@@ -74,7 +67,7 @@ struct LineDescription : WinchDescription {
     sheaves.check_neighbours(bodies, points, c);
     LineElasticity::check(strains, tensions, c);
     check_rung(c);
-    check_segment(c, names);
+    check_segment(c);
     if (winch) {
       Winch::check(*this, length, share, c);
     } else if (rate.at(0.0).value != 0.0 || rate.pieces().size() > 1 || lag != 0.0) {
@@ -155,12 +148,11 @@ struct LineDescription : WinchDescription {
              to_text(kink.time) + " s, or its rate; smooth it, or choose rung 'elastic'");
     }
   }
-  void check_segment(const Check& c, const SceneNames& names) const {
+  void check_segment(const Check& c) const {
     if (paid_out_by.empty()) {
       if (share != 1.0) c.fail("has a share of a line that no winch pays out; give paid_out_by, or no share");
       return;
     }
-    check_paid_out(paid_out_by, share, c, names);
     if (winch && lag == 0.0) {
       c.fail(
           "is a segment of a line with mass, which needs a smooth rate, and its winch has no lag; give "

@@ -20,9 +20,10 @@ struct PaidOut {
   std::shared_ptr<const Line> segment = nullptr;  // on the winch; null: by the curve
 
   template <class Context>
-  static PaidOut compile(const Curve& curve, const std::string& winch, double share, Context& context) {
+  static PaidOut compile(const Curve& curve, const std::string& winch, double share, const Check& part,
+                         Context& context) {
     if (winch.empty()) return {curve};
-    return {curve, share, context.followed(Line::kind, winch).segment};
+    return {curve, share, Line::segment_on(winch, part, context)};
   }
 
   StateRange followed() const { return segment ? segment->leading() : StateRange{}; }

@@ -80,11 +80,8 @@ struct WoundSpan {
       c.fail("has " + to_text(d.below_first) + " of the line beyond its first end and " +
              to_text(d.below_second) + " beyond its second; give a first end that is nearer the drum");
     }
-    if (!d.paid_out_by.empty()) {
-      check_paid_out(d.paid_out_by, d.below_first - d.below_second, c, names);
-      if (d.length.pieces().size() > 1 || d.length.at(0.0).value != d.length.at(1.0).value) {
-        c.fail("length changes over time, and winch '" + d.paid_out_by + "' does that; give a number");
-      }
+    if (!d.paid_out_by.empty() && d.length.pieces().size() > 1) {
+      c.fail("length changes over time, and winch '" + d.paid_out_by + "' does that; give a number");
     }
     if (!d.length.breakpoints(1).empty()) {
       c.fail(
@@ -109,7 +106,7 @@ struct WoundSpan {
     out.span = Span::compile(d, context);
     out.share = d.below_first - d.below_second;
     out.described = d.length.at(0.0).value;
-    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, out.share, context);
+    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, out.share, Check(kind, d.name), context);
     out.gravity = context.gravity();
     out.below = {d.below_first, d.below_second};
     out.on = {out.span.first, out.span.second};
