@@ -212,6 +212,7 @@ def add_hoist(
             f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
             "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
         )
+    _check_wire(what, rung, wire)
     drive = {} if isinstance(winch, bool) else dict(winch)
     if rung in (QUASI_STATIC, WITH_MASS) and winch is not False and not drive.get("lag"):
         raise SceneError(
@@ -219,7 +220,6 @@ def add_hoist(
             "winch={\"lag\": 0.1}, or rung 'elastic'"
         )
     rig = Slings(**slings) if isinstance(slings, Mapping) else slings
-    _check_wire(what, rung, wire)
     not_negative_of(f"{what}: block_mass", block_mass)
     if rig is not None and block_mass == 0.0:
         raise SceneError(f"{what}: slings hang on a block, and block_mass is 0; give its mass in kg")
