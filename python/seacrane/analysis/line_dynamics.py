@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import length_at, lines_of, on_winch, path_of, states_of, winch_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.one_thread import one_thread
 
@@ -73,19 +73,19 @@ def line_dynamics(
     paths = {name: _Path(scene, model, line, values, accelerations) for name, line in lines.items()}
     directions = np.stack([path.direction for path in paths.values()], axis=1)
     yielding = directions.T @ _response(terms, directions)
-    stiffness = np.array([line.EA / _unstretched(line, time)[0] for line in lines.values()])
+    stiffness = np.array([line.EA / length_at(line, time, {}) for line in lines.values()])
     pulls = [
-        line.EA * max(path.length / _unstretched(line, time)[0] - 1.0, 0.0)
+        line.EA * max(path.length / length_at(line, time, {}) - 1.0, 0.0)
         for line, path in zip(lines.values(), paths.values(), strict=True)
     ]
     omegas = _omegas(yielding, stiffness, np.array(pulls))
-    states = _load_states(model, values)
+    states = states_of(model, values)
     groups = _coupled(list(lines), yielding)
     out = {}
     for i, (name, line) in enumerate(lines.items()):
         path, mass = paths[name], 1.0 / max(float(yielding[i, i]), 1e-300)
         bounced = model.line_bounces[name][0] if name in model.line_bounces else mass
-        l0, rate, bend = _unstretched(line, time, states)
+        l0, rate, bend = _unstretched(lines, line, time, states)
         strain_rate = (path.rate - rate * path.length / l0) / l0
         damping = 2.0 * line.damping_ratio * np.sqrt(line.EA * (line.mass or bounced) / l0)
         straining = path.bend - path.length / l0 * bend - 2.0 * rate * strain_rate
@@ -142,7 +142,7 @@ def with_lengths_of(
     paths, wanted, rates = [], [], []
     for line in lines_of(scene.loads).values():
         still = _Path(scene, model, line, rest, none)
-        if still.length <= _unstretched(line, 0.0, _load_states(model, rest))[0]:
+        if still.length <= length_at(line, 0.0, states_of(model, rest)):
             continue
         paths.append(_Path(scene, model, line, values, none))
         wanted.append(still.length + float(still.direction @ displacement))
@@ -155,10 +155,6 @@ def with_lengths_of(
     apart = np.array([wish - path.length for wish, path in zip(wanted, paths, strict=True)])
     faster = np.array([wish - path.rate for wish, path in zip(rates, paths, strict=True)])
     return np.asarray(response @ (inverse @ apart)), np.asarray(response @ (inverse @ faster))
-
-
-def _load_states(model: _core.Model, values: Array) -> dict[str, float]:
-    return {state: float(values[place]) for state, _, place, *_ in model.load_states}
 
 
 def _omegas(yielding: Array, stiffness: Array, pulls: Array) -> Array:
@@ -190,19 +186,19 @@ def _response(terms: dict[str, Any], forces: Array) -> Array:
 
 
 def _unstretched(
-    line: _core.Line, time: float, states: dict[str, float] | None = None
+    lines: dict[str, _core.Line], line: _core.Line, time: float, states: dict[str, float]
 ) -> tuple[float, float, float]:
-    """Unstretched length (m), its rate and acceleration; of a winch with its states, or else at its start."""
-    if not line.winch:
+    """Unstretched length (m), its rate and acceleration."""
+    wound = on_winch(lines, line)
+    if wound is None:
         value, rate, bend = line.length.evaluate([time])[0]
         return float(value), float(rate), float(bend)
-    known = states or {}
-    length = known.get(f"{line.name}.length", float(line.length.evaluate([0.0])[0, 0]))
-    command = float(np.clip(line.rate.evaluate([time])[0, 0], -line.maximum_rate, line.maximum_rate))
-    if line.lag == 0.0:
-        return length, command, 0.0
-    rate, bound = known.get(f"{line.name}.rate", 0.0), line.maximum_acceleration
-    return length, rate, float(np.clip((command - rate) / line.lag, -bound, bound))
+    length, share = length_at(line, time, states), line.share
+    command = float(np.clip(wound.rate.evaluate([time])[0, 0], -wound.maximum_rate, wound.maximum_rate))
+    if wound.lag == 0.0:
+        return length, share * command, 0.0
+    rate, bound = states.get(f"{winch_of(wound)}.rate", 0.0), wound.maximum_acceleration
+    return length, share * rate, share * float(np.clip((command - rate) / wound.lag, -bound, bound))
 
 
 class _Path:

@@ -9,7 +9,7 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import length_at, lines_of, states_of, winch_of, winches_of
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.frames import rotation_matrix
@@ -28,14 +28,16 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     model = compile_scene(scene, merge=False)
     places = {name: place for name, _, place, *_ in model.load_states}
     out, state, found = scene.copy(), np.array(values), False
+    known = states_of(model, values)
     for name, line in lines_of(scene.loads).items():
-        length = state[places[f"{name}.length"]] if line.winch else line.length.evaluate([0.0])[0, 0]
+        length = length_at(line, 0.0, known)
         path = laid(line, lambda body: pose_of(scene, model, body, values)).length
         if not (1.0 - LARGEST_SLACK) * length <= path <= (1.0 + STRAIN) * length:
             continue
         found = True
-        if line.winch:
-            state[places[f"{name}.length"]] = path / (1.0 + STRAIN)
+        if winch_of(line):
+            paid_out = places[f"{winch_of(line)}.length"]
+            state[paid_out] = min(state[paid_out], path / (1.0 + STRAIN) / line.share)
         else:
             out.loads[name] = _core.Line(**line.__getstate__() | {"length": path / (1.0 + STRAIN)})
     return (out, state) if found else None
@@ -82,17 +84,17 @@ def unbounded(scene: Some) -> Some:
 
 def kept_lengths(scene: Description, model: _core.Model) -> list[int]:
     """Places of the states of loads, but for those of winches that hold a tension."""
-    holds = {name for name, line in lines_of(scene.loads).items() if line.tension_gain > 0.0}
+    holds = {name for name, line in winches_of(scene.loads).items() if line.tension_gain > 0.0}
     return [place for name, _, place, *_ in model.load_states if name.rpartition(".")[0] not in holds]
 
 
 def slack_lines(scene: Description, model: _core.Model, values: Array) -> dict[str, float]:
     """By how much (m) lines are slack in a state."""
-    found = {}
-    places = {name: place for name, _, place, *_ in model.load_states}
+    found, known = {}, states_of(model, values)
     for name, line in lines_of(scene.loads).items():
-        length = values[places[f"{name}.length"]] if line.winch else line.length.evaluate([0.0])[0, 0]
-        slack = float(length - laid(line, lambda body: pose_of(scene, model, body, values)).length)
+        slack = float(
+            length_at(line, 0.0, known) - laid(line, lambda body: pose_of(scene, model, body, values)).length
+        )
         if slack > 0.0:
             found[name] = slack
     return found

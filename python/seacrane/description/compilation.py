@@ -11,7 +11,7 @@ from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
 from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
-from seacrane.description.loads import lines_of, refuse_heavy_winch
+from seacrane.description.loads import lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
 from seacrane.description.rungs import compiled_loads
 from seacrane.description.wave_grid import grid_of
@@ -36,8 +36,8 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
     scene = with_holds(scene)
     sea = None if scene.waves is None else pruned(scene.waves, prune=merge)
     for line in lines_of(scene.loads).values():
-        if line.winch:
-            refuse_heavy_winch(line)
+        if line.winch and not line.paid_out_by:
+            refuse_winch_of_segment(line)
     model = _core.compile(
         name=name_of("scene", scene.name),
         gravity=number_of(f"scene {scene.name!r}: gravity", scene.gravity),

@@ -8,6 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from seacrane import _core
 from seacrane.errors import SceneError
 
@@ -48,6 +51,45 @@ def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
     return {name: load for name, load in loads.items() if isinstance(load, _core.Line)}
 
 
+def winch_of(line: _core.Line) -> str:
+    """The name of the winch that pays a line out, its own or that of its line with mass; empty: none."""
+    return line.paid_out_by or (line.name if line.winch else "")
+
+
+def winches_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
+    """The lines that winches act on, by the winches' names; of a line with mass its first segment."""
+    return {winch_of(line): line for line in lines_of(loads).values() if line.winch}
+
+
+def on_winch(lines: Mapping[str, _core.Line], line: _core.Line) -> _core.Line | None:
+    """The line with the winch that pays a line out: itself, or the first segment of its line with mass."""
+    if line.winch or not line.paid_out_by:
+        return line if line.winch else None
+    return next(one for one in lines.values() if one.winch and one.paid_out_by == line.paid_out_by)
+
+
+def length_at(line: _core.Line, time: float, states: Mapping[str, float]) -> float:
+    """The unstretched length of a line, m: at a time (s), or on a winch with its state, if that is known."""
+    paid_out = states.get(f"{winch_of(line)}.length")
+    if paid_out is None:
+        return float(line.length.evaluate([time])[0, 0])
+    return float(line.share * paid_out)
+
+
+def states_of(model: _core.Model, values: NDArray[np.float64]) -> dict[str, float]:
+    """The states of loads among all values of a state, by name."""
+    return {name: float(values[place]) for name, _, place, *_ in model.load_states}
+
+
+def with_length(loads: Mapping[str, Any], winch: str, length: float) -> dict[str, _core.Line]:
+    """What a winch pays out, one line or all segments of one with mass, for a whole length, m."""
+    return {
+        name: changed(line, length=line.share * length)
+        for name, line in lines_of(loads).items()
+        if winch_of(line) == winch
+    }
+
+
 def any_stiff(loads: Mapping[str, Any]) -> bool:
     """Whether loads have states of their own that would bind the steps of explicit methods."""
     return any(type(load).STIFF for load in loads.values())
@@ -85,14 +127,14 @@ def whole_of(name: str, line: _core.Line) -> str:
     return whole if number.isdigit() and whole and tied else name
 
 
-def refuse_heavy_winch(line: _core.Line) -> None:
-    """Raise SceneError for a winch on a segment of a line with mass."""
+def refuse_winch_of_segment(line: _core.Line) -> None:
+    """Raise SceneError for a winch of its own on a segment of a line with mass."""
     whole = whole_of(line.name, line)
     if whole != line.name:
         raise SceneError(
-            f"line {line.name!r}: is a segment of line {whole!r}; rung 'with mass' takes no winch, as what "
-            "it pays out would have no mass, so that it would carry too little. Give the whole line a Curve "
-            "for its length, or let the winch haul a line of another rung on which this one hangs"
+            f"line {line.name!r}: is a segment of line {whole!r}, and what a winch of its own pays out would "
+            f"have no mass, so that it would carry too little. Give the winch to the whole line: "
+            f"add_winch({whole!r}, ...)"
         )
 
 

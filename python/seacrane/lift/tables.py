@@ -138,6 +138,12 @@ SLINGS = keys_of(
         "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     },
 )
+WIRE: dict[str, dict[str, Any]] = {
+    "diameter": LENGTH,
+    "density": {"unit": "kg/m3"},
+    "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
+    "segment_rung": {"type": "text", "choices": lines.STRETCHING},
+}
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -275,10 +281,8 @@ _ALL = (
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
-        sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
-        density={"unit": "kg/m3"}, flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
-        breaking_load={"unit": "N"},
-        rung={"choices": lines.RUNGS}, segment_rung={"type": "text", "choices": lines.STRETCHING},
+        sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"},
+        breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS}, **WIRE,
     ),
     _call("winch", lines.add_winch, _core.Line),
     Table(
@@ -304,6 +308,7 @@ _ALL = (
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
+        wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
     ),
     Table(
         name="luffing_rope", text=_summary(luffing.add_luffing_rope), add=luffing.add_luffing_rope,

@@ -9,7 +9,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.line_path import Array, described_poses, laid
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, winch_of
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import Motion, linear_rows
 from seacrane.pictures.shapes import TubeShape, plain
@@ -70,7 +70,7 @@ def turns(axis: Array, angles: Array) -> Array:
 def wheels_of(scene: Description, result: Result | None, motion: Motion) -> list[Wheel]:
     """Drums, and every other sheave once, however often lines pass it."""
     lines = lines_of(scene.loads)
-    drums = [_drum(scene, result, motion, name, line) for name, line in lines.items() if line.winch]
+    drums = [_drum(scene, result, motion, line) for line in lines.values() if line.winch]
     sheaves = [
         _sheave(scene, motion, f"{name} sheave {i}", line, i)
         for name, line in lines.items()
@@ -97,9 +97,7 @@ def _sheave(scene: Description, motion: Motion, name: str, line: _core.Line, i: 
     return Wheel(name=name, kind="sheave", at=at, axis=axis, shapes=[disc, hub])
 
 
-def _drum(
-    scene: Description, result: Result | None, motion: Motion, name: str, line: _core.Line
-) -> Wheel | None:
+def _drum(scene: Description, result: Result | None, motion: Motion, line: _core.Line) -> Wheel | None:
     """That of a winch, if it has one: the sheave on whose rim its line starts, or one of `drum_radius`."""
     if _starts_on_rim(line):
         centre, axis, radius = line.points[1], _unit(line.axes[1]), float(line.radii[1])
@@ -109,8 +107,8 @@ def _drum(
     else:
         return None
     return Wheel(
-        name=f"{name} drum", kind="drum", at=end_of(scene, motion.bodies, line.bodies[0], centre), axis=axis,
-        shapes=_barrel(axis, radius), angle=_angle(result, motion, name, radius),
+        name=f"{winch_of(line)} drum", kind="drum", at=end_of(scene, motion.bodies, line.bodies[0], centre),
+        axis=axis, shapes=_barrel(axis, radius), angle=_angle(result, motion, line, radius),
     )  # fmt: skip
 
 
@@ -135,14 +133,14 @@ def _beside_first_span(scene: Description, line: _core.Line, radius: float) -> t
     return line.points[0] - radius * (turn.T @ out), turn.T @ axis
 
 
-def _angle(result: Result | None, motion: Motion, line: str, radius: float) -> Array | None:
+def _angle(result: Result | None, motion: Motion, line: _core.Line, radius: float) -> Array | None:
     """rad, at the frames; None without the paid-out length."""
-    for channel, dim, name in (
-        ("line_unstretched_length", "line", line),
-        ("load_state", "state_name", f"{line}.length"),
+    for channel, dim, name, share in (
+        ("line_unstretched_length", "line", line.name, line.share),
+        ("load_state", "state_name", f"{winch_of(line)}.length", 1.0),
     ):
         if result is not None and channel in result.channels and name in result.coords[dim]:
-            length = result.select(channel, **{dim: name})
+            length = result.select(channel, **{dim: name}) / share
             return np.asarray(linear_rows(motion, result.time, (length - length[0]) / radius)[0])
     return None
 

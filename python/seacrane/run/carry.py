@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Some
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import winches_of, with_length
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.scene.scene import Scene
 from seacrane.warnings import AssemblyWarning
@@ -42,10 +42,9 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
         curve = held.then(time=state.time, curve=driver.curve) if state.time > 0.0 else driver.curve
         out.drivers[name] = _core.Driver(**driver.__getstate__() | {"curve": curve})
     lengths = state.load_states
-    for name, line in lines_of(scene.loads).items():
-        if f"{name}.length" in lengths:
-            length = {"length": lengths[f"{name}.length"]}
-            out.loads[name] = _core.Line(**line.__getstate__() | length)
+    for winch in winches_of(scene.loads):
+        if f"{winch}.length" in lengths:
+            out.loads.update(with_length(scene.loads, winch, lengths[f"{winch}.length"]))
     return out
 
 

@@ -15,6 +15,7 @@ from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
+from seacrane.description.loads import winches_of
 from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.description.wet_parts import immersed_depths, wet_names
@@ -29,7 +30,7 @@ from seacrane.run.hanging import (
     utilisations,
 )
 from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins
-from seacrane.run.motions import motions, winch_lines
+from seacrane.run.motions import motions
 from seacrane.run.own import require_own, with_sources
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def derived_coords(scene: Description) -> Mapping[str, list[str]]:
         "gap": list(scene.clearances),
         "pair": list(scene.relatives),
         "expression": list(scene.channels),
-        "winch": list(winch_lines(scene)),
+        "winch": list(winches_of(scene.loads)),
         "slew": list(slews(scene)),
         "hook": [one.label for one in on_cranes(scene)],
         "tip": list(tips(scene)),

@@ -9,7 +9,7 @@ from seacrane import _core
 from seacrane.description.description import Some
 from seacrane.description.edit import replace_element
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, winch_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of
 from seacrane.inputs.shown import shown
@@ -37,12 +37,14 @@ def targets(scene: Scene) -> dict[str, Target]:
     """What may be commanded, by name; inputs of a run have the same names, but for tensions and brakes."""
     found = {}
     for name, line in lines_of(scene.loads).items():
-        attribute = "rate" if line.winch else "length"
-        found[f"{name}.{attribute}"] = Target("load", name, attribute, not line.winch)
+        if line.paid_out_by and not line.winch:
+            continue
+        own, attribute = winch_of(line) or name, "rate" if line.winch else "length"
+        found[f"{own}.{attribute}"] = Target("load", name, attribute, not line.winch)
         if line.tension_gain > 0.0:
-            found[f"{name}.tension"] = Target("load", name, "tension", False)
+            found[f"{own}.tension"] = Target("load", name, "tension", False)
         if line.brake_capacity > 0.0:
-            found[f"{name}.brake"] = Target("load", name, "brake", False)
+            found[f"{own}.brake"] = Target("load", name, "brake", False)
     for name, cylinder in hydraulic_cylinders(scene).items():
         if cylinder.rated_flow > 0.0:
             found[f"{name}.command"] = Target("load", name, "command", False)

@@ -15,7 +15,7 @@ from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
 from seacrane.description.description import Description
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, on_winch
 from seacrane.description.once import once
 from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
 from seacrane.errors import SceneError
@@ -153,10 +153,12 @@ def _by_their_own(
     accelerations = _core.Evaluator(model).accelerations
     jumps = [_jump(lambda t: np.asarray(accelerations(t, values)), time) for time in kinks]
     sources = list(excitations(scene, start=begin, end=end))
-    now = line_dynamics(scene, model, values, begin)
+    now, every = line_dynamics(scene, model, values, begin), lines_of(scene.loads)
     out = {}
     for name, line in lines.items():
-        reason = UNSMOOTH if line.winch and line.lag == 0.0 else _ringing(line, now[name], kinks, jumps)
+        wound = on_winch(every, line)
+        smooth = wound is None or wound.lag > 0.0
+        reason = _ringing(line, wound, now[name], kinks, jumps) if smooth else UNSMOOTH
         out[name] = _bounded(line, now, sources) if not reason else _elastic(reason)
     return _beside_elastic(scene, out, now)
 
@@ -193,7 +195,9 @@ def _jump(of: Callable[[float], Array], time: float) -> tuple[Array, Array]:
     return near[1] - near[0], slopes[1] - slopes[0]
 
 
-def _ringing(line: _core.Line, now: LineDynamics, kinks: list[float], jumps: list[Jump]) -> str:
+def _ringing(
+    line: _core.Line, wound: _core.Line | None, now: LineDynamics, kinks: list[float], jumps: list[Jump]
+) -> str:
     """Why the line's own mode is not quiet; empty: it is."""
     if now.tension <= 0.0:
         return "it starts slack"
@@ -204,7 +208,7 @@ def _ringing(line: _core.Line, now: LineDynamics, kinks: list[float], jumps: lis
             "from rest (equilibrium)"
         )
     for time, (step, slope) in zip(kinks, jumps, strict=True):
-        driven, faster = (abs(float(part)) for part in _jump(lambda t: _driven(line, t), time))
+        driven, faster = (abs(float(part)) for part in _jump(lambda t: _driven(line, wound, t), time))
         shaken = now.shaken(step) + now.shaken(slope) / now.omega
         shaken += now.mass * (driven + faster / now.omega)
         if shaken > limit:
@@ -212,13 +216,13 @@ def _ringing(line: _core.Line, now: LineDynamics, kinks: list[float], jumps: lis
     return ""
 
 
-def _driven(line: _core.Line, time: float) -> Array:
+def _driven(line: _core.Line, wound: _core.Line | None, time: float) -> Array:
     """Second derivative of its unstretched length, but for what lags behind, m/s2."""
-    if not line.winch:
+    if wound is None:
         return np.asarray(line.length.evaluate([time])[0, 2])
-    bound, fastest = line.maximum_rate, line.maximum_acceleration
-    command = np.clip(line.rate.evaluate([time])[0, 0], -bound, bound)
-    return np.asarray(np.clip(command / line.lag, -2.0 * fastest, 2.0 * fastest))
+    bound, fastest = wound.maximum_rate, wound.maximum_acceleration
+    command = np.clip(wound.rate.evaluate([time])[0, 0], -bound, bound)
+    return np.asarray(line.share * np.clip(command / wound.lag, -2.0 * fastest, 2.0 * fastest))
 
 
 def _bounded(

@@ -10,21 +10,15 @@ from numpy.typing import NDArray
 
 from seacrane.description.body_motion import relative_motion, velocity_of
 from seacrane.description.channels import DERIVED
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, winches_of
 from seacrane.description.suspension import lower_ends
 from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 LENGTH = "line_unstretched_length"
-
-
-def winch_lines(scene: Description) -> dict[str, _core.Line]:
-    """The lines on winches, by name."""
-    return {name: line for name, line in lines_of(scene.loads).items() if line.winch}
 
 
 def motions(
@@ -38,8 +32,8 @@ def motions(
         "trim": (bool(scene.bodies), _trim),
         "yaw": (bool(scene.bodies), _yaw),
         "hook_speed": (bool(lower_ends(scene)), _hook_speeds),
-        "wire_paid_out": (bool(winch_lines(scene)), _paid_out),
-        "wire_spare": (bool(winch_lines(scene)), _spare),
+        "wire_paid_out": (bool(winches_of(scene.loads)), _paid_out),
+        "wire_spare": (bool(winches_of(scene.loads)), _spare),
     }
     return {
         name: make(scene, arrays)
@@ -89,15 +83,16 @@ def _hook_speeds(scene: Description, arrays: Mapping[str, Array]) -> Array:
 
 
 def _paid_out(scene: Description, arrays: Mapping[str, Array]) -> Array:
-    return _lengths(scene, arrays, [float(one.length.evaluate([0.0])[0, 0])
-                                    for one in winch_lines(scene).values()])  # fmt: skip
+    return _lengths(scene, arrays, [float(one.length.evaluate([0.0])[0, 0]) / one.share
+                                    for one in winches_of(scene.loads).values()])  # fmt: skip
 
 
 def _spare(scene: Description, arrays: Mapping[str, Array]) -> Array:
-    return _lengths(scene, arrays, [one.minimum_length for one in winch_lines(scene).values()])
+    return _lengths(scene, arrays, [one.minimum_length for one in winches_of(scene.loads).values()])
 
 
 def _lengths(scene: Description, arrays: Mapping[str, Array], over: list[float]) -> Array:
     """Unstretched lengths of the lines on winches over given ones, m."""
-    lines = list(lines_of(scene.loads))
-    return np.asarray(arrays[LENGTH][:, [lines.index(name) for name in winch_lines(scene)]] - over)
+    lines, wound = list(lines_of(scene.loads)), winches_of(scene.loads).values()
+    own = arrays[LENGTH][:, [lines.index(one.name) for one in wound]] / [one.share for one in wound]
+    return np.asarray(own - over)

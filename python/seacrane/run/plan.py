@@ -6,9 +6,8 @@ from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from seacrane import _core
-from seacrane.description.edit import replace_element
 from seacrane.description.holding import decided
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, winch_of, with_length
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.run.commands import HOLE, Command, check_command, commanded, targets
@@ -164,5 +163,5 @@ def _pay_out(scene: Scene, stage: Stage) -> None:
         if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
             continue
         line = scene.loads.get(dict(condition.names)["line"])
-        if isinstance(line, _core.Line) and line.winch:
-            replace_element(scene, line.name, kind="load", length=condition.value)
+        if isinstance(line, _core.Line) and winch_of(line):
+            scene.loads.update(with_length(scene.loads, winch_of(line), condition.value / line.share))

@@ -12,7 +12,7 @@ from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.state_parts import with_present_inputs
@@ -312,10 +312,7 @@ class StagedRun:
     def _checked_start(self, stage: Stage) -> _core.State:
         check_limits(stage, self._scene)
         begin, lengths = self._state.time, dict(self._state.load_states)
-        own = {
-            name: lengths.get(f"{name}.length", float(line.length.evaluate([begin])[0, 0]))
-            for name, line in lines_of(self._scene.loads).items()
-        }
+        own = {name: length_at(line, begin, lengths) for name, line in lines_of(self._scene.loads).items()}
         check_lengths(stage, self._scene, own, begin)
         return self._state
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import _core
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, on_winch, winch_of, winches_of
 from seacrane.errors import SceneError
 from seacrane.run.commands import Command
 from seacrane.run.move import Move
@@ -63,16 +63,18 @@ def check_bounds(stage: Stage, scene: Scene) -> None:
                 f"{stage.title}: would never end: it waits for {condition.text}, and a line does not push; "
                 "slack is a tension below 0"
             )
-        short = condition.channel == "line_unstretched_length" and condition.value < line.minimum_length
-        if short and line.winch:
+        wound = on_winch(lines, line)
+        if condition.channel != "line_unstretched_length" or wound is None:
+            continue
+        if condition.value < line.share * wound.minimum_length:
             raise SceneError(
                 f"{stage.title}: would never end: it waits for {condition.text}, and the winch stops at its "
-                f"minimum_length of {line.minimum_length:g} m; wait for more, or give it a smaller one"
+                f"minimum_length of {wound.minimum_length:g} m; wait for more, or give it a smaller one"
             )
+    winches = winches_of(scene.loads)
     for name, value in stage.commands.items():
-        line = lines.get(name.removesuffix(".rate"))
-        if line is not None and line.winch and name.endswith(".rate"):
-            _check_rate(stage, name, line, value)
+        if name.endswith(".rate") and name.removesuffix(".rate") in winches:
+            _check_rate(stage, name, winches[name.removesuffix(".rate")], value)
 
 
 def _check_rate(stage: Stage, name: str, line: _core.Line, command: Command) -> None:
@@ -107,13 +109,16 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
         name = dict(condition.names).get("line", "")
         if len(stage.conditions) > 1 or name not in lines:
             continue  # another condition may end it; a line that is not there is told by its channel
-        if lines[name].tension_gain > 0.0 or lines[name].drum_inertia > 0.0:
+        wound = on_winch(lines, lines[name])
+        if wound is not None and (wound.tension_gain > 0.0 or wound.drum_inertia > 0.0):
             continue  # its tension, motor or brake may lead it there
         assert stage.maximum_duration is not None
-        least, most = _reached(lines[name], lengths[name], begin, stage.maximum_duration)
+        share = lines[name].share
+        reached = _reached(wound or lines[name], lengths[name] / share, begin, stage.maximum_duration)
+        least, most = (share * length for length in reached)
         if float(condition.excess(np.array([least, most])).max()) >= -1e-9 * lengths[name]:
             continue
-        what = f"{name}.rate" if lines[name].winch else f"{name}.length"
+        what = f"{name}.length" if wound is None else f"{winch_of(wound)}.rate"
         raise SceneError(
             f"{stage.title}: would never end: it waits for {condition.text}, and line {name!r} goes from "
             f"{lengths[name]:.6g} m to {least:.6g} m at the least and {most:.6g} m at the most within its "

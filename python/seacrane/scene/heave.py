@@ -15,7 +15,7 @@ from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import path_of, winches_of
 from seacrane.description.places import placed
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
@@ -116,8 +116,8 @@ def add_heave_compensation(
 def _ratio(scene: Description, what: str, winch: str | None, actuator: str | None, direction: Any) -> float:
     """The ratio of what follows to the stroke, by the kinematics of the described pose."""
     if winch is not None:
-        line = lines_of(scene.loads).get(winch)
-        if line is None or not line.winch:
+        line = winches_of(scene.loads).get(winch)
+        if line is None:
             raise SceneError(f"{what}: there is no winch {winch!r}; add the line and its winch first")
         ratio = falls_of(scene, line, direction)
     elif actuator is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -16,6 +16,7 @@ from seacrane.description.bodies import add_body
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
+from seacrane.description.loads import changed, lines_of, whole_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
@@ -60,7 +61,7 @@ def chain_of_segments(
     half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
     what is not the ground. It starts in its rest shape. Keywords as of `Scene.add_line`; `rung` is that of
     every segment. With a curve for its length the masses stay at equal shares of it, and what they gain and
-    what moves past them is "<name>.1 winding", ...
+    what moves past them is "<name>.1 winding", ...; so they do on a winch (`on_a_winch`).
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
@@ -96,13 +97,39 @@ def chain_of_segments(
         if fluid.diameter > 0.0:
             add_load(scene, fluid.along(f"{name}.{i}", (one, two), lengths))
         if wound is not None:
-            winding = _core.WoundSpan(
-                name=f"{name}.{i} winding", first=one[0], second=two[0], first_point=one[1],
-                second_point=two[1], mass_per_length=mass_per_length, length=lengths,
-                below_first=(count - i + 1) / count, below_second=(count - i) / count,
-            )  # fmt: skip
-            add_load(scene, winding)
+            add_load(scene, _winding(segment, mass_per_length, (i, count)))
     return lines
+
+
+def on_a_winch(scene: Description, name: str, winch: Mapping[str, Any]) -> _core.Line:
+    """Put the first segment of a line with mass on a winch that pays out all of it, and tell that segment.
+
+    Every segment, and the water about it, has its share of what is paid out, a state "<name>.length".
+    """
+    segments = [one for own, one in lines_of(scene.loads).items() if whole_of(own, one) == name]
+    by = {"paid_out_by": name, "share": 1.0 / len(segments)}
+    kinds = {"winding": "a Curve for its length, and the winch changes it; give the length at the start",
+             "drag": "drag in a steady flow, which takes no winch; leave its diameter out, or choose 'sea'"}  # fmt: skip
+    for kind, text in kinds.items():
+        if f"{segments[0].name} {kind}" in scene.loads:
+            raise SceneError(f"line {name!r}: has {text}")
+    for i, segment in enumerate(segments, start=1):
+        scene.loads[segment.name] = changed(segment, **by, **(winch if i == 1 else {}))
+        if f"{segment.name} water" in scene.loads:
+            scene.loads[f"{segment.name} water"] = changed(scene.loads[f"{segment.name} water"], **by)
+        per_length = segment.mass / float(segment.length.evaluate([0.0])[0, 0])
+        add_load(scene, _winding(segment, per_length, (i, len(segments)), paid_out_by=name))
+    return cast(_core.Line, scene.loads[segments[0].name])
+
+
+def _winding(segment: _core.Line, mass_per_length: float, place: tuple[int, int], **given: Any) -> Any:
+    """What the ends of a segment gain, and what moves past them: the one of so many at a place from 1 on."""
+    i, count = place
+    return _core.WoundSpan(
+        name=f"{segment.name} winding", first=segment.bodies[0], second=segment.bodies[1],
+        first_point=segment.points[0], second_point=segment.points[1], mass_per_length=mass_per_length,
+        length=segment.length, below_first=(count - i + 1) / count, below_second=(count - i) / count, **given,
+    )  # fmt: skip
 
 
 def scaled(curve: _core.Curve, factor: float) -> _core.Curve:

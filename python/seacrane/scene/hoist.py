@@ -37,12 +37,16 @@ from seacrane.inputs.shown import shown
 from seacrane.scene.bridles import add_bridle
 from seacrane.scene.limits import add_seat
 from seacrane.scene.line_start import hung_from
-from seacrane.scene.lines import add_line, add_winch
+from seacrane.scene.lines import TAKEN_BY, add_line, add_winch
 
 Array = NDArray[np.float64]
 BLOCK_DENSITY = 2000.0  # kg/m3 over its outline: plates, sheaves and gaps; gives a block its size alone
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 Place = tuple[str, Any]  # a body, and a point in its coordinates, m
+OF_A_WIRE = tuple(
+    key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,) and key != "mass_per_length"
+)
+WIRE_KEYS = ("settling", "damping_ratio", *OF_A_WIRE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,6 +122,7 @@ def add_hoist(
     stiffness: float | None = None,
     rung: Rung = "elastic",
     mass_per_length: float = 0.0,
+    wire: Mapping[str, Any] | None = None,
     block_mass: float = 0.0,
     slings: Slings | Mapping[str, Any] | None = None,
     winch: Mapping[str, Any] | bool = False,
@@ -159,10 +164,13 @@ def add_hoist(
     stiffness : float
         In its place, of all falls together at the hook as described, N/m.
     rung : {"rigid", "quasi-static", "elastic", "auto", "with mass"}
-        Of the line, as in `add_line`. "rigid" takes no EA and "with mass" a `mass_per_length`; both have one
-        fall and no winch.
+        Of the line, as in `add_line`. "rigid" takes no EA and no winch, "with mass" a `mass_per_length`; both
+        have one fall.
     mass_per_length : float
         Of a line with mass, kg/m.
+    wire : mapping, optional
+        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio and
+        those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
     block_mass : float
         Hook block, kg; slings need one.
     slings : Slings or mapping, optional
@@ -204,11 +212,12 @@ def add_hoist(
             f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
             "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
         )
+    _check_wire(what, rung, wire)
     drive = {} if isinstance(winch, bool) else dict(winch)
-    if rung == QUASI_STATIC and winch is not False and not drive.get("lag"):
+    if rung in (QUASI_STATIC, WITH_MASS) and winch is not False and not drive.get("lag"):
         raise SceneError(
-            f"{what}: a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such "
-            "as winch={\"lag\": 0.1}, or rung 'elastic'"
+            f"{what}: rung {rung!r} needs a smooth length, and its winch has no lag; give one, such as "
+            "winch={\"lag\": 0.1}, or rung 'elastic'"
         )
     rig = Slings(**slings) if isinstance(slings, Mapping) else slings
     not_negative_of(f"{what}: block_mass", block_mass)
@@ -230,7 +239,7 @@ def add_hoist(
             hook = (_add_block(scene, what, name, load, block_mass, rig), (0.0, 0.0, 0.0))
         weight = scene.gravity * (block_mass + (0.0 if on else scene.bodies[load].mass))
         _tie(scene, what, name, roles.tip, hook, falls, weight,
-             {"EA": EA, "stiffness": stiffness}, rung, mass_per_length, slack)  # fmt: skip
+             {"EA": EA, "stiffness": stiffness}, rung, mass_per_length, wire, slack)  # fmt: skip
         if roles.structure is not None:
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
@@ -247,6 +256,14 @@ def add_hoist(
         hung = replace(roles, payload=load, link=link, line=None if link else name)
         scene.roles[roles.prefix] = hung
     return hung
+
+
+def _check_wire(what: str, rung: str, wire: Mapping[str, Any] | None) -> None:
+    if wire is not None and rung != WITH_MASS:
+        raise SceneError(f"{what}: rung {rung!r} takes no wire; leave it out, or choose rung {WITH_MASS!r}")
+    unknown = [key for key in wire or () if key not in WIRE_KEYS]
+    if unknown:
+        raise SceneError(f"{what}: wire has {unknown[0]!r}; give some of {', '.join(WIRE_KEYS)}")
 
 
 def _crane(scene: Description, what: str, crane: CraneRoles | str | None) -> CraneRoles:
@@ -395,6 +412,7 @@ def _tie(
     given: Mapping[str, float | None],
     rung: Rung,
     mass_per_length: float,
+    wire: Mapping[str, Any] | None,
     slack: float,
 ) -> None:
     """The line over its falls, which carries a weight (N) from the start, or is slack."""
@@ -419,7 +437,7 @@ def _tie(
         own = not_negative_of(f"{what}: mass_per_length", mass_per_length) * scene.gravity * drop
         length = drop / (1.0 + (pull + 0.5 * own) / positive_of(f"{what}: EA", axial))
         add_line(scene, name, bodies=bodies, points=points, rung=rung, EA=axial, length=length,
-                 mass_per_length=mass_per_length)  # fmt: skip
+                 mass_per_length=mass_per_length, **(wire or {}))  # fmt: skip
         return
     if mass_per_length:
         raise SceneError(

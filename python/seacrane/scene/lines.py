@@ -12,7 +12,7 @@ from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.forces import add_load
 from seacrane.description.joints import add_joint
-from seacrane.description.loads import changed, lines_of, refuse_heavy_winch, whole_of
+from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment, whole_of
 from seacrane.description.places import place_of
 from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.rungs import (
@@ -28,7 +28,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
 from seacrane.renamed import refusing
-from seacrane.scene.heavy_line import chain_of_segments
+from seacrane.scene.heavy_line import chain_of_segments, on_a_winch
 from seacrane.scene.limits import STICKING_SPEED, add_wire
 from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid
 from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
@@ -323,6 +323,7 @@ def add_winch(
     """Put a line on a winch: its unstretched length becomes a state, "<line>.length", driven by a rate.
 
     With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.
+    A line with mass goes by its own name too, such as "wire.rate"; its first segment "wire.1" is on the winch.
     With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
     inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
     "limit". See docs/lines.md.
@@ -330,7 +331,7 @@ def add_winch(
     Parameters
     ----------
     line : str
-        A line of the scene, whose length is a number: that at the start.
+        A line of the scene, whose length is a number: that at the start. It leaves the drum at its first end.
     rate : Curve or float
         Commanded, m/s; positive pays out, negative hauls in.
     maximum_rate : float
@@ -338,9 +339,10 @@ def add_winch(
     maximum_acceleration : float
         m/s2, of the rate; needs a lag. 1e7 (default): no bound.
     lag : float
-        s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command.
+        s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command. A
+        line with mass needs one.
     minimum_length : float
-        m, at which hauling in stops.
+        m, at which hauling in stops; on a line with mass a run ends there.
     tension : Curve or float
         N, held: the winch pays out above it and hauls in below it, also a slack line. Needs `tension_gain`.
     tension_gain : float
@@ -365,12 +367,13 @@ def add_winch(
     Returns
     -------
     Line
-        In the place of the one without a winch.
+        In the place of the one without a winch; of one with mass its first segment.
 
     Raises
     ------
     SceneError
-        For a line that is not there, has a winch or is a segment of one with mass; what else does not fit is
+        For a line that is not there, has a winch, or is a segment of one with mass; for one with mass whose
+        length is a Curve, or that has drag in air; what else does not fit is
         said by `Scene.compile`.
     """
     name = text_of("winch: line", line)
@@ -383,7 +386,8 @@ def add_winch(
         raise SceneError(f"winch: there is no line {name!r}; the scene has {has}: add it first")
     if old.winch:
         raise SceneError(f"line {name!r}: has a winch already; give one to another line, or replace it")
-    refuse_heavy_winch(old)
+    if old.name == name:
+        refuse_winch_of_segment(old)
     winch = {
         "winch": True, "rate": rate, "maximum_rate": maximum_rate, "lag": lag,
         "maximum_acceleration": maximum_acceleration, "minimum_length": minimum_length,
@@ -392,6 +396,7 @@ def add_winch(
         "maximum_power": maximum_power, "brake": brake, "brake_capacity": brake_capacity,
         "brake_give": brake_give,
     }  # fmt: skip
-    wound = changed(old, **winch)
-    scene.loads[name] = wound
+    if old.name != name:
+        return on_a_winch(scene, name, winch)
+    scene.loads[name] = wound = changed(old, **winch)
     return wound

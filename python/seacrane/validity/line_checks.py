@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.loads import lines_of, whole_of
+from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
 from seacrane.description.rungs import QUASI_STATIC
 from seacrane.description.suspension import line_weights
 from seacrane.inputs.caller import warn_caller
@@ -49,7 +49,7 @@ BOUNDS = {
 
 def bound_findings(scene: Description, reached: Iterable[tuple[float, str]]) -> list[Finding]:
     """Bounds of winches that were reached, by the times (s) and names of events; rates and ends apart."""
-    lines, first = lines_of(scene.loads), {name: time for time, name in sorted(reached, reverse=True)}
+    lines, first = winches_of(scene.loads), {name: time for time, name in sorted(reached, reverse=True)}
     return [
         (
             WinchLimitWarning,
@@ -97,7 +97,7 @@ def line_findings(
     lengths = np.asarray(channels["line_unstretched_length"]).reshape(time.size, len(lines))
     for (name, line), length in zip(lines.items(), lengths.T, strict=True):
         if line.winch:
-            found += _met(name, line, time, length)
+            found += _met(winch_of(line), line, time, length / line.share)
     if "line_tension" in channels:
         tensions = np.asarray(channels["line_tension"]).reshape(time.size, len(lines))
         found += [one for item in zip(lines.items(), tensions.T, strict=True) for one in _pushed(*item, time)]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <tuple>
 
@@ -9,6 +10,8 @@
 #include "seacrane/math/select.hpp"
 
 namespace seacrane {
+
+struct Line;
 
 struct HeaveCompensatorDescription {
   std::string name, body;
@@ -135,10 +138,12 @@ struct HeaveSignal {
   }
 };
 
-/// The compensator that a winch or an actuator follows, and by how much of its stroke; or none.
+/// The compensator that a winch or an actuator follows, and by how much of its stroke; or none. What is a
+/// part of a line with mass follows the segment on the winch.
 struct Followed {
   double ratio = 0.0;  // 0: none
   HeaveSignal signal;
+  std::shared_ptr<const Line> segment = nullptr;
 
   bool any() const { return ratio != 0.0; }
   template <class T>

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "seacrane/elements/loads/paid_out.hpp"
 #include "seacrane/elements/loads/span.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/spatial.hpp"
@@ -19,6 +20,8 @@ struct ImmersedSpanDescription : SpanDescription {
   Curve length;
   double added_mass_coefficient = 1.0, drag_coefficient = 0.0, drag_coefficient_along = 0.0;
   std::string source;
+  std::string paid_out_by;
+  double share = 1.0;
 
   static constexpr const char* type = "ImmersedSpan";
   static constexpr const char* text =
@@ -43,7 +46,10 @@ struct ImmersedSpanDescription : SpanDescription {
             optional("drag_coefficient_along", &D::drag_coefficient_along, "", "along, over the skin")
                 .not_negative()
                 .usually(1e-3, 1.0),
-            optional("source", &D::source, "", "where its coefficients are from")));
+            optional("source", &D::source, "", "where its coefficients are from"),
+            optional("paid_out_by", &D::paid_out_by, "", "line with mass, on a winch, that it is a part of"),
+            optional("share", &D::share, "", "of the length that this winch pays out")
+                .must_be({.minimum = 0.0, .maximum = 1.0, .above = true})));
   }
 };
 
@@ -74,6 +80,7 @@ struct ImmersedSpan {
   double weight = 0.0;                  // of that water, N
   double across = 0.0, along = 0.0;     // drag, N s2/m2
   std::array<int, 2> stencils = {-1, -1};
+  PaidOut paid_out;
 
   static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
 
@@ -101,6 +108,7 @@ struct ImmersedSpan {
     out.along = 0.25 * d.density * d.drag_coefficient_along * pi * d.diameter;
     out.stencils = {context.stencil(at_end(d.first, d.first_point)),
                     context.stencil(at_end(d.second, d.second_point))};
+    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, d.share, Check(kind, d.name), context);
     return out;
   }
 
@@ -108,6 +116,7 @@ struct ImmersedSpan {
   static std::vector<LoadKinks> kinks() { return {}; }
 
   std::array<int, 2> bodies() const { return span.bodies(); }
+  StateRange followed() const { return paid_out.followed(); }
 
   template <class T>
   void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
@@ -216,12 +225,12 @@ struct ImmersedSpan {
     const T rise = flow.elevation_rate + flow.slope[0] * end.own.x() + flow.slope[1] * end.own.y();
     const T sinks = rise - end.own.z() - T(0.5) * height_rate;
     const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
-    const CurveValue length = d.length.at(in.time, in.curve_limit);
+    const PaidOut::Length<T> length = paid_out.length(in);
     const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
     const T part_rate = (sinks - depth * height * height_rate / (over * over)) / over;
-    end.wet = share * T(length.value);
-    end.dips = T(30) * part * part * dry * dry * part_rate * T(length.value);
-    end.grows = share * T(length.rate);
+    end.wet = share * length.value;
+    end.dips = T(30) * part * part * dry * dry * part_rate * length.value;
+    end.grows = share * length.rate;
   }
 
   /// Buoyancy, and the force of the undisturbed flow.

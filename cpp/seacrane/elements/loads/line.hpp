@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ namespace seacrane {
 /// (LineElasticity). The forces are -T dl.
 ///
 /// l0 is given over time, or it is a state of the winch, which feels the tension of the first section and
-/// measures the mean. The rope carries its strain energy T e / 2 for each metre of l0 onto the drum.
+/// measures the mean. Of a line with mass its first segment has the winch, and every segment a share of what
+/// that pays out. The rope carries its strain energy T e / 2 for each metre of l0 onto the drum.
 ///
 /// A quasi-static stretch follows the tension within a settling time s, whatever EA and the load's mass are:
 ///
@@ -71,10 +73,11 @@ struct Line {
   int place = -1;        // among the inertial tensions; none: its stretch is not quasi-static
   double hung = 0.0;     // mass, kg
   std::optional<Winch> winch;
-  StateRange states;  // those of the winch; of a quasi-static stretch w
+  std::shared_ptr<const Line> segment;  // on the winch of the line with mass; null: none, or this one
+  StateRange states;                    // those of the winch; of a quasi-static stretch w
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
-    if (d.winch) names.input(c, kind, d.name);
+    if (d.winch) names.input(c, kind, d.winch_name());
     d.check(c, names, Margins::kMost - own_margins(d.winch) + 2);
   }
   static Description example() { return Description::example(); }
@@ -96,9 +99,31 @@ struct Line {
     line.has_friction = line.path.has_friction();
     line.elasticity = {d.EA, d.strains, d.tensions};
     line.hang(line.given_mass() ? d.mass : mass_of_ends(d, context));
-    if (d.winch) line.wind(context);
+    if (d.winch) {
+      line.wind(context);
+    } else if (!d.paid_out_by.empty()) {
+      line.segment = segment_on(d.paid_out_by, Check(kind, d.name), context);
+      for (const int b : line.segment->drives()) line.depend_on(b);
+    }
     if (d.rung == kQuasiStatic) line.settle(context);
+    if (d.winch && !d.paid_out_by.empty()) {
+      Followed parts = line.winch->follows;
+      parts.segment = std::make_shared<const Line>(line);
+      context.lead(follows_as, d.paid_out_by, parts);
+    }
     return line;
+  }
+
+  /// The segment on the winch of a line with mass, for a part of that line.
+  template <class Context>
+  static std::shared_ptr<const Line> segment_on(const std::string& winch, const Check& part,
+                                                const Context& context) {
+    std::shared_ptr<const Line> found = context.followed(kind, winch).segment;
+    if (!found) {
+      part.fail("is paid out by '" + winch +
+                "', and no segment before it is on a winch of this name; add it");
+    }
+    return found;
   }
 
   /// Takes another mass for its damping, kg.
@@ -108,7 +133,32 @@ struct Line {
   }
 
   const std::vector<int>& bodies() const { return on; }
-  StateRange followed() const { return winch ? winch->follows.signal.states : StateRange{}; }
+  StateRange followed() const {
+    if (segment) return segment->leading();
+    return winch ? winch->follows.signal.states : StateRange{};
+  }
+
+  /// Of a line on a winch: the bodies, and the states and what is between them, on which the acceleration of
+  /// what the winch pays out depends.
+  std::vector<int> drives() const {
+    const bool feels = winch->follows.any() || winch->tension || winch->drum;
+    return feels ? on : std::vector<int>();
+  }
+  StateRange leading() const {
+    const StateRange other = winch->follows.signal.states;
+    if (other.count == 0) return states;
+    const int first = std::min(states.first, other.first);
+    return {first, std::max(states.first + states.count, other.first + other.count) - first};
+  }
+  /// That acceleration, of all that is paid out, where the winch has a lag, m/s2.
+  template <class T>
+  T winch_acceleration(const LoadInput<T>& in) const {
+    if (!winch->tension && !winch->drum) return winch->asked_acceleration(in, T(0));
+    const Motion<T> now = winch->drum ? motion(in) : movement(in);
+    const T asked = winch->asked_acceleration(in, now.elastic);
+    return winch->drum ? winch->drum->acceleration(in, asked, now.first(), winch->turning(in, now.elastic))
+                       : asked;
+  }
 
   bool quasi_static() const { return place >= 0; }
   bool given_mass() const { return d.mass > 0.0; }
@@ -116,12 +166,14 @@ struct Line {
   /// Jumps of the tension, with the stretch left out: of what drives l0, once for c, and once more often
   /// integrated for EA, once less for an inertial tension.
   std::vector<LoadKinks> kinks() const {
-    const int later = winch ? winch->integrations() : 0;  // from the curve to l0
+    const Winch* const by = paying_out();
+    const int later = by ? by->integrations() : 0;  // from the curve to l0
     std::vector<LoadKinks> all;
-    for (const auto& [curve, share] : winch ? winch->driven_by() : Winch::Drives{{&d.length, 1.0}}) {
+    for (const auto& [curve, factor] : by ? by->driven_by() : Winch::Drives{{&d.length, 1.0}}) {
+      const double share = d.share * factor;
       LoadKinks& out = all.emplace_back();
       for (const CurveKink& kink : curve->kinks()) {
-        const double l0 = d.length.at(winch ? 0.0 : kink.time).value;
+        const double l0 = d.length.at(by ? 0.0 : kink.time).value;
         LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
         const auto add = [&](int order, double factor) {
           for (int p = 1; p <= 3; ++p) {
@@ -160,6 +212,11 @@ struct Line {
       if ((at >> (own_margins(winch.has_value()) + i - 1) & 1) != 0)
         return what + SheaveDescriptions::lost(i);
     }
+    if (winch && !d.paid_out_by.empty() && (at & kAtEnd) != 0) {
+      return what +
+             "it has hauled in to its minimum_length, which would stop the mass of the line at once; " +
+             "stop its winch before, or give a smaller one";
+    }
     if (!slack(at)) return "";
     const std::string stretch = what + "its stretch is quasi-static, and it ";
     if ((at & 1) == 0)
@@ -171,7 +228,7 @@ struct Line {
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   std::vector<std::string> reached(int from, int to) const {
-    return winch ? bounds_met(d.name, kMargins, from, to) : std::vector<std::string>();
+    return winch ? bounds_met(d.winch_name(), kMargins, from, to) : std::vector<std::string>();
   }
 
   template <class T>
@@ -278,13 +335,14 @@ struct Line {
 
   template <class Context>
   void wind(Context& context) {
-    winch = Winch::compile(d, d.name, d.length.at(0.0).value, context);
+    winch = Winch::compile(d, d.winch_name(), d.length.at(0.0).value / d.share, context);
     states = winch->states;
-    const int measured = winch->follows.signal.body;
-    if (winch->follows.any() && std::find(on.begin(), on.end(), measured) == on.end()) {
-      on.insert(on.begin(), measured);
-    }
+    if (winch->follows.any()) depend_on(winch->follows.signal.body);
   }
+  void depend_on(int body) {
+    if (std::find(on.begin(), on.end(), body) == on.end()) on.insert(on.begin(), body);
+  }
+  const Winch* paying_out() const { return winch ? &*winch : segment ? &*segment->winch : nullptr; }
 
   template <class Context>
   void settle(Context& context) {
@@ -320,9 +378,10 @@ struct Line {
       out.rate += s.rate;
     });
     const CurveValue given = d.length.at(in.time, in.curve_limit);
-    out.unstretched = winch ? winch->length(in) : T(given.value);
+    const Winch* const by = paying_out();
+    out.unstretched = by ? T(d.share) * by->length(in) : T(given.value);
     out.elastic = select(quasi_static() || out.stretch() > T(0), elastic_pull(out), T(0));
-    out.unstretched_rate = winch ? winch->rate(in, out.elastic) : T(given.rate);
+    out.unstretched_rate = by ? T(d.share) * by->rate(in, out.elastic) : T(given.rate);
     out.share = T(1);
     if (!has_friction) return out;
     SheaveFriction<T> friction = friction_of(out);
@@ -373,8 +432,9 @@ struct Line {
 
   template <class T>
   T unstretched_acceleration(const LoadInput<T>& in, const Motion<T>& now) const {
-    return winch ? winch->asked_acceleration(in, now.elastic)
-                 : T(d.length.at(in.time, in.curve_limit).acceleration);
+    if (winch) return T(d.share) * winch->asked_acceleration(in, now.elastic);
+    if (segment) return T(d.share) * segment->winch_acceleration(in);
+    return T(d.length.at(in.time, in.curve_limit).acceleration);
   }
 };
 

@@ -25,6 +25,8 @@ struct LineDescription : WinchDescription {
   double settling = 0.2;
   SheaveDescriptions sheaves;
   std::vector<double> strains, tensions;
+  std::string paid_out_by;
+  double share = 1.0;
 
   static constexpr const char* type = "Line";
   static constexpr const char* text =
@@ -48,8 +50,15 @@ struct LineDescription : WinchDescription {
     const auto table = std::tuple(
         optional("strains", &D::strains, "", "from 0, of a table in place of EA").usually(0.0, 3.0),
         optional("tensions", &D::tensions, "N", "at these strains, from 0"));
-    return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table);
+    const auto segment = std::tuple(
+        optional("paid_out_by", &D::paid_out_by, "", "line with mass, on a winch, of which it is a segment"),
+        optional("share", &D::share, "", "of the length that this winch pays out")
+            .must_be({.minimum = 0.0, .maximum = 1.0, .above = true}));
+    return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table, segment);
   }
+
+  /// What a winch of it goes by.
+  const std::string& winch_name() const { return paid_out_by.empty() ? name : paid_out_by; }
 
   /// A path over sheaves may have `most` points.
   void check(const Check& c, const SceneNames& names, std::size_t most) const {
@@ -58,8 +67,9 @@ struct LineDescription : WinchDescription {
     sheaves.check_neighbours(bodies, points, c);
     LineElasticity::check(strains, tensions, c);
     check_rung(c);
+    check_segment(c);
     if (winch) {
-      Winch::check(*this, length, c);
+      Winch::check(*this, length, share, c);
     } else if (rate.at(0.0).value != 0.0 || rate.pieces().size() > 1 || lag != 0.0) {
       c.fail("has a rate or a lag, and no winch; set winch, or leave them out");
     } else if (tension_gain != 0.0 || drum_inertia != 0.0) {
@@ -136,6 +146,17 @@ struct LineDescription : WinchDescription {
       if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
       c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
              to_text(kink.time) + " s, or its rate; smooth it, or choose rung 'elastic'");
+    }
+  }
+  void check_segment(const Check& c) const {
+    if (paid_out_by.empty()) {
+      if (share != 1.0) c.fail("has a share of a line that no winch pays out; give paid_out_by, or no share");
+      return;
+    }
+    if (winch && lag == 0.0) {
+      c.fail(
+          "is a segment of a line with mass, which needs a smooth rate, and its winch has no lag; give "
+          "one, such as 0.1 s");
     }
   }
   static constexpr double kJump = 1e-9;  // m and m/s

@@ -65,7 +65,8 @@ struct Winch {
       {{"maximum_rate"}, {"maximum_rate"}, {"maximum_acceleration"}, {"maximum_acceleration"}}};
   static constexpr std::size_t kKinks = kMargins.size() + 2 + Drum::kMargins.size();
 
-  static void check(const WinchDescription& d, const Curve& length, const Check& c) {
+  /// `length` is that of a share of the line.
+  static void check(const WinchDescription& d, const Curve& length, double share, const Check& c) {
     if (length.pieces().size() > 1 || length.at(0.0).value != length.at(1.0).value) {
       c.fail("length changes over time, and the winch does that; give the length at the start");
     }
@@ -73,8 +74,9 @@ struct Winch {
       c.fail(
           "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
     }
-    if (!(length.at(0.0).value > d.minimum_length)) {
-      c.fail("starts with a length of " + to_text(length.at(0.0).value) + " m and a minimum_length of " +
+    const double start = length.at(0.0).value / share;
+    if (!(start > d.minimum_length)) {
+      c.fail("starts with a length of " + to_text(start) + " m and a minimum_length of " +
              to_text(d.minimum_length) + " m; start with a longer line");
     }
     ConstantTension::check(d, c);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/paid_out.hpp"
 #include "seacrane/elements/loads/span.hpp"
 #include "seacrane/math/curve.hpp"
 
@@ -16,6 +18,7 @@ struct WoundSpanDescription : SpanDescription {
   double mass_per_length = 0.0;
   Curve length;
   double below_first = 1.0, below_second = 0.0;
+  std::string paid_out_by;
 
   static constexpr const char* type = "WoundSpan";
   static constexpr const char* text =
@@ -25,19 +28,24 @@ struct WoundSpanDescription : SpanDescription {
     using D = WoundSpanDescription;
     return std::tuple_cat(
         SpanDescription::fields(),
-        std::tuple(
-            required("mass_per_length", &D::mass_per_length, "kg/m", "").positive().usually(0.05, 1e4),
-            required("length", &D::length, "m", "unstretched, of the segment").positive().usually(0.01, 1e5),
-            required("below_first", &D::below_first, "", "share of the line beyond the first end")
-                .within(0.0, 1.0),
-            required("below_second", &D::below_second, "", "and beyond the second end, which is less")
-                .within(0.0, 1.0)));
+        std::tuple(required("mass_per_length", &D::mass_per_length, "kg/m", "").positive().usually(0.05, 1e4),
+                   required("length", &D::length, "m",
+                            "unstretched, of the segment; with a winch, that whose mass its ends have")
+                       .positive()
+                       .usually(0.01, 1e5),
+                   required("below_first", &D::below_first, "", "share of the line beyond the first end")
+                       .within(0.0, 1.0),
+                   required("below_second", &D::below_second, "", "and beyond the second end, which is less")
+                       .within(0.0, 1.0),
+                   optional("paid_out_by", &D::paid_out_by, "",
+                            "line with mass, on a winch, that it is a part of")));
   }
 };
 
 /// What winding adds to a segment of a line with mass. The line has the unstretched length L(t) and leaves
-/// its drum at one end. The ends of segments are at fixed shares e of L from there, so that a segment is as
-/// long as l = a L, and material moves past them. It has the velocity and the acceleration
+/// its drum at one end, by a curve or by a winch. The ends of segments are at fixed shares e of L from there,
+/// so that a segment is as long as l = a L, and material moves past them. It has the velocity and the
+/// acceleration
 ///
 ///   v = x' + k x_e,   x'' + k' x_e + 2 k x_e' + k (k_e x_e + k x_ee),   k = (1 - e) L' / L,   k_e = -L' / L
 ///
@@ -59,16 +67,21 @@ struct WoundSpan {
 
   Description d;
   Span span;
-  double share = 1.0;             // of the line, a
-  double described = 0.0;         // m, the length whose mass the ends have
+  double share = 1.0;      // of the line, a
+  double described = 0.0;  // m, the length whose mass the ends have
+  PaidOut paid_out;
   double gravity = 0.0;           // m/s2
   std::array<double, 2> below{};  // 1 - e, of its ends
+  std::vector<int> on;            // bodies of its ends, and those that the winch feels
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     d.check(c, names);
     if (!(d.below_first > d.below_second)) {
       c.fail("has " + to_text(d.below_first) + " of the line beyond its first end and " +
              to_text(d.below_second) + " beyond its second; give a first end that is nearer the drum");
+    }
+    if (!d.paid_out_by.empty() && d.length.pieces().size() > 1) {
+      c.fail("length changes over time, and winch '" + d.paid_out_by + "' does that; give a number");
     }
     if (!d.length.breakpoints(1).empty()) {
       c.fail(
@@ -88,24 +101,24 @@ struct WoundSpan {
 
   template <class Context>
   static WoundSpan compile(const Description& d, Context& context) {
-    return {d,
-            Span::compile(d, context),
-            d.below_first - d.below_second,
-            d.length.at(0.0).value,
-            context.gravity(),
-            {d.below_first, d.below_second}};
+    WoundSpan out;
+    out.d = d;
+    out.span = Span::compile(d, context);
+    out.share = d.below_first - d.below_second;
+    out.described = d.length.at(0.0).value;
+    out.paid_out = PaidOut::compile(d.length, d.paid_out_by, out.share, Check(kind, d.name), context);
+    out.gravity = context.gravity();
+    out.below = {d.below_first, d.below_second};
+    out.on = {out.span.first, out.span.second};
+    if (!out.paid_out.segment) return out;
+    for (const int b : out.paid_out.segment->drives()) {
+      if (std::find(out.on.begin(), out.on.end(), b) == out.on.end()) out.on.push_back(b);
+    }
+    return out;
   }
 
   /// Those of the acceleration of the length, whose steps the ends follow at once.
-  std::vector<LoadKinks> kinks() const {
-    LoadKinks out;
-    for (const CurveKink& kink : d.length.kinks()) {
-      LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
-      of.jump(0, 1) = kink.jump(2);
-      of.jump(0, 2) = kink.jump(3);
-    }
-    return {out};
-  }
+  std::vector<LoadKinks> kinks() const { return paid_out.kinks(); }
 
   /// Of a unit of the acceleration of the length.
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
@@ -118,12 +131,13 @@ struct WoundSpan {
     add(span.second, at.lever_second, below[1]);
   }
 
-  std::array<int, 2> bodies() const { return span.bodies(); }
+  const std::vector<int>& bodies() const { return on; }
+  StateRange followed() const { return paid_out.followed(); }
 
   template <class T>
   void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
     const SpanPlace<T> at = span.place(in);
-    const T gained(gain(in.time, in.curve_limit).value);
+    const T gained = gain(paid_out.length(in)).value;
     const auto add = [&](Mat6<T>& to, const Vec3<T>& lever) {
       const Mat3<T> across = skew<T>(lever) * gained;
       for (int i = 0; i < 3; ++i) to(i, i) += gained;
@@ -141,16 +155,16 @@ struct WoundSpan {
     const End<T> ends[2] = {end_at(in.bodies[span.first], at.lever_first),
                             end_at(in.bodies[span.second], at.lever_second)};
     const Vec3<T> rate = ends[1].velocity - ends[0].velocity;
-    const Moving now = moving(in.time, in.curve_limit);
-    const CurveValue gained = gain(in.time, in.curve_limit);
+    const PaidOut::Length<T> length = paid_out.length(in), gained = gain(length);
+    const Moving<T> now = moving(length, paid_out.acceleration(in));
     for (int i = 0; i < 2; ++i) {
       const End<T>& end = ends[i];
-      Vec3<T> force = at.apart * T(now.place[idx(i)]) + rate * T(now.rate[idx(i)]);
-      force -= end.swept * T(gained.value);
-      force.z() -= T(gravity * gained.value);
+      Vec3<T> force = at.apart * now.place[idx(i)] + rate * now.rate[idx(i)];
+      force -= end.swept * gained.value;
+      force.z() -= T(gravity) * gained.value;
       out.wrench[i == 0 ? span.first : span.second].add(force, end.lever);
-      const T stored = T(gained.value) * end.velocity.dot(end.swept) +
-                       T(0.5 * gained.rate) * end.velocity.dot(end.velocity);
+      const T stored =
+          gained.value * end.velocity.dot(end.swept) + T(0.5) * gained.rate * end.velocity.dot(end.velocity);
       out.add_power(force.dot(end.velocity) + stored);
     }
   }
@@ -161,8 +175,9 @@ struct WoundSpan {
     Vec3<T> lever, velocity, swept;
   };
   /// Factors of d and d' at each end, N/m and N s/m.
+  template <class T>
   struct Moving {
-    std::array<double, 2> place{}, rate{};
+    std::array<T, 2> place, rate;
   };
 
   template <class T>
@@ -172,25 +187,25 @@ struct WoundSpan {
   }
 
   /// Of the mass of one end beyond what is described, and its rate.
-  CurveValue gain(double time, double limit) const {
-    const CurveValue l = d.length.at(time, limit);
-    const double half = 0.5 * d.mass_per_length;
-    return {half * (l.value - described), half * l.rate, 0.0};
+  template <class T>
+  PaidOut::Length<T> gain(const PaidOut::Length<T>& l) const {
+    const T half(0.5 * d.mass_per_length);
+    return {half * (l.value - T(described)), half * l.rate};
   }
 
-  Moving moving(double time, double limit) const {
-    const CurveValue l = d.length.at(time, limit);
-    const double growth = l.rate / l.value, half = 0.5 * d.mass_per_length * l.value / share;
-    const double flow = d.mass_per_length * l.rate / share * 0.5 * (below[0] + below[1]);
-    Moving out;
+  template <class T>
+  Moving<T> moving(const PaidOut::Length<T>& l, const T& acceleration) const {
+    const T growth = l.rate / l.value, half = T(0.5 * d.mass_per_length / share) * l.value;
+    const T flow = T(d.mass_per_length / share * 0.5 * (below[0] + below[1])) * l.rate;
+    Moving<T> out;
     for (int i = 0; i < 2; ++i) {
-      const double b = below[idx(i)], k = b * growth;
-      const double k_rate = b * (l.acceleration / l.value - growth * growth);
-      out.place[idx(i)] = -half * k_rate + 0.5 * flow * growth;
-      out.rate[idx(i)] = -half * k - 0.5 * flow;
-      if (b == 1.0) continue;
-      const double bend = d.mass_per_length * l.value / (share * share) * k * k;
-      out.place[idx(i)] += i == 0 ? -bend : bend;
+      const T b(below[idx(i)]), k = b * growth;
+      const T k_rate = b * (acceleration / l.value - growth * growth);
+      out.place[idx(i)] = T(0.5) * flow * growth - half * k_rate;
+      out.rate[idx(i)] = -(half * k + T(0.5) * flow);
+      if (below[idx(i)] == 1.0) continue;
+      const T bend = T(d.mass_per_length / (share * share)) * l.value * k * k;
+      out.place[idx(i)] += i == 0 ? T(-bend) : bend;
     }
     return out;
   }

@@ -26,7 +26,7 @@ bool has_drum(const Line::Description& d) { return d.winch && d.drum_inertia > 0
 const Axis drum{"drum", {}, [](const Model& m) {
                   std::vector<std::string> names;
                   for (const auto& d : m.description.loads.of<Line>()) {
-                    if (has_drum(d)) names.push_back(d.name);
+                    if (has_drum(d)) names.push_back(d.winch_name());
                   }
                   return names;
                 }};
