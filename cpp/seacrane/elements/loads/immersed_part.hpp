@@ -160,7 +160,7 @@ struct ImmersedPart {
     out.shape = shape_of(d);
     out.body = on.body;
     out.point = on.point;
-    out.first_point = context.attach(d.body, d.point - d.place * d.step).point;
+    out.first_point = snapped(context.attach(d.body, d.point - d.place * d.step).point);
     out.step = on.axes * d.step;
     out.place_in_row = static_cast<int>(d.place);
     out.axes = on.axes * d.axes;
@@ -462,6 +462,12 @@ struct ImmersedPart {
     moment += twist;
     out.add_power(push.dot(own) + twist.dot(turning) + stored);
     return loss;
+  }
+
+  /// Rounded, so that strips of a row agree on its first point to the last bit: the sea is then summed once.
+  static Vec3d snapped(const Vec3d& point) {
+    constexpr double grid = 0x1p-36;  // 1.5e-11 m
+    return (point / grid).array().round() * grid;
   }
 
   static Shape shape_of(const Description& d) {
