@@ -37,10 +37,33 @@ SceneDescription with_lines(SceneDescription scene) {
   return scene;
 }
 
+/// Bodies that hang on one another by such lines, listed in an order of their own: each line feels a few others.
+SceneDescription chain(Random& random) {
+  SceneDescription scene;
+  scene.name = "chain";
+  std::string above = kGround;
+  std::vector<LineDescription> lines;
+  for (int i = 0; i < 6; ++i) {
+    BodyDescription link = random_body("link " + std::to_string(i), random);
+    link.position = Vec3d(0.0, 0.0, -1.5 * (i + 1)) + 0.1 * random.vector();
+    LineDescription line = commanded_line();
+    line.name = "line " + std::to_string(i);
+    line.bodies = {above, link.name};
+    line.points = {Vec3d::Zero(), Vec3d::Zero()};
+    line.sheaves = SheaveDescriptions();
+    line.length = Curve::constant(1.0);
+    lines.push_back(line);
+    above = link.name;
+    scene.bodies.push_back(link);
+  }
+  for (const std::size_t i : {1u, 0u, 2u, 3u, 5u, 4u}) scene.loads.of<Line>().push_back(lines[i]);
+  return scene;
+}
+
 std::vector<SceneDescription> lined_scenes() {
   Random random(71);
   return {with_lines(pair("revolute", random)), with_lines(pair("spherical", random)),
-          with_lines(pair("distance", random))};
+          with_lines(pair("distance", random)), chain(random)};
 }
 
 std::vector<double> shaken(MaximalSystem& system) {

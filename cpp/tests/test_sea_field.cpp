@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -374,6 +375,32 @@ TEST_CASE("a row of elements is that of each by itself, and is kept") {
   evaluator.row(9.0, first, step);
   const auto again = evaluator.row(8.0, first, step);
   for (std::size_t n = 0; n < kept.size(); ++n) CHECK(worst(again[n], kept[n], LocalFlow<double>()) == 0.0);
+}
+
+TEST_CASE(
+    "random rows are the plain sums of each element, from in air to deep, of small steps and of large ones") {
+  RandomSea random{std::mt19937_64(23)};
+  for (int trial = 0; trial < 80; ++trial) {
+    CAPTURE(trial);
+    const double depth = trial % 3 == 0 ? 25.0 : trial % 3 == 1 ? 60.0 : deep;
+    const auto stretching = trial % 4 == 0 ? Stretching::none : Stretching::wheeler;
+    const auto sea = std::make_shared<const SeaField>(
+        random.waves(1 + static_cast<std::size_t>(random.number(0.0, 60.0)), depth), stretching);
+    const std::size_t count = 1 + static_cast<std::size_t>(trial) % 20;
+    FlowEvaluator evaluator(sea, {"row", count, 1e-14});
+    const double size = std::pow(10.0, random.number(-2.0, 0.5)), height = random.number(0.0, 4.0);
+    const FlowPoint first{Vec3d(4.0, -2.0, random.number(-9.0, 3.0)), Mat3d::Random(), random.vector(0.2),
+                          trial % 5 == 0 ? 0.0 : height};
+    Vec3d step = random.vector(size);
+    step.z() = trial % 2 == 0 ? 0.1 * step.z() : std::clamp(step.z(), -0.5, 0.5);
+    const auto row = evaluator.row(8.0, first, step);
+    for (std::size_t n = 0; n < count; ++n) {
+      CAPTURE(n);
+      const Vec3d at = first.position + static_cast<double>(n) * step;
+      const auto alone = sea->at<double>(8.0, at, first.extents, first.height, first.turning);
+      CHECK(worst(row[n], alone, sea->magnitude()) < 1e-11);
+    }
+  }
 }
 
 TEST_CASE("an element feels its mean over the wave, and no wave shorter than itself") {

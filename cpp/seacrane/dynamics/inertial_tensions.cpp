@@ -1,7 +1,9 @@
 #include "seacrane/dynamics/inertial_tensions.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
 
 #include "seacrane/dynamics/terms.hpp"
 
@@ -22,8 +24,26 @@ InertialTensions::InertialTensions(const Model& model)
   });
   for (auto* wrenches : {&unit_, &path_, &response_}) wrenches->assign(idx(n), load_);
   for (auto* values : {&mass_, &winding_, &tension_, &change_}) *values = VecXd::Zero(n);
-  matrix_ = MatXd::Identity(n, n);
-  factors_ = Eigen::PartialPivLU<MatXd>(n);
+  std::vector<int> all(idx(bodies_));
+  std::iota(all.begin(), all.end(), 0);
+  confine(std::vector<std::vector<int>>(idx(n), all));
+}
+
+void InertialTensions::confine(std::vector<std::vector<int>> moved) {
+  moved_ = std::move(moved);
+  felt_.assign(moved_.size(), {});
+  int band = 0;
+  for (int j = 0; j < count(); ++j) {
+    const std::vector<int>& by_j = moved_[idx(j)];
+    for (int i = 0; i < count(); ++i) {
+      const bool feels =
+          std::ranges::any_of(on_[idx(i)], [&](int b) { return std::ranges::find(by_j, b) != by_j.end(); });
+      if (!feels) continue;
+      felt_[idx(j)].push_back(i);
+      band = std::max(band, std::abs(i - j));
+    }
+  }
+  equations_ = BandLu(count(), band);
 }
 
 double InertialTensions::dot(Eigen::Index line, const Vec6d* acceleration) const {
@@ -52,14 +72,14 @@ void InertialTensions::start(const Terms& terms, double t, const double* memory,
 }
 
 const VecXd& InertialTensions::finish(Terms& terms) {
-  for (const Tensioned& j : loads_) {
-    for (const Tensioned& i : loads_) {
-      const double own = i.place == j.place ? 1.0 : 0.0;
-      matrix_(i.place, j.place) = own + mass_[i.place] * dot(i.place, response(j.place).data());
-    }
+  MatXd& matrix = equations_.matrix();
+  matrix.setIdentity();
+  for (int j = 0; j < count(); ++j) {
+    for (const int i : felt_[idx(j)]) matrix(i, j) += mass_[i] * dot(i, response(j).data());
   }
-  factors_.compute(matrix_);
-  tension_.noalias() = factors_.solve(change_);
+  equations_.factor();
+  tension_ = change_;
+  equations_.solve(tension_);
   std::fill(load_.begin(), load_.end(), Vec6d::Zero());
   add_loads(tension_, load_.data());
   terms.add_inertial(tension_, winding_, load_);
@@ -69,14 +89,14 @@ const VecXd& InertialTensions::finish(Terms& terms) {
 void InertialTensions::add_accelerations(std::vector<Vec6d>& acceleration) const {
   for (const Tensioned& one : loads_) {
     const std::vector<Vec6d>& response = response_[idx(one.place)];
-    for (int b = 0; b < bodies_; ++b) acceleration[idx(b)] += tension_[one.place] * response[idx(b)];
+    for (const int b : moved_[idx(one.place)]) acceleration[idx(b)] += tension_[one.place] * response[idx(b)];
   }
 }
 
 const VecXd& InertialTensions::change(const VecXd& own, const Vec6d* acceleration) {
   change_ = own;
   for (const Tensioned& one : loads_) change_[one.place] += along(one.place, acceleration);
-  change_ = factors_.solve(VecXd(change_));
+  equations_.solve(change_);
   return change_;
 }
 

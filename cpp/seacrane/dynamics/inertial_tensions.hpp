@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <vector>
 
+#include "seacrane/math/band_lu.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -19,12 +19,16 @@ class InertialTensions {
   explicit InertialTensions(const Model& model);
   bool any() const { return !loads_.empty(); }
   Eigen::Index count() const { return tension_.size(); }
+  /// The only bodies that each tension accelerates; without this call, all. A chain of bodies that float has
+  /// equations within a band, which cost as many operations as it has lines.
+  void confine(std::vector<std::vector<int>> moved);
 
   // Call these in this order, right after an evaluation without the tensions.
 
   /// Begins with the accelerations of that evaluation, by body.
   void start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration);
-  /// The wrenches u of 1 N in a line, and room for the response w to them, which the caller writes.
+  /// The wrenches u of 1 N in a line, and room for the response w to them of the bodies that it accelerates,
+  /// which the caller writes.
   const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
   std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
   /// The bodies on which a line acts, without the ground.
@@ -57,11 +61,12 @@ class InertialTensions {
   };
   std::vector<Tensioned> loads_;
   std::vector<std::vector<int>> on_;                        // bodies of each, without the ground, by place
+  std::vector<std::vector<int>> moved_;                     // bodies that it accelerates
+  std::vector<std::vector<int>> felt_;                      // tensions that act on these
   std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;
-  MatXd matrix_;
-  Eigen::PartialPivLU<MatXd> factors_;
+  BandLu equations_;
 };
 
 }  // namespace seacrane

@@ -19,9 +19,8 @@ std::string shown(double number) {
   return text.str();
 }
 
-/// The first components, in whole packs, behind which none is felt.
-std::size_t felt(const std::vector<double>& amplitude) {
-  std::size_t count = amplitude.size();
+/// Of the first components as many, in whole packs, behind which none is felt.
+std::size_t felt(const std::vector<double>& amplitude, std::size_t count) {
   while (count > 0 && amplitude[count - 1] == 0.0) --count;
   return (count + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
 }
@@ -43,7 +42,7 @@ struct Descent {
 /// Phasors of waves that are met at the highest point, and what turns them; how many are felt at all.
 std::size_t start(const SeaField& field, double t, const Descent& way, bool whole, sea::FlowScratch& s) {
   if (whole) sea::filter_amplitudes(field, field.padded(), way.down.x(), way.down.y(), s);
-  const std::size_t count = felt(s.amplitude);
+  const std::size_t count = felt(s.amplitude, field.padded());
   sea::set_phasors(field, count, t, way.top.x(), way.top.y(), s);
   if (way.last > 0) sea::set_turns(field, count, way.down.x(), way.down.y(), s);
   return count;
@@ -54,7 +53,8 @@ void descend(const SeaField& field, std::size_t reached, std::size_t n, const De
              bool first_below, sea::FlowScratch& s) {
   if (!first_below) return sea::step_decays(reached, s);
   s.images = field.images(way.z(way.last), cut);
-  sea::set_decays(field, reached, way.z(n), s);
+  sea::forget_decays(s);
+  sea::set_decays(field, reached, way.z(n), 0.0, s);
   sea::set_decay_steps(field, reached, way.down.z(), s);
 }
 
@@ -84,10 +84,15 @@ void FlowEvaluator::require_above_floor(double z) const {
                           " m; make the sea deeper, or stop the load above its floor");
 }
 
-void FlowEvaluator::meet_waves() {
-  scratch_->amplitude = field_->arrays().amplitude;
-  if (stencil_.waves == 1.0) return;
-  for (double& one : scratch_->amplitude) one *= stencil_.waves;
+void FlowEvaluator::meet_waves(std::size_t count) {
+  const double* const from = field_->arrays().amplitude.data();
+  for (std::size_t i = 0; i < count; ++i) scratch_->amplitude[i] = stencil_.waves * from[i];
+  std::fill_n(scratch_->gain.begin(), count, 0.0);
+}
+
+void FlowEvaluator::add_surface(std::size_t n, std::size_t count, LocalFlow<double>& out) {
+  const auto add = n > 0 ? sea::add_next_surface : sea::add_surface;
+  add(*field_, count, *scratch_, out);
 }
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
@@ -102,44 +107,35 @@ void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<d
   const double top = std::min(level + 0.5 * wet.height, 0.0);
   const std::size_t reached = std::min(count, field_->reach(top, stencil_.cut));
   scratch_->images = field_->images(level - 0.5 * wet.height, stencil_.cut);
-  sea::set_decays(*field_, reached, level, *scratch_);
-  if (wet.height > 0.0) sea::take_means(*field_, reached, wet.height, *scratch_);
+  sea::set_decays(*field_, reached, level, wet.height, *scratch_);
   interior(reached, level, out);
 }
 
-std::size_t FlowEvaluator::feel(const FlowPoint& at) {
+std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
   const bool turns = !at.turning.isZero(0.0);
   const Mat3d rate = skew<double>(at.turning) * at.extents;
-  meet_waves();
-  std::ranges::fill(scratch_->gain, 0.0);
+  meet_waves(most);
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
     if (turns) {
-      sea::filter_turning(*field_, field_->padded(), x, y, rate(0, j), rate(1, j), *scratch_);
+      sea::filter_turning(*field_, most, x, y, rate(0, j), rate(1, j), *scratch_);
     } else if (x != 0.0 || y != 0.0) {
-      sea::filter_amplitudes(*field_, field_->padded(), x, y, *scratch_);
+      sea::filter_amplitudes(*field_, most, x, y, *scratch_);
     }
   }
-  const std::size_t count = felt(scratch_->amplitude);
+  const std::size_t count = felt(scratch_->amplitude, most);
   if (turns) sea::take_quotients(count, *scratch_);
   return count;
 }
 
 void FlowEvaluator::write_calm(double t, const FlowPoint& at, LocalFlow<double>& out) {
   const double z = at.position.z();
-  const std::size_t count =
-      std::min(feel(at), field_->reach(std::min(z + 0.5 * at.height, 0.0), stencil_.cut));
+  const std::size_t count = feel(at, field_->reach(std::min(z + 0.5 * at.height, 0.0), stencil_.cut));
   sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
   scratch_->images = field_->images(z - 0.5 * at.height, stencil_.cut);
-  sea::set_decays(*field_, count, z, *scratch_);
-  if (at.height > 0.0) sea::take_means(*field_, count, at.height, *scratch_);
+  sea::forget_decays(*scratch_);
+  sea::set_decays(*field_, count, z, at.height, *scratch_);
   interior(count, z, out);
-}
-
-void FlowEvaluator::write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out) {
-  sea::add_surface(*field_, count, *scratch_, out);
-  if (!at.turning.isZero(0.0)) sea::add_gains(count, *scratch_, out);
-  take(count, z, at.height, out);
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<const FlowPoint> points) {
@@ -149,9 +145,11 @@ std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<cons
     if (!field_) continue;
     const FlowPoint& at = points[n];
     require_above_floor(at.position.z());
-    const std::size_t count = feel(at);
+    const std::size_t count = feel(at, field_->padded());
     sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
-    write(count, at.position.z(), at, out);
+    sea::forget_decays(*scratch_);
+    sea::add_surface(*field_, count, *scratch_, out);
+    take(count, at.position.z(), at.height, out);
   }
   return flow_;
 }
@@ -160,12 +158,13 @@ void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& ste
   const auto z = [&](std::size_t n) { return first.position.z() + static_cast<double>(n) * step.z(); };
   require_above_floor(std::min(z(0), z(flow_.size() - 1)));
   if (z(0) + 0.5 * first.height < calm_) return write_calm(t, first, flow_.front());
-  const std::size_t count = feel(first);
+  const std::size_t count = feel(first, field_->padded());
   sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);
   if (flow_.size() > 1) sea::set_turns(*field_, count, step.x(), step.y(), *scratch_);
+  sea::forget_decays(*scratch_);
   for (std::size_t n = 0; n < flow_.size(); ++n) {
-    if (n > 0) sea::turn(count, *scratch_);
-    write(count, z(n), first, flow_[n]);
+    add_surface(n, count, flow_[n]);
+    take(count, z(n), first.height, flow_[n]);
   }
 }
 
@@ -187,15 +186,15 @@ std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& fi
   if (!field_) return flow_;
   const Descent way(first, step, flow_.size() - 1);
   require_above_floor(way.z(way.last));
-  meet_waves();
+  meet_waves(field_->padded());
+  sea::forget_decays(*scratch_);
   const std::size_t count = start(*field_, t, way, whole, *scratch_);
   const bool straight = field_->stretching() == Stretching::none;
   bool first_below = true;
   for (std::size_t n = 0; n <= way.last; ++n) {
     LocalFlow<double>& out = flow_[way.rises ? way.last - n : n];
     const double z = way.z(n);
-    if (n > 0) sea::turn(count, *scratch_);
-    sea::add_surface(*field_, count, *scratch_, out);
+    add_surface(n, count, out);
     if (straight && z < 0.0 && z >= -field_->depth()) {
       const std::size_t reached = std::min(count, field_->reach(z, stencil_.cut));
       descend(*field_, reached, n, way, stencil_.cut, std::exchange(first_below, false), *scratch_);

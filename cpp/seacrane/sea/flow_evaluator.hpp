@@ -51,15 +51,15 @@ class FlowEvaluator {
 
  private:
   void require_above_floor(double z) const;
-  /// Amplitudes of the waves, before an element takes its mean of them.
-  void meet_waves();
-  /// Amplitudes that an element feels, and how many components are felt at all.
-  std::size_t feel(const FlowPoint& at);
+  /// Amplitudes of the first waves, before an element takes its mean of them.
+  void meet_waves(std::size_t count);
+  /// Amplitudes that an element feels of the first waves, and how many components are felt at all.
+  std::size_t feel(const FlowPoint& at, std::size_t most);
   void write_row(double t, const FlowPoint& first, const Vec3d& step);
   /// The flow at a point that hardly feels waves, without its surface.
   void write_calm(double t, const FlowPoint& at, LocalFlow<double>& out);
-  /// The flow at the phasors of a point at z, over an element like `at`.
-  void write(std::size_t count, double z, const FlowPoint& at, LocalFlow<double>& out);
+  /// The surface at point n, from the phasors of the first, or else of the point before.
+  void add_surface(std::size_t n, std::size_t count, LocalFlow<double>& out);
   /// From the phasors of a point to its flow; `count` components are felt at all.
   void take(std::size_t count, double z, double height, LocalFlow<double>& out);
   void interior(std::size_t count, double level, LocalFlow<double>& out);

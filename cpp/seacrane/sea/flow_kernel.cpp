@@ -1,7 +1,9 @@
 #include "seacrane/sea/flow_kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -9,11 +11,12 @@
 #include "seacrane/math/sinc_lane.hpp"
 #include "seacrane/sea/sincos.hpp"
 
-// GCC compiles these loops a second time for registers of four doubles, and chooses when the program starts.
-// Neither form fuses products and sums, so that both give the same bits. All that they call is within them.
+// GCC compiles these loops again for registers of four and of eight doubles, and chooses when the program
+// starts. No form fuses products and sums (cpp/CMakeLists.txt), so that all give the same bits. All that they
+// call is within them.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__gnu_linux__) && \
     !defined(__AVX2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SEACRANE_FLOW_LOOP __attribute__((target_clones("avx2", "default"), flatten))
+#define SEACRANE_FLOW_LOOP __attribute__((target_clones("avx512f", "avx2", "default"), flatten))
 #else
 #define SEACRANE_FLOW_LOOP
 #endif
@@ -24,8 +27,11 @@ namespace {
 constexpr std::size_t wide = SeaField::lanes;
 typedef double FlowPack __attribute__((vector_size(8 * wide)));
 
-inline void get(const std::vector<double>& from, std::size_t i, FlowPack& to) {
-  std::memcpy(&to, from.data() + i, sizeof(FlowPack));
+inline void get(const double* from, std::size_t i, FlowPack& to) {
+  std::memcpy(&to, from + i, sizeof(FlowPack));
+}
+inline void put(const FlowPack& from, std::size_t i, double* to) {
+  std::memcpy(to + i, &from, sizeof(FlowPack));
 }
 inline double total(const FlowPack& sum) { return (sum[0] + sum[1]) + (sum[2] + sum[3]); }
 
@@ -52,15 +58,6 @@ SEACRANE_FLOW_LOOP void write_turns(Read kx, Read ky, std::size_t count, double 
                                     Write angle, Write cosine, Write sine) {
   for (std::size_t i = 0; i < count; ++i) angle[i] = -(kx[i] * dx + ky[i] * dy);
   sincos_each(angle, count, largest, sine, cosine);
-}
-
-SEACRANE_FLOW_LOOP void write_turned(Read turn_cosine, Read turn_sine, std::size_t count, Write cosine,
-                                     Write sine) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double c = cosine[i], q = sine[i];
-    cosine[i] = c * turn_cosine[i] - q * turn_sine[i];
-    sine[i] = q * turn_cosine[i] + c * turn_sine[i];
-  }
 }
 
 SEACRANE_FLOW_LOOP void write_filtered(Read kx, Read ky, std::size_t count, double x, double y,
@@ -96,14 +93,48 @@ SEACRANE_FLOW_LOOP void write_exponentials(Read k, std::size_t count, double z, 
   for (std::size_t i = 0; i < count; ++i) exp_lane<double, std::uint64_t>(k[i] * z, out[i]);
 }
 
-/// Times the mean of exp(k z) over a height, over its value in the middle: sinh x / x with x = k height / 2,
-/// as sin x / x of an imaginary x. Where k height is far above 2 pi it comes out too small, never too large.
-SEACRANE_FLOW_LOOP void write_means(Read k, std::size_t count, double height, Write decay) {
+/// From exp(k z) in the middle of a height to its integral: times height sinh x / x with x = k height / 2, as
+/// sin x / x of an imaginary x. Where k height is far above 2 pi it comes out too small, never too large.
+SEACRANE_FLOW_LOOP void write_integrals(Read k, std::size_t count, double height, Write sum) {
   for (std::size_t i = 0; i < count; ++i) {
     const double half = 0.5 * k[i] * height;
     double mean;
     sinc_lane(-half * half, mean);
-    decay[i] *= mean;
+    sum[i] *= height * mean;
+  }
+}
+
+constexpr double near = 0.2;  // of k times a way
+
+/// (exp x - 1) / x for |x| <= near: Taylor polynomial whose first omitted term is near^10 / 11! = 3e-15.
+inline double growth(double x) {
+  constexpr std::size_t count = 10;
+  constexpr std::array<double, count> coefficient = [] {
+    std::array<double, count> c{};
+    double factorial = 1.0;
+    for (std::size_t n = 0; n < count; ++n) c[n] = 1.0 / (factorial *= static_cast<double>(n + 1));
+    return c;
+  }();
+  double sum = coefficient[count - 1];
+  for (std::size_t n = count - 1; n-- > 0;) sum = x * sum + coefficient[n];
+  return sum;
+}
+
+/// The height goes up, as the decay sees it, as it is.
+SEACRANE_FLOW_LOOP void write_risen(Read k, std::size_t count, double up, Write low, Write sum) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = k[i] * up, factor = 1.0 + x * growth(x);
+    low[i] *= factor;
+    sum[i] *= factor;
+  }
+}
+
+/// Its bottom alone goes up, as the decay sees it, and as much of the height is lost as `lost` says.
+SEACRANE_FLOW_LOOP void write_cut(Read k, std::size_t count, double up, double lost, Write low, Write sum) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = k[i] * up, part = low[i] * growth(x);
+    low[i] += x * part;
+    sum[i] -= lost * part;
   }
 }
 
@@ -138,64 +169,131 @@ void set_turns(const SeaField& field, std::size_t count, double dx, double dy, F
               field.largest_angle(0.0, dx, dy), s.angle.data(), s.turn_cosine.data(), s.turn_sine.data());
 }
 
-void turn(std::size_t count, FlowScratch& s) {
-  write_turned(s.turn_cosine.data(), s.turn_sine.data(), count, s.cosine.data(), s.sine.data());
+void forget_decays(FlowScratch& s) { s.decay.held = s.image.held = 0; }
+
+namespace {
+
+/// speed exp(sign k (z + shift)) over a height from the bottom; what is held has moved there by `up` in all,
+/// and by `cut` more at the bottom.
+void move_decays(const SeaField::Arrays& f, std::size_t count, double sign, double shift,
+                 const FlowScratch& s, double up, double cut, Decays& d) {
+  const double* const k = f.k.data();
+  const std::size_t held = std::min(d.held, count), fresh = count - held;
+  constexpr double rounding = 0x1p-51;
+  if (held > 0) {
+    const double most = k[held - 1];
+    if (most * std::fabs(up) > rounding) write_risen(k, held, sign * up, d.low.data(), d.sum.data());
+    if (most * std::fabs(cut) > rounding)
+      write_cut(k, held, sign * cut, s.height > 0.0 ? cut : 0.0, d.low.data(), d.sum.data());
+  }
+  if (fresh > 0) {
+    const auto begin = [&](double z, double* out) {
+      write_exponentials(k + held, fresh, sign * (z + shift), out);
+      write_products(f.speed.data() + held, fresh, out);
+    };
+    double* const sum = d.sum.data() + held;
+    begin(s.bottom, d.low.data() + held);
+    if (s.height > 0.0) {
+      begin(s.bottom + 0.5 * s.height, sum);
+      write_integrals(k + held, fresh, s.height, sum);
+    }
+  }
+  d.held = count;
 }
 
-void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s) {
-  const double* k = field.arrays().k.data();
-  write_exponentials(k, count, level, s.decay.data());
-  write_exponentials(k, std::min(count, s.images), -(level + 2.0 * field.depth()), s.image.data());
-}
+}  // namespace
 
-void take_means(const SeaField& field, std::size_t count, double height, FlowScratch& s) {
-  const double* k = field.arrays().k.data();
-  write_means(k, count, height, s.decay.data());
-  write_means(k, std::min(count, s.images), height, s.image.data());
+void set_decays(const SeaField& field, std::size_t count, double level, double height, FlowScratch& s) {
+  const SeaField::Arrays& f = field.arrays();
+  const double bottom = level - 0.5 * height, most = count > 0 ? f.k[count - 1] : 0.0;
+  const double up = height > 0.0 ? bottom + height - (s.bottom + s.height) : 0.0;
+  const double cut = bottom - s.bottom - up;
+  constexpr double largest = 16.0;  // k height up to which integrals are exact to 1e-8
+  if (most * std::max(std::fabs(up), std::fabs(cut)) > near || most * height > largest ||
+      height < 0.5 * s.height || (height > 0.0 && s.height == 0.0)) {
+    forget_decays(s);
+  }
+  s.bottom = bottom;
+  s.height = height;
+  move_decays(f, count, 1.0, 0.0, s, up, cut, s.decay);
+  const std::size_t images = std::min(count, s.images);
+  if (images > 0) move_decays(f, images, -1.0, 2.0 * field.depth(), s, up, cut, s.image);
+  s.image.held = images;
 }
 
 void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s) {
   const double* k = field.arrays().k.data();
-  write_exponentials(k, count, dz, s.decay_step.data());
-  write_exponentials(k, std::min(count, s.images), -dz, s.image_step.data());
+  write_exponentials(k, count, dz, s.decay.step.data());
+  write_exponentials(k, std::min(count, s.images), -dz, s.image.step.data());
 }
 
 void step_decays(std::size_t count, FlowScratch& s) {
-  write_products(s.decay_step.data(), count, s.decay.data());
-  write_products(s.image_step.data(), std::min(count, s.images), s.image.data());
+  forget_decays(s);
+  write_products(s.decay.step.data(), count, s.decay.low.data());
+  write_products(s.image.step.data(), std::min(count, s.images), s.image.low.data());
 }
 
-SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s,
-                                    LocalFlow<double>& out) {
-  const SeaField::Arrays& f = field.arrays();
+namespace {
+
+struct SurfaceSums {
   FlowPack elevation{}, rate{}, slope_x{}, slope_y{};
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack c, q, omega, kx, ky;
-    get(s.cosine, i, c);
-    get(s.sine, i, q);
-    get(f.omega, i, omega);
-    get(f.kx, i, kx);
-    get(f.ky, i, ky);
-    elevation += c;
-    rate -= omega * q;
-    slope_x += kx * q;
-    slope_y += ky * q;
+
+  void add_to(LocalFlow<double>& out) const {
+    out.elevation += total(elevation);
+    out.elevation_rate += total(rate);
+    out.slope[0] += total(slope_x);
+    out.slope[1] += total(slope_y);
   }
-  out.elevation += total(elevation);
-  out.elevation_rate += total(rate);
-  out.slope[0] += total(slope_x);
-  out.slope[1] += total(slope_y);
+};
+
+template <bool turns>
+inline SurfaceSums sum_surface(Read omega, Read kx, Read ky, Read gain, Read turn_cosine, Read turn_sine,
+                               std::size_t count, Write cosine, Write sine) {
+  SurfaceSums sum;
+  for (std::size_t i = 0; i < count; i += wide) {
+    FlowPack c, q, w, g, x, y;
+    get(cosine, i, c);
+    get(sine, i, q);
+    if constexpr (turns) {
+      FlowPack turn_c, turn_q;
+      get(turn_cosine, i, turn_c);
+      get(turn_sine, i, turn_q);
+      const FlowPack before = c;
+      c = before * turn_c - q * turn_q;
+      q = q * turn_c + before * turn_q;
+      put(c, i, cosine);
+      put(q, i, sine);
+    }
+    get(omega, i, w);
+    get(gain, i, g);
+    get(kx, i, x);
+    get(ky, i, y);
+    sum.elevation += c;
+    sum.rate += g * c - w * q;
+    sum.slope_x += x * q;
+    sum.slope_y += y * q;
+  }
+  return sum;
 }
 
-SEACRANE_FLOW_LOOP void add_gains(std::size_t count, const FlowScratch& s, LocalFlow<double>& out) {
-  FlowPack sum{};
-  for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack gain, c;
-    get(s.gain, i, gain);
-    get(s.cosine, i, c);
-    sum += gain * c;
-  }
-  out.elevation_rate += total(sum);
+template <bool turns>
+inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
+                             LocalFlow<double>& out) {
+  sum_surface<turns>(f.omega.data(), f.kx.data(), f.ky.data(), s.gain.data(), s.turn_cosine.data(),
+                     s.turn_sine.data(), count, s.cosine.data(), s.sine.data())
+      .add_to(out);
+}
+
+}  // namespace
+
+SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, FlowScratch& s,
+                                    LocalFlow<double>& out) {
+  add_surface_sums<false>(field.arrays(), count, s, out);
+}
+
+SEACRANE_FLOW_LOOP void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s,
+                                         LocalFlow<double>& out) {
+  add_surface_sums<true>(field.arrays(), count, s, out);
 }
 
 namespace {
@@ -206,21 +304,18 @@ struct InteriorSums {
 
 template <bool floor>
 inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_t to, const FlowScratch& s,
-                         InteriorSums& sum) {
+                         const double* decay, const double* image, InteriorSums& sum) {
   for (std::size_t i = from; i < to; i += wide) {
-    FlowPack c, q, down, image{}, speed, sigma, pressure, x, y;
-    get(s.cosine, i, c);
-    get(s.sine, i, q);
-    get(s.decay, i, down);
-    if constexpr (floor) get(s.image, i, image);
-    get(f.speed, i, speed);
-    get(f.sigma, i, sigma);
-    get(f.pressure, i, pressure);
-    get(f.x, i, x);
-    get(f.y, i, y);
-    c *= speed;
-    q *= speed;
-    const FlowPack level = floor ? down + image : down, upright = floor ? down - image : down;
+    FlowPack c, q, down, other{}, sigma, pressure, x, y;
+    get(s.cosine.data(), i, c);
+    get(s.sine.data(), i, q);
+    get(decay, i, down);
+    if constexpr (floor) get(image, i, other);
+    get(f.sigma.data(), i, sigma);
+    get(f.pressure.data(), i, pressure);
+    get(f.x.data(), i, x);
+    get(f.y.data(), i, y);
+    const FlowPack level = floor ? down + other : down, upright = floor ? down - other : down;
     const FlowPack along = level * c, turned = sigma * (level * q);
     const FlowPack up = upright * q, lifted = sigma * (upright * c);
     sum.u += x * along;
@@ -239,11 +334,15 @@ SEACRANE_FLOW_LOOP void add_interior(const SeaField& field, std::size_t count, c
                                      LocalFlow<double>& out) {
   InteriorSums sum;
   const std::size_t floor = std::min(count, s.images);
-  sum_interior<true>(field.arrays(), 0, floor, s, sum);
-  sum_interior<false>(field.arrays(), floor, count, s, sum);
-  out.velocity += Vec3d(total(sum.u), total(sum.v), total(sum.w));
-  out.acceleration += Vec3d(total(sum.ax), total(sum.ay), total(sum.az));
-  out.pressure += total(sum.p);
+  const bool mean = s.height > 0.0;
+  const double* const decay = mean ? s.decay.sum.data() : s.decay.low.data();
+  const double* const image = mean ? s.image.sum.data() : s.image.low.data();
+  sum_interior<true>(field.arrays(), 0, floor, s, decay, image, sum);
+  sum_interior<false>(field.arrays(), floor, count, s, decay, image, sum);
+  const double share = mean ? 1.0 / s.height : 1.0;
+  out.velocity += share * Vec3d(total(sum.u), total(sum.v), total(sum.w));
+  out.acceleration += share * Vec3d(total(sum.ax), total(sum.ay), total(sum.az));
+  out.pressure += share * total(sum.p);
 }
 
 }  // namespace seacrane::sea

@@ -9,20 +9,28 @@
 /// whole packs, and sums are added up in one order, so that results do not depend on the processor.
 namespace seacrane::sea {
 
+/// speed exp(k z), or its image speed exp(-k (z + 2 depth)), over a height; of no height, at its level.
+struct Decays {
+  std::vector<double> low;   // at the bottom
+  std::vector<double> sum;   // integral over the height, m
+  std::vector<double> step;  // factor of `low` from point to point
+  std::size_t held = 0;      // how many of the first components are there
+};
+
 /// What one stencil keeps for each component, at the point that it is at.
 struct FlowScratch {
   std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
   std::vector<double> gain;                    // and its rate, then over it, where the element turns
   std::vector<double> cosine, sine;            // amplitude times those of the phase angle
   std::vector<double> turn_cosine, turn_sine;  // of the phase from point to point
-  std::vector<double> decay, image;            // exp(k level), exp(-k (level + 2 depth))
-  std::vector<double> decay_step, image_step;  // their factors from point to point
+  Decays decay, image;
+  double bottom = 0.0, height = 0.0;  // where the decays are
 
   std::size_t images = 0;  // how many of the first have an image, whole packs
 
   explicit FlowScratch(std::size_t padded) {
-    for (auto* array : {&amplitude, &angle, &gain, &cosine, &sine, &turn_cosine, &turn_sine, &decay, &image,
-                        &decay_step, &image_step}) {
+    for (auto* array : {&amplitude, &angle, &gain, &cosine, &sine, &turn_cosine, &turn_sine, &decay.low,
+                        &decay.sum, &decay.step, &image.low, &image.sum, &image.step}) {
       array->assign(padded, 0.0);
     }
   }
@@ -37,17 +45,17 @@ void filter_turning(const SeaField& field, std::size_t count, double x, double y
 void take_quotients(std::size_t count, FlowScratch& s);
 void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s);
 void set_turns(const SeaField& field, std::size_t count, double dx, double dy, FlowScratch& s);
-void turn(std::size_t count, FlowScratch& s);
-/// Elevation, its rate, and its slopes.
-void add_surface(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
-/// What the quotients add to the rate of the elevation.
-void add_gains(std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
-void set_decays(const SeaField& field, std::size_t count, double level, FlowScratch& s);
-/// Times the mean over a height around the level.
-void take_means(const SeaField& field, std::size_t count, double height, FlowScratch& s);
+/// Elevation, its rate, and its slopes, with what the quotients add to the rate.
+void add_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out);
+/// The same at the next point.
+void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out);
+/// The next decays are not near any.
+void forget_decays(FlowScratch& s);
+/// Decays over a height around a level, from those of the point before where these are near.
+void set_decays(const SeaField& field, std::size_t count, double level, double height, FlowScratch& s);
 void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowScratch& s);
 void step_decays(std::size_t count, FlowScratch& s);
-/// Velocity, acceleration and pressure of the waves.
+/// Velocity, acceleration and pressure of the waves: their means over the height of the decays.
 void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
 
 }  // namespace seacrane::sea

@@ -73,7 +73,7 @@ class SeaField {
   /// below the sea floor does. Whole packs. What is left out is at most `cut` of magnitude().
   std::size_t reach(double level, double cut) const;
   std::size_t images(double level, double cut) const {
-    return std::min(with_floor_, reach(-(level + 2.0 * depth_), cut));
+    return with_floor_ > 0 ? std::min(with_floor_, reach(-(level + 2.0 * depth_), cut)) : 0;
   }
 
   /// The highest z below which a flow may be taken as if its surface were at z = 0: what stretching changes

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -24,6 +25,13 @@ class SeaView {
   const SeaField* field() const { return field_.get(); }
   double depth() const { return field_ ? field_->depth() : std::numeric_limits<double>::infinity(); }
 
+  /// The flow at all elements of a stencil that differ by equal steps, FlowEvaluator::row; without a field,
+  /// none.
+  std::span<const LocalFlow<double>> row(int stencil, double t, const FlowPoint& first,
+                                         const Vec3d& step) const {
+    if (!field_) return {};
+    return evaluators_[idx(stencil)].row(t, first, step);
+  }
   /// The flow at an element of a stencil whose elements differ by equal steps, FlowEvaluator::row; with
   /// slopes where T is a Dual.
   template <class T>

@@ -74,14 +74,17 @@ void RecursiveSystem::find_near() {
   const auto driven = [](const Cluster& c) { return c.is_driven(); };
   if (loops_.rows() > 0 || std::ranges::any_of(tree_.clusters, driven)) return;
   const std::vector<int> root = roots_of(tree_, model_.body_count());
+  std::vector<std::vector<int>> moved(near_.size());
   for (std::size_t i = 0; i < near_.size(); ++i) {
     const std::vector<int>& bodies = tensions_.bodies(static_cast<Eigen::Index>(i));
-    if (bodies.size() > 2) continue;
     for (std::size_t c = 0; c < tree_.clusters.size(); ++c) {
       const int own = root[idx(tree_.clusters[c].body)];
-      if (std::ranges::any_of(bodies, [&](int b) { return root[idx(b)] == own; })) near_[i].push_back(c);
+      if (std::ranges::none_of(bodies, [&](int b) { return root[idx(b)] == own; })) continue;
+      if (bodies.size() <= 2) near_[i].push_back(c);
+      for (const Member& m : tree_.clusters[c].members) moved[i].push_back(m.body);
     }
   }
+  tensions_.confine(std::move(moved));
 }
 
 /// Where the model is assembled; the sets of limits that are compiled on the way are not.
@@ -219,7 +222,6 @@ void RecursiveSystem::respond_to_tension(Eigen::Index i) {
     if (k >= bodies.size()) return {model_.body_count(), Wrench<double>::zero()};
     return {bodies[k], Wrench<double>(tensions_.unit(i)[idx(bodies[k])])};
   };
-  std::ranges::fill(speed_rate_, 0.0);
   articulated_.respond(near, push(0), push(1), speed_rate_.data());
   for (const std::size_t c : near) {
     for (const Member& m : tree_.clusters[c].members) {
@@ -230,10 +232,18 @@ void RecursiveSystem::respond_to_tension(Eigen::Index i) {
 
 void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
   tensions_.start(*terms_, t, memory, acceleration_.data());
+  const Eigen::Map<const VecXd> rates(speed_rate_.data(), tree_.speeds);
+  /// Calls f(first, count) for the speeds that a tension moves.
+  const auto for_each_moved = [&](Eigen::Index i, auto&& f) {
+    if (near_[idx(i)].empty()) return f(0, tree_.speeds);
+    for (const std::size_t c : near_[idx(i)]) f(tree_.clusters[c].u, tree_.clusters[c].speeds);
+  };
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
     respond_to_tension(i);
-    inertial_speed_rates_.col(i) = Eigen::Map<const VecXd>(speed_rate_.data(), tree_.speeds);
-    read_drives(drive_response_[idx(static_cast<int>(i))]);
+    for_each_moved(i, [&](int first, int count) {
+      inertial_speed_rates_.col(i).segment(first, count) = rates.segment(first, count);
+    });
+    read_drives(drive_response_[idx(i)]);
   }
   const VecXd& tension = tensions_.finish(*terms_);
   if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
@@ -242,12 +252,17 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
     return;
   }
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    const std::vector<double>& response = drive_response_[idx(static_cast<int>(i))];
+    const std::vector<double>& response = drive_response_[idx(i)];
     for (std::size_t k = 0; k < drive_power_.size(); ++k) drive_power_[k] += tension[i] * response[k];
   }
   tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
-  Eigen::Map<VecXd>(u_rate, tree_.speeds).noalias() += inertial_speed_rates_ * tension;
+  Eigen::Map<VecXd> sum(u_rate, tree_.speeds);
+  for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
+    for_each_moved(i, [&](int first, int count) {
+      sum.segment(first, count) += tension[i] * inertial_speed_rates_.col(i).segment(first, count);
+    });
+  }
 }
 
 /// The powers of the drives at the tree's last solution.

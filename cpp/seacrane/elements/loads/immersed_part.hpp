@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
@@ -91,6 +93,7 @@ struct ImmersedPart {
   Shape shape = Shape::box;
   int body = 0;
   Vec3d point;              // from the state point, body axes
+  Vec3d arm;                // the same in its own axes
   Vec3d first_point, step;  // of its row
   Mat3d axes;
   double whole = 0.0, volume = 0.0;  // m3; and of it, what keeps water out
@@ -157,10 +160,11 @@ struct ImmersedPart {
     out.shape = shape_of(d);
     out.body = on.body;
     out.point = on.point;
-    out.first_point = context.attach(d.body, d.point - d.place * d.step).point;
+    out.first_point = snapped(context.attach(d.body, d.point - d.place * d.step).point);
     out.step = on.axes * d.step;
     out.place_in_row = static_cast<int>(d.place);
     out.axes = on.axes * d.axes;
+    out.arm = out.axes.transpose() * out.point;
     out.whole = volume_of(d);
     out.volume = d.fill * volume_of(d);
     out.weight = d.density * context.gravity() * out.volume;
@@ -181,31 +185,82 @@ struct ImmersedPart {
 
   std::array<int, 1> bodies() const { return {body}; }
 
+  /// What strips of a row have in common.
   template <class T>
-  void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
-    const Place<T> at = place(in);
-    if (!(at.depth > T(0))) return;
-    const Vec3<T> along = added.at(at.depth).value;
-    const Mat3<T> weighted = at.axes * along.asDiagonal(), a = weighted * at.axes.transpose();
-    add_mass_at<T>(at.lever, a, mass[body]);
+  struct Shared {
+    Mat3<T> axes;                // of the part, inertial
+    Vec3<T> velocity, turning;   // of the body at its state point, axes of the part
+    Vec3<T> half;                // of the widths along the vertical
+    T below = T(0), reaches{0};  // its lowest point under its centre, and how fast that sinks
+    FlowPlace<T> first;          // of the row, and what comes from strip to strip
+    Vec3<T> step;
+    std::span<const LocalFlow<double>> row;  // of a double, where a wave reaches it
+  };
+
+  bool shares(const ImmersedPart& other) const {
+    return stencil == other.stencil && body == other.body && shape == other.shape && d.size == other.d.size &&
+           axes == other.axes && step == other.step;
   }
 
   template <class T>
-  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
-    const Place<T> at = place(in);
+  Shared<T> shared(const LoadInput<T>& in) const {
+    using std::sqrt;
+    const auto& k = in.bodies[body];
+    Shared<T> out;
+    out.axes = k.rotation * axes.cast<T>();
+    out.velocity = out.axes.transpose() * k.velocity;
+    out.turning = out.axes.transpose() * k.angular_velocity;
+    reach_down(k.angular_velocity, out);
+    out.first = {k.position + k.rotation * first_point.cast<T>(), out.axes * widths.cast<T>(),
+                 k.angular_velocity, T(0)};
+    out.first.height =
+        sqrt(out.first.extents.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
+    out.step = k.rotation * step.cast<T>();
+    if constexpr (std::is_same_v<T, double>) {
+      const double last = out.first.position.z() + (d.count - 1.0) * out.step.z();
+      if (std::min(out.first.position.z(), last) - out.below < in.sea->crest(stencil))
+        out.row = in.sea->row(stencil, in.time, out.first, out.step);
+    }
+    return out;
+  }
+
+  template <class T>
+  void add_inertia(const LoadInput<T>& in, const Shared<T>& as, Mat6<T>* mass) const {
+    const Place<T> at = place(in, as);
+    if (!(at.depth > T(0))) return;
+    const Vec3<T> along = added.at(at.depth).value;
+    const Mat3<T> weighted = as.axes * along.asDiagonal(), a = weighted * as.axes.transpose();
+    add_mass_at<T>(at.lever, a, mass[body]);
+  }
+  template <class T>
+  void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
+    add_inertia(in, shared(in), mass);
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, const Shared<T>& as, LoadSum<T>& out) const {
+    const Place<T> at = place(in, as);
     T& slam = out.state_rates[states.first];
     slam = T(0);
-    const WetShare<T> wet = wet_share(at);
+    const WetShare<T> wet = wet_share(as, at);
+    Vec3<T> force = Vec3<T>::Zero(), moment = Vec3<T>::Zero();  // about its centre, its axes
     if (wet.share > T(0)) {
-      float_on(at, wet, out);
-      resist(at, wet, out);
+      float_on(as, at, wet, force, out);
+      resist(at, wet, force, out);
     }
-    if (at.depth > T(0)) slam = add_momentum(at, out);
+    if (at.depth > T(0)) slam = add_momentum(as, at, force, moment, out);
+    out.wrench[body].add(as.axes * force, at.lever);
+    out.wrench[body].moment += as.axes * moment;
+  }
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    apply(in, shared(in), out);
   }
 
   double potential(const LoadInput<double>& in) const {
-    const Place<double> at = place(in);
-    if (shape != Shape::table) return weight * wet_share(at).integral;
+    const Shared<double> as = shared(in);
+    const Place<double> at = place(in, as);
+    if (shape != Shape::table) return weight * wet_share(as, at).integral;
     return at.depth > 0.0 ? weight / whole * wet_volume.integral(at.depth)[0] : 0.0;
   }
 
@@ -221,18 +276,15 @@ struct ImmersedPart {
   static constexpr double kRound = 1e-3;  // of half a size, or of a cosine
   static constexpr double kMostStrips = 1000.0;
 
-  /// Where a part is, inertial axes.
+  /// Where a part is.
   template <class T>
   struct Place {
-    Vec3<T> lever;     // from the state point to its centre
-    Mat3<T> axes;      // its own
-    Vec3<T> own;       // velocity of its centre
-    Vec3<T> velocity;  // and over the water
-    Vec3<T> turning;
-    LocalFlow<T> flow;
-    T rise;                 // how fast the surface above its centre rises
+    Vec3<T> lever;                     // from the state point to its centre, inertial axes
+    Vec3<T> own;                       // velocity of its centre, its axes
+    Vec3<T> velocity;                  // and over the water
+    Vec3<T> pulled = Vec3<T>::Zero();  // acceleration of the water, its axes
+    T rise;                            // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
-    T below;                // its lowest point under its centre
   };
 
   /// |n|, rounded off at zero, exact at 0 and 1, from n^2; and its derivative in n^2.
@@ -249,57 +301,60 @@ struct ImmersedPart {
   };
 
   Margins margins(const LoadInput<double>& in) const {
-    const Place<double> at = place(in);
-    return Margins(Sides{Margin{"touch", -at.depth}, {"awash", at.below - at.center}});
+    const Shared<double> as = shared(in);
+    const Place<double> at = place(in, as);
+    return Margins(Sides{Margin{"touch", -at.depth}, {"awash", as.below - at.center}});
+  }
+
+  /// How far the part reaches down, and its half widths along the vertical.
+  template <class T>
+  void reach_down(const Vec3<T>& turning, Shared<T>& as) const {
+    const auto reach = [&](int axis, double half, const T& square, const T& square_rate) {
+      const Rounded<T> share(square);
+      as.half[axis] = width(half, square);
+      as.below += T(half) * share.value;
+      as.reaches += T(half) * share.slope * square_rate;
+    };
+    as.half = Vec3<T>::Zero();
+    if (shape != Shape::box && shape != Shape::cylinder) {
+      as.below = T(0.5 * d.size[2]);
+      return;
+    }
+    for (int i = 0; i < (shape == Shape::box ? 3 : 1); ++i) {
+      const T n = as.axes(2, i), n_rate = turning.x() * as.axes(1, i) - turning.y() * as.axes(0, i);
+      const T square = n * n, square_rate = T(2) * n * n_rate;
+      reach(i, 0.5 * d.size[i], square, square_rate);
+      if (shape == Shape::cylinder) reach(1, 0.5 * d.size[1], T(1) - square, -square_rate);
+    }
   }
 
   template <class T>
-  Place<T> place(const LoadInput<T>& in) const {
+  Place<T> place(const LoadInput<T>& in, const Shared<T>& as) const {
     const auto& k = in.bodies[body];
     Place<T> at;
     at.lever = k.rotation * point.cast<T>();
-    at.axes = k.rotation * axes.cast<T>();
-    at.turning = k.angular_velocity;
-    at.own = k.velocity + cross<T>(at.turning, at.lever);
-    at.rate = -at.own.z();
-    at.below = T(0);
-    const auto reach = [&](double half, const T& square, const T& square_rate) {
-      const Rounded<T> share(square);
-      at.below += T(half) * share.value;
-      at.rate += T(half) * share.slope * square_rate;
-    };
-    if (shape == Shape::box || shape == Shape::cylinder) {
-      for (int i = 0; i < (shape == Shape::box ? 3 : 1); ++i) {
-        const T n = at.axes(2, i);
-        const T n_rate = at.turning.x() * at.axes(1, i) - at.turning.y() * at.axes(0, i);
-        const T square = n * n, square_rate = T(2) * n * n_rate;
-        reach(0.5 * d.size[i], square, square_rate);
-        if (shape == Shape::cylinder) reach(0.5 * d.size[1], T(1) - square, -square_rate);
+    at.own = as.velocity + cross<T>(as.turning, arm.cast<T>());
+    at.velocity = at.own;
+    const T z = k.position.z() + at.lever.z();
+    const Vec3<T> own = k.velocity + cross<T>(k.angular_velocity, at.lever);
+    at.rise = T(0);
+    at.center = -z;
+    if (z - as.below < T(in.sea->crest(stencil))) {  // else it is above all crests
+      const auto met = [&](const LocalFlow<T>& flow) {
+        at.velocity -= as.axes.transpose() * flow.velocity;
+        at.pulled = as.axes.transpose() * flow.acceleration;
+        at.rise = flow.elevation_rate + flow.slope[0] * own.x() + flow.slope[1] * own.y();
+        at.center += flow.elevation;
+      };
+      if constexpr (std::is_same_v<T, double>) {
+        if (!as.row.empty()) met(as.row[idx(place_in_row)]);
+      } else if (in.sea->field()) {
+        met(in.sea->template in_row<T>(stencil, place_in_row, in.time, as.first, as.step));
       }
-    } else {
-      at.below = T(0.5 * d.size[2]);
     }
-    float_in<T>(in, k.position + at.lever, at);
+    at.depth = at.center + as.below;
+    at.rate = as.reaches - own.z() + at.rise;
     return at;
-  }
-
-  /// The sea at a part; above all crests there is none.
-  template <class T>
-  void float_in(const LoadInput<T>& in, const Vec3<T>& center, Place<T>& at) const {
-    using std::sqrt;
-    if (center.z() - at.below < T(in.sea->crest(stencil))) {
-      const auto& k = in.bodies[body];
-      FlowPlace<T> first{k.position + k.rotation * first_point.cast<T>(), at.axes * widths.cast<T>(),
-                         at.turning, T(0)};
-      first.height = sqrt(first.extents.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
-      at.flow =
-          in.sea->template in_row<T>(stencil, place_in_row, in.time, first, k.rotation * step.cast<T>());
-    }
-    at.velocity = at.own - at.flow.velocity;
-    at.rise = at.flow.elevation_rate + at.flow.slope[0] * at.own.x() + at.flow.slope[1] * at.own.y();
-    at.center = at.flow.elevation - center.z();
-    at.depth = at.center + at.below;
-    at.rate += at.rise;
   }
 
   /// Widths of a box with the second moments of the shape: a mean over it errs from the fourth order on.
@@ -317,18 +372,14 @@ struct ImmersedPart {
   }
 
   template <class T>
-  WetShare<T> wet_share(const Place<T>& at) const {
-    const auto square = [&](int i) -> T { return at.axes(2, i) * at.axes(2, i); };
-    const Vec3d half = 0.5 * d.size;
+  WetShare<T> wet_share(const Shared<T>& as, const Place<T>& at) const {
     switch (shape) {
       case Shape::box:
-        return wet_box<T>(at.center, Vec3<T>(width<T>(half[0], square(0)), width<T>(half[1], square(1)),
-                                             width<T>(half[2], square(2))));
+        return wet_box<T>(at.center, as.half);
       case Shape::cylinder:
-        return wet_cylinder<T>(
-            at.center, Vec3<T>(width<T>(half[0], square(0)), width<T>(half[1], T(1) - square(0)), T(0)));
+        return wet_cylinder<T>(at.center, as.half);
       case Shape::sphere:
-        return wet_sphere<T>(at.center, half[0]);
+        return wet_sphere<T>(at.center, 0.5 * d.size[0]);
       case Shape::table:
         break;
     }
@@ -339,33 +390,34 @@ struct ImmersedPart {
 
   /// Buoyancy with the pressure of the flow: the gradient of its energy.
   template <class T>
-  void float_on(const Place<T>& at, const WetShare<T>& wet, LoadSum<T>& out) const {
+  void float_on(const Shared<T>& as, const Place<T>& at, const WetShare<T>& wet, Vec3<T>& force,
+                LoadSum<T>& out) const {
     const Vec3<T> up(T(0), T(0), T(weight) * wet.share);
-    const Vec3<T> pushed = at.flow.acceleration * (T(d.density * volume) * wet.share);
-    out.wrench[body].add(up + pushed, at.lever);
+    const Vec3<T> pushed = at.pulled * (T(d.density * volume) * wet.share);
+    force += pushed;
+    out.wrench[body].add(up, at.lever);
     out.add_power(up.z() * at.rise + pushed.dot(at.own));
     const auto turn = [&](int i, const T& over_cosine) {
       const T energy = T(weight) * over_cosine;  // times axis x e_z
-      out.wrench[body].moment[0] -= energy * at.axes(1, i);
-      out.wrench[body].moment[1] += energy * at.axes(0, i);
+      out.wrench[body].moment[0] -= energy * as.axes(1, i);
+      out.wrench[body].moment[1] += energy * as.axes(0, i);
     };
-    const Vec3d half = 0.5 * d.size;
-    const auto slope = [&](int i, double of, int axis) -> T {
-      const T n = at.axes(2, axis), square = n * n;
-      return wet.over_width[i] * T(of * of) * n / width<T>(of, i == axis ? square : T(1) - square);
+    const auto slope = [&](int i, int axis) -> T {
+      const double half = 0.5 * d.size[i];
+      return wet.over_width[i] * T(half * half) * as.axes(2, axis) / as.half[i];
     };
     if (shape == Shape::box) {
-      for (int i = 0; i < 3; ++i) turn(i, slope(i, half[i], i));
+      for (int i = 0; i < 3; ++i) turn(i, slope(i, i));
     } else if (shape == Shape::cylinder) {
-      turn(0, slope(0, half[0], 0) - slope(1, half[1], 0));
+      turn(0, slope(0, 0) - slope(1, 0));
     }
   }
 
   /// Drag of the part that is wet: of a cylinder across and along by themselves, of a sphere by its speed.
   template <class T>
-  void resist(const Place<T>& at, const WetShare<T>& wet, LoadSum<T>& out) const {
+  void resist(const Place<T>& at, const WetShare<T>& wet, Vec3<T>& force, LoadSum<T>& out) const {
     using std::sqrt;
-    const Vec3<T> v = at.axes.transpose() * at.velocity;
+    const Vec3<T>& v = at.velocity;
     Vec3<T> drag = Vec3<T>::Zero();
     const auto brake = [&](int first, int last) {  // by their common speed
       T square = T(0);
@@ -382,23 +434,21 @@ struct ImmersedPart {
     } else {
       for (int i = 0; i < 3; ++i) brake(i, i);
     }
-    const Vec3<T> force = at.axes * drag;
-    out.wrench[body].add(force, at.lever);
-    out.add_power(force.dot(at.own));
+    force += drag;
+    out.add_power(drag.dot(at.own));
   }
 
   /// What the added mass does beside -A a. Returns the power that slam takes.
   template <class T>
-  T add_momentum(const Place<T>& at, LoadSum<T>& out) const {
+  T add_momentum(const Shared<T>& as, const Place<T>& at, Vec3<T>& force, Vec3<T>& moment,
+                 LoadSum<T>& out) const {
     const auto here = added.at(at.depth);
-    const auto local = [&](const Vec3<T>& x) -> Vec3<T> { return at.axes.transpose() * x; };
-    const Vec3<T> v = local(at.velocity), own = local(at.own);
-    const Vec3<T> momentum = at.axes * here.value.cwiseProduct(v);
-    const Vec3<T> swept = cross<T>(at.turning, cross<T>(at.turning, at.lever));
-    const Vec3<T> swing = swept - cross<T>(at.turning, at.velocity) - at.flow.acceleration;
-    Vec3<T> along = here.value.cwiseProduct(local(swing));
+    const Vec3<T>&v = at.velocity, &own = at.own, &turning = as.turning;
+    const Vec3<T> momentum = here.value.cwiseProduct(v);
+    const Vec3<T> swept = cross<T>(turning, own - as.velocity);
+    Vec3<T> along = here.value.cwiseProduct(swept - cross<T>(turning, v) - at.pulled);
+    const Vec3<T> turned = here.value.cwiseProduct(swept - cross<T>(turning, own));
     T loss = T(0), stored = T(0);  // what the ledger's energy of A gains beside that of A a
-    const Vec3<T> turned = here.value.cwiseProduct(local(swept - cross<T>(at.turning, at.own)));
     for (int i = 0; i < 3; ++i) {
       const T gain = at.rate * here.slope[i];
       const bool enters = gain > T(0);
@@ -407,12 +457,17 @@ struct ImmersedPart {
       loss += enters ? power : T(-power);
       stored += own[i] * (turned[i] + T(0.5) * gain * own[i]);
     }
-    const Vec3<T> force = -(at.axes * along + cross<T>(at.turning, momentum));
-    const Vec3<T> moment = -cross<T>(at.velocity, momentum);
-    out.wrench[body].add(force, at.lever);
-    out.wrench[body].moment += moment;
-    out.add_power(force.dot(at.own) + moment.dot(at.turning) + stored);
+    const Vec3<T> push = -(along + cross<T>(turning, momentum)), twist = -cross<T>(v, momentum);
+    force += push;
+    moment += twist;
+    out.add_power(push.dot(own) + twist.dot(turning) + stored);
     return loss;
+  }
+
+  /// Rounded, so that strips of a row agree on its first point to the last bit: the sea is then summed once.
+  static Vec3d snapped(const Vec3d& point) {
+    constexpr double grid = 0x1p-36;  // 1.5e-11 m
+    return (point / grid).array().round() * grid;
   }
 
   static Shape shape_of(const Description& d) {

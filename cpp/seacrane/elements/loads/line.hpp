@@ -190,6 +190,7 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
+    if (!has_friction) return add_path(in, wrenches);
     Motion<double> now = movement(in);
     now.tension = 1.0;
     for_each_tension<double>(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -49,6 +50,13 @@ concept Leads = requires(const typename Load::Description& d) {
   Load::leads(d);
 };
 
+/// A load that has what it takes most work to find in common with those beside it that it shares() it with.
+template <class Load>
+concept SharesWork = requires(const Load& load, const LoadInput<double>& in) {
+  load.template shared<double>(in);
+  { load.shares(load) } -> std::same_as<bool>;
+};
+
 template <class Load>
 class LoadListOf final : public LoadsOf<Load> {
  public:
@@ -70,7 +78,9 @@ class LoadListOf final : public LoadsOf<Load> {
   }
 
   void apply(const LoadInput<double>& in, LoadSum<double>& sum) const override {
-    for (const Load& load : items) load.template apply<double>(in, sum);
+    for_each(in, [&](const Load& load, const auto&... shared) {
+      load.template apply<double>(in, shared..., sum);
+    });
   }
   void apply(Place i, const LoadInput<double>& in, LoadSum<double>& sum) const override {
     items[i].template apply<double>(in, sum);
@@ -80,7 +90,9 @@ class LoadListOf final : public LoadsOf<Load> {
   }
   void add_inertia(const LoadInput<double>& in, Mat6d* mass) const override {
     if constexpr (AddsInertia<Load>) {
-      for (const Load& load : items) load.template add_inertia<double>(in, mass);
+      for_each(in, [&](const Load& load, const auto&... shared) {
+        load.template add_inertia<double>(in, shared..., mass);
+      });
     }
   }
   void add_inertia(Place i, const LoadInput<Slopes>& in, Mat6<Slopes>* mass) const override {
@@ -183,6 +195,20 @@ class LoadListOf final : public LoadsOf<Load> {
       return items[i].d.stiffness;
     }
     return 0.0;
+  }
+
+ private:
+  /// Calls f(load), or f(load, what it shares).
+  template <class F>
+  void for_each(const LoadInput<double>& in, F&& f) const {
+    if constexpr (SharesWork<Load>) {
+      for (auto load = items.begin(); load != items.end();) {
+        const auto shared = load->template shared<double>(in);
+        for (const auto first = load; load != items.end() && load->shares(*first); ++load) f(*load, shared);
+      }
+    } else {
+      for (const Load& load : items) f(load);
+    }
   }
 };
 

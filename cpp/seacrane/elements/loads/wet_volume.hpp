@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "seacrane/math/dual.hpp"
+#include "seacrane/math/select.hpp"
 #include "seacrane/math/types.hpp"
 
 /// Exact volumes of simple bodies below a level surface, at any attitude.
@@ -67,22 +68,25 @@ WetShare<T> wet_box(const T& depth, const Vec3<T>& w) {
     out.integral = depth;
     return out;
   }
-  const T over = T(1) / (T(8) * w[0] * w[1] * w[2]);
-  for (int corner = 0; corner < 8; ++corner) {
-    double side[3], sign = 1.0;
-    T x = depth;
-    for (int i = 0; i < 3; ++i) {
-      side[i] = (corner >> i & 1) != 0 ? -1.0 : 1.0;
-      sign *= side[i];
-      x += T(side[i]) * w[i];
+  // Sums over the corners of a cube of what is above zero, by pairs along the last axis.
+  const auto above_zero = [](const T& x) -> T { return select(x > T(0), x, T(0)); };
+  for (const double i : {1.0, -1.0}) {
+    for (const double j : {1.0, -1.0}) {
+      const T middle = depth + T(i) * w[0] + T(j) * w[1];
+      const T high = above_zero(middle + w[2]), low = above_zero(middle - w[2]);
+      const T high_cube = high * high * high, low_cube = low * low * low;
+      const T pair = T(i * j) * (high_cube - low_cube);
+      out.share += pair;
+      out.integral += T(i * j) * (high * high_cube - low * low_cube);
+      out.over_width[0] += T(i) * pair;
+      out.over_width[1] += T(j) * pair;
+      out.over_width[2] += T(i * j) * (high_cube + low_cube);
     }
-    if (x <= T(0)) continue;
-    const T cube = T(sign / 6.0) * x * x * x * over;
-    out.share += cube;
-    out.integral += T(0.25) * x * cube;
-    for (int i = 0; i < 3; ++i) out.over_width[i] += T(side[i]) * cube;
   }
-  for (int i = 0; i < 3; ++i) out.over_width[i] -= out.integral / w[i];
+  const T over = T(1.0 / 48.0) / (w[0] * w[1] * w[2]);
+  out.share *= over;
+  out.integral *= T(0.25) * over;
+  for (int i = 0; i < 3; ++i) out.over_width[i] = out.over_width[i] * over - out.integral / w[i];
   return out;
 }
 
