@@ -13,6 +13,7 @@
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
+#include "seacrane/elements/loads/water_by_cause.hpp"
 #include "seacrane/elements/loads/wet_volume.hpp"
 #include "seacrane/math/monotone_spline.hpp"
 #include "seacrane/math/spatial.hpp"
@@ -37,6 +38,7 @@ struct ImmersedPartDescription {
   double place = 0.0, count = 1.0;  // its own among them; whole numbers
   Vec3d step = Vec3d::Zero();       // body coordinates
   std::string source;
+  std::vector<Vec3d> slow_added_masses;
 
   static constexpr const char* type = "ImmersedPart";
   static constexpr const char* text =
@@ -66,7 +68,10 @@ struct ImmersedPartDescription {
                  "times the waves of the sea: what a hull beside makes of them")
             .not_negative()
             .usually(0.1, 3.0),
-        optional("source", &D::source, "", "where its coefficients are from"));
+        optional("source", &D::source, "", "where its coefficients are from"),
+        optional("slow_added_masses", &D::slow_added_masses, "kg",
+                 "at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone")
+            .not_negative());
   }
 
   bool is(const char* name) const { return shape == name; }
@@ -125,6 +130,10 @@ struct ImmersedPart {
     if (n < 2 || d.added_masses.size() != n || d.depths.front() != 0.0) {
       c.fail("has " + std::to_string(n) + " depths and " + std::to_string(d.added_masses.size()) +
              " added masses; give as many of both, at least two, from depth 0 m on");
+    }
+    if (!d.slow_added_masses.empty() && d.slow_added_masses.size() != n) {
+      c.fail("has " + std::to_string(d.slow_added_masses.size()) + " slow_added_masses at " +
+             std::to_string(n) + " depths; give as many of both");
     }
     c.increases("depths", d.depths);
     check_growth("added_masses", d.added_masses, d, c);
@@ -246,15 +255,57 @@ struct ImmersedPart {
     Vec3<T> force = Vec3<T>::Zero(), moment = Vec3<T>::Zero();  // about its centre, its axes
     if (wet.share > T(0)) {
       float_on(as, at, wet, force, out);
-      resist(at, wet, force, out);
+      const Vec3<T> braked = drag(at, wet);
+      force += braked;
+      out.add_power(braked.dot(at.own));
     }
-    if (at.depth > T(0)) slam = add_momentum(as, at, force, moment, out);
+    if (at.depth > T(0)) {
+      const Carried<T> water = carried(as, at);
+      force += water.force;
+      moment = water.moment;
+      out.add_power(water.power);
+      slam = water.loss;
+    }
     out.wrench[body].add(as.axes * force, at.lever);
     out.wrench[body].moment += as.axes * moment;
   }
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     apply(in, shared(in), out);
+  }
+
+  /// By cause, with an acceleration of its body (state point, inertial axes).
+  WaterByCause by_cause(const LoadInput<double>& in, const Vec6d& acceleration) const {
+    using Cause = WaterCause;
+    const Shared<double> as = shared(in);
+    const Place<double> at = place(in, as);
+    const WetShare<double> wet = wet_share(as, at);
+    WaterByCause out;
+    const auto add = [&](Cause cause, const Vec3d& along) {
+      out.force(cause) += as.axes * along;
+      return along.dot(at.own);
+    };
+    if (wet.share > 0.0) {
+      out.force(Cause::buoyancy).z() = weight * wet.share;
+      out.power(Cause::waves) = weight * wet.share * at.rise +
+                                add(Cause::waves, at.pulled * (d.density * volume * wet.share));
+      out.power(Cause::drag) = add(Cause::drag, drag(at, wet));
+    }
+    if (!(at.depth > 0.0)) return out;
+    const auto here = added.at(at.depth);
+    const Carried<double> water = carried(as, at);
+    const Vec3d gain = at.rate * here.slope, driven = here.value.cwiseProduct(at.pulled);
+    const Vec3d slam = -gain.cwiseMax(0.0).cwiseProduct(at.velocity);
+    const Vec3d accelerated = acceleration.head<3>() + Vec3d(acceleration.tail<3>()).cross(at.lever);
+    const Vec3d opposed = here.value.cwiseProduct(as.axes.transpose() * accelerated);
+    add(Cause::waves, driven);
+    add(Cause::slam, slam);
+    add(Cause::added_mass, water.force - slam - driven - opposed);
+    out.power(Cause::slam) = -water.loss;
+    out.power(Cause::waves) += water.power + water.loss;
+    out.momentum = as.axes * here.value.cwiseProduct(at.velocity);
+    out.shed = -(as.axes * gain.cwiseMin(0.0).cwiseProduct(at.velocity));
+    return out;
   }
 
   double potential(const LoadInput<double>& in) const {
@@ -285,6 +336,13 @@ struct ImmersedPart {
     Vec3<T> pulled = Vec3<T>::Zero();  // acceleration of the water, its axes
     T rise;                            // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
+  };
+
+  /// What the added mass does to a part beside -A a.
+  template <class T>
+  struct Carried {
+    Vec3<T> force, moment;        // about its centre, its axes
+    T loss = T(0), power = T(0);  // by slam, and into the energy of the ledger
   };
 
   /// |n|, rounded off at zero, exact at 0 and 1, from n^2; and its derivative in n^2.
@@ -415,16 +473,16 @@ struct ImmersedPart {
 
   /// Drag of the part that is wet: of a cylinder across and along by themselves, of a sphere by its speed.
   template <class T>
-  void resist(const Place<T>& at, const WetShare<T>& wet, Vec3<T>& force, LoadSum<T>& out) const {
+  Vec3<T> drag(const Place<T>& at, const WetShare<T>& wet) const {
     using std::sqrt;
     const Vec3<T>& v = at.velocity;
-    Vec3<T> drag = Vec3<T>::Zero();
+    Vec3<T> along = Vec3<T>::Zero();
     const auto brake = [&](int first, int last) {  // by their common speed
       T square = T(0);
       for (int i = first; i <= last; ++i) square += v[i] * v[i];
       if (!(square > T(0))) return;
       const T speed = sqrt(square) * wet.share;
-      for (int i = first; i <= last; ++i) drag[i] = T(-d.drag[i]) * speed * v[i];
+      for (int i = first; i <= last; ++i) along[i] = T(-d.drag[i]) * speed * v[i];
     };
     if (shape == Shape::sphere) {
       brake(0, 2);
@@ -434,34 +492,31 @@ struct ImmersedPart {
     } else {
       for (int i = 0; i < 3; ++i) brake(i, i);
     }
-    force += drag;
-    out.add_power(drag.dot(at.own));
+    return along;
   }
 
-  /// What the added mass does beside -A a. Returns the power that slam takes.
   template <class T>
-  T add_momentum(const Shared<T>& as, const Place<T>& at, Vec3<T>& force, Vec3<T>& moment,
-                 LoadSum<T>& out) const {
+  Carried<T> carried(const Shared<T>& as, const Place<T>& at) const {
+    Carried<T> out;
     const auto here = added.at(at.depth);
     const Vec3<T>&v = at.velocity, &own = at.own, &turning = as.turning;
     const Vec3<T> momentum = here.value.cwiseProduct(v);
     const Vec3<T> swept = cross<T>(turning, own - as.velocity);
     Vec3<T> along = here.value.cwiseProduct(swept - cross<T>(turning, v) - at.pulled);
     const Vec3<T> turned = here.value.cwiseProduct(swept - cross<T>(turning, own));
-    T loss = T(0), stored = T(0);  // what the ledger's energy of A gains beside that of A a
+    T stored = T(0);  // what the ledger's energy of A gains beside that of A a
     for (int i = 0; i < 3; ++i) {
       const T gain = at.rate * here.slope[i];
       const bool enters = gain > T(0);
       if (enters) along[i] += gain * v[i];
       const T power = T(0.5) * gain * v[i] * v[i];
-      loss += enters ? power : T(-power);
+      out.loss += enters ? power : T(-power);
       stored += own[i] * (turned[i] + T(0.5) * gain * own[i]);
     }
-    const Vec3<T> push = -(along + cross<T>(turning, momentum)), twist = -cross<T>(v, momentum);
-    force += push;
-    moment += twist;
-    out.add_power(push.dot(own) + twist.dot(turning) + stored);
-    return loss;
+    out.force = -(along + cross<T>(turning, momentum));
+    out.moment = -cross<T>(v, momentum);
+    out.power = out.force.dot(own) + out.moment.dot(turning) + stored;
+    return out;
   }
 
   /// Rounded, so that strips of a row agree on its first point to the last bit: the sea is then summed once.
