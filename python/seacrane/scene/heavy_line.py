@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -21,6 +21,7 @@ from seacrane.inputs.checked import positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
 from seacrane.scene.line_fluid import Fluid
+from seacrane.scene.line_seabed import Seabed
 
 Array = NDArray[np.float64]
 GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
@@ -53,6 +54,7 @@ def chain_of_segments(
     rung: str,
     settling: float,
     fluid: Fluid,
+    seabed: Seabed | Mapping[str, Any] | None,
 ) -> list[_core.Line]:
     """A line with mass between two points: equal elastic segments with point masses between them.
 
@@ -70,13 +72,19 @@ def chain_of_segments(
     given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
     whole = positive_of(f"{what}: length", span if given is None else given)
     step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
+    fluid = fluid.checked(what, wound=wound is not None)
+    weight = mass * scene.gravity - fluid.displaced(step, scene.gravity)
+    bed = None if seabed is None else Seabed.of(what, seabed)
+    if bed is not None:
+        _require_over(what, bed, (first, last), weight / step, wound=wound is not None)
     chain = Chain(
         span=last.place - first.place,
         segment=step,
         stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
+        bed=None if bed is None else -bed.depth - float(first.place[2]),
+        bed_stiffness=1.0 if bed is None else bed.stiffness * step,
     )
-    fluid = fluid.checked(what, wound=wound is not None)
     lengths = step if wound is None else scaled(wound, 1.0 / count)
     places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
@@ -102,7 +110,34 @@ def chain_of_segments(
                 below_first=(count - i + 1) / count, below_second=(count - i) / count,
             )  # fmt: skip
             add_load(scene, winding)
+    if bed is not None:
+        shares = [0.5, *[1.0] * (count - 1), 0.5]
+        for node, place, share in zip(path, [first.place, *places, last.place], shares, strict=True):
+            if node[0] != GROUND:
+                under = bed.under(node, place, length=share * step, mass=share * mass, weight=share * weight)
+                add_load(scene, under)
     return lines
+
+
+def _require_over(
+    what: str, bed: Seabed, ends: tuple[_End, _End], weight: float, *, wound: bool
+) -> None:  # fmt: skip
+    """Refuse a line that does not lie on a seabed; its weight in N/m."""
+    if wound:
+        raise SceneError(
+            f"{what}: has a length that changes and a seabed; give a number for its length, or no seabed"
+        )
+    if not weight > 0.0:
+        raise SceneError(
+            f"{what}: weighs {weight:.4g} N/m less the water that it displaces, and would not lie on its "
+            "seabed; give more mass_per_length, or no seabed"
+        )
+    for end in ends:
+        if end.body != GROUND and end.place[2] < -bed.depth:
+            raise SceneError(
+                f"{what}: its end on {end.body!r} is at z = {end.place[2]:.6g} m, below the seabed at "
+                f"{-bed.depth:.6g} m; lift it, or tie it to the ground, which may be an anchor in the seabed"
+            )
 
 
 def scaled(curve: _core.Curve, factor: float) -> _core.Curve:
