@@ -22,6 +22,7 @@ from seacrane.inputs.checked import positive_of, shaped_of, text_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
 from seacrane.scene.line_fluid import Fluid
+from seacrane.scene.line_seabed import Seabed
 
 Array = NDArray[np.float64]
 GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
@@ -54,6 +55,7 @@ def chain_of_segments(
     rung: str,
     settling: float,
     fluid: Fluid,
+    seabed: Seabed | Mapping[str, Any] | None,
 ) -> list[_core.Line]:
     """A line with mass between two points: equal elastic segments with point masses between them.
 
@@ -71,13 +73,19 @@ def chain_of_segments(
     given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
     whole = positive_of(f"{what}: length", span if given is None else given)
     step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
+    fluid = fluid.checked(what, wound=wound is not None)
+    weight = mass * scene.gravity - fluid.displaced(step, scene.gravity)
+    bed = None if seabed is None else Seabed.of(what, seabed)
+    if bed is not None:
+        _require_over(what, bed, (first, last), weight / step, wound=wound is not None)
     chain = Chain(
         span=last.place - first.place,
         segment=step,
         stiffness=positive_of(f"{what}: EA", EA),
         weights=np.full(count - 1, mass * scene.gravity),
+        bed=None if bed is None else -bed.depth - float(first.place[2]),
+        bed_stiffness=1.0 if bed is None else bed.stiffness * step,
     )
-    fluid = fluid.checked(what, wound=wound is not None)
     lengths = step if wound is None else scaled(wound, 1.0 / count)
     places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
@@ -98,6 +106,12 @@ def chain_of_segments(
             add_load(scene, fluid.along(f"{name}.{i}", (one, two), lengths))
         if wound is not None:
             add_load(scene, _winding(segment, mass_per_length, (i, count)))
+    if bed is not None:
+        shares = [0.5, *[1.0] * (count - 1), 0.5]
+        for node, place, share in zip(path, [first.place, *places, last.place], shares, strict=True):
+            if node[0] != GROUND:
+                under = bed.under(node, place, length=share * step, mass=share * mass, weight=share * weight)
+                add_load(scene, under)
     return lines
 
 
@@ -113,6 +127,8 @@ def on_a_winch(scene: Description, name: str, winch: Mapping[str, Any]) -> _core
     for kind, text in kinds.items():
         if f"{segments[0].name} {kind}" in scene.loads:
             raise SceneError(f"line {name!r}: has {text}")
+    if any(f"{body} seabed" in scene.loads for one in segments for body in one.bodies):
+        raise SceneError(f"line {name!r}: lies on a seabed and has a winch; leave one of them out")
     for i, segment in enumerate(segments, start=1):
         scene.loads[segment.name] = changed(segment, **by, **(winch if i == 1 else {}))
         if f"{segment.name} water" in scene.loads:
@@ -130,6 +146,25 @@ def _winding(segment: _core.Line, mass_per_length: float, place: tuple[int, int]
         first_point=segment.points[0], second_point=segment.points[1], mass_per_length=mass_per_length,
         length=segment.length, below_first=(count - i + 1) / count, below_second=(count - i) / count, **given,
     )  # fmt: skip
+
+
+def _require_over(what: str, bed: Seabed, ends: tuple[_End, _End], weight: float, *, wound: bool) -> None:
+    """Refuse a line that does not lie on a seabed; its weight in N/m."""
+    if wound:
+        raise SceneError(
+            f"{what}: has a length that changes and a seabed; give a number for its length, or no seabed"
+        )
+    if not weight > 0.0:
+        raise SceneError(
+            f"{what}: weighs {weight:.4g} N/m less the water that it displaces, and would not lie on its "
+            "seabed; give more mass_per_length, or no seabed"
+        )
+    for end in ends:
+        if end.body != GROUND and end.place[2] < -bed.depth:
+            raise SceneError(
+                f"{what}: its end on {end.body!r} is at z = {end.place[2]:.6g} m, below the seabed at "
+                f"{-bed.depth:.6g} m; lift it, or tie it to the ground, which may be an anchor in the seabed"
+            )
 
 
 def scaled(curve: _core.Curve, factor: float) -> _core.Curve:

@@ -110,5 +110,11 @@ class Fluid:
             np.clip(0.5 - middle / over, 0.0, 1.0) for middle in (z[:-1] + half / 2.0, z[1:] - half / 2.0)
         )
         shares = [s**3 * (10.0 + s * (6.0 * s - 15.0)) for s in (lower, upper)]
-        whole = cast(float, self.density) * gravity * np.pi / 4.0 * self.diameter**2 * segment
+        whole = self.displaced(segment, gravity)
         return np.asarray(0.5 * whole * (shares[0][1:] + shares[1][:-1]))
+
+    def displaced(self, length: float, gravity: float) -> float:
+        """Weight (N) of the water that a length (m) of it displaces; none in air."""
+        if not self.in_sea:
+            return 0.0
+        return cast(float, self.density) * gravity * np.pi / 4.0 * self.diameter**2 * length

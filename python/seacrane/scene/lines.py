@@ -31,6 +31,7 @@ from seacrane.renamed import refusing
 from seacrane.scene.heavy_line import chain_of_segments, on_a_winch
 from seacrane.scene.limits import STICKING_SPEED, add_wire
 from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid
+from seacrane.scene.line_seabed import Seabed
 from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
@@ -45,7 +46,7 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
          "strains", "tensions"), STRETCHING),
     **dict.fromkeys(
         ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient",
-         "drag_coefficient_along", "added_mass_coefficient", "density", "flow", "medium"),
+         "drag_coefficient_along", "added_mass_coefficient", "density", "flow", "medium", "seabed"),
         (WITH_MASS,)),
 }  # fmt: skip
 
@@ -89,6 +90,7 @@ def add_line(
     density: float | None = None,
     flow: ArrayLike = (0.0, 0.0, 0.0),
     medium: Literal["air", "sea"] = "air",
+    seabed: Seabed | Mapping[str, Any] | None = None,
     breaking_load: float | None = None,
     safety_factor: float | None = None,
 ) -> _core.Line | _core.Limit | list[_core.Line]:
@@ -175,6 +177,10 @@ def add_line(
     medium : {"air", "sea"}
         With mass. In the sea what is below the surface has buoyancy, added mass and drag in the water of
         `add_sea`, its waves and current; still water without one.
+    seabed : mapping or Seabed, optional
+        With mass, a level seabed on which its masses lie, no model of soil: `depth` below z = 0, m;
+        `stiffness` for each metre of line, N/m2; Coulomb's `friction`; and `damping_ratio` (1) where it has
+        sunk in at rest, `give` (0.05 m) before friction is full.
     breaking_load : float, optional
         Minimum breaking load of the rope, one fall, N: `lift_sheet` and the report compare the tension.
     safety_factor : float, optional
@@ -219,6 +225,7 @@ def add_line(
                 drag_coefficient_along=drag_coefficient_along, flow=flow,
                 added_mass_coefficient=added_mass_coefficient,
             ),
+            seabed=seabed,
         )  # fmt: skip
     else:
         if length is not None and tension_at_start is not None:
