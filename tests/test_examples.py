@@ -91,6 +91,7 @@ def test_a_template_goes_through_the_waves_taut(tmp_path: Path) -> None:
     assert sum(row[1] for row in kinds["run"][1:]) > kinds["run"][0][1] - 1.5 * 9.80665
     hand = min(share for *_, share in kinds["simplified"])
     assert all(max(0.1, hand) < share < 1.0 for *_, share in kinds["run"])
+    assert all(share == pytest.approx(low / static, abs=0.01) for low, static, share in kinds["run"])
 
 
 def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:

@@ -508,7 +508,7 @@ PLAIN = {
     "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
     "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
     "drag_coefficient", "safety_factor", "weight_contingency", "skew_load", "dynamic_factor",
-    "sling_safety_factor", "shackle_safety_factor", "alpha", "strips", "slam", "drag", "end_drag",
+    "sling_safety_factor", "shackle_safety_factor", "alpha", "strips", "slam", "wetting", "drag", "end_drag",
     "perforation", "fill", "wave_factor", "drag_coefficient_along", "added_mass_coefficient",
 }  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve

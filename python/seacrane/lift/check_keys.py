@@ -254,7 +254,11 @@ def _chosen(node: Node, key: Key) -> str:
 
 def _array(node: Node, key: Key) -> Any:
     """An array of the shape that fits; lists become tuples, so that what is checked stays as it is."""
-    shapes = [shape for shape in key.shapes if _deep(node.value) == len(shape)] or key.shapes
+    if () in key.shapes and not isinstance(node.value, list):
+        return node.number()
+    shapes = [shape for shape in key.shapes if shape and _deep(node.value) == len(shape)] or [
+        one for one in key.shapes if one
+    ]
     shape = next((one for one in shapes if one[0] == len(node.values())), shapes[0])
     return _fixed(node.array(shape).tolist())
 

@@ -22,6 +22,7 @@ CHOSEN: dict[str, dict[str, Any]] = {
 }
 POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
 DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
+EACH: dict[str, Any] = {"type": "array", "shapes": ((-1,), ())}  # or one number for all
 LENGTH: dict[str, Any] = {"unit": "m"}
 ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
 TIME: dict[str, Any] = {"unit": "s"}

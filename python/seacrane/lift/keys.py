@@ -35,7 +35,7 @@ class Key:
     type : text, texts, number, whole, flag, array, curve, file, table, tables, names or notes.
     unit : As in `FIELDS` of the core's classes.
     shapes : tuple of tuple of int
-        That an array may have; -1: any length.
+        That an array may have; -1: any length, (): a number alone.
     text : What it is, for people.
     choices : The texts that it may be; of a number, those that stand for one.
     bounds : What its numbers must be, in the words of JSON Schema and in `unit`.

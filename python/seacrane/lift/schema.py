@@ -121,6 +121,8 @@ def _kind(key: Key, number: Json) -> Json:
 
 
 def _array(shape: tuple[int, ...], number: Json) -> Json:
+    if not shape:
+        return number
     items = number if len(shape) == 1 else _array(shape[1:], number)
     length = {} if shape[0] == -1 else {"minItems": shape[0], "maxItems": shape[0]}
     return {"type": "array", "items": items, **length}

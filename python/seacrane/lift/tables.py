@@ -29,7 +29,7 @@ from seacrane.description import (
     relatives,
 )
 from seacrane.description.curves import spline_curve
-from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
+from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.lift.vessel_keys import given_vessel_keys, part_keys, sea_keys, vessel_keys
@@ -324,7 +324,7 @@ _ALL = (
     ),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
-        hook_point=POINT, EA=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
+        hook_point=POINT, EA=EACH | {"unit": "N"}, lengths=ROW | {"unit": "m"},
         rung={"choices": lines.STRETCHING}, breaking_load={"unit": "N"},
     ),
     _call(

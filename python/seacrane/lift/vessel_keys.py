@@ -8,7 +8,7 @@ from typing import Any, get_overloads
 from seacrane.description.waves import STRETCHING
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
+from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, keys_of
 from seacrane.scene import given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
@@ -102,7 +102,7 @@ def part_keys() -> tuple[Key, ...]:
         "size": {"type": "array", "unit": "m", "shapes": ((3,), (2,))},
         "added_mass": DIRECTION | {"unit": "kg"},
         "added_masses": {"type": "array", "unit": "kg", "shapes": ((-1, 3),)},
-        "strips": {"type": "array", "shapes": ((2,), (1,))},
+        "strips": {"type": "array", "shapes": ((2,), (1,), ())},
         "drag_area": {"type": "array", "unit": "m2", "shapes": ((3,),)},
         "mesh": {"type": "file", "text": "Of a mesh: an STL or glTF file."},
         "draughts": ROW | {"unit": "m"}, "slam": {"type": "number"}, "wetting": {"type": "number"},
@@ -135,9 +135,8 @@ def sea_keys() -> tuple[Key, ...]:
 
 
 def _current_keys() -> tuple[Key, ...]:
-    row = {"type": "array", "shapes": ((-1,),)}
     units = {"depth": "m", "speed": "m/s", "direction_deg": "deg"}
-    return keys_of(Current, more={name: row | {"unit": unit} for name, unit in units.items()})
+    return keys_of(Current, more={name: EACH | {"unit": unit} for name, unit in units.items()})
 
 
 def _system_keys() -> tuple[Key, ...]:

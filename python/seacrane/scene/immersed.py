@@ -107,9 +107,13 @@ def _part(what: str, given: Any) -> Part:
     kind = entries.pop("kind", None)
     if kind not in MAKERS:
         raise SceneError(f"{what}: kind is {shown(kind)}; choose one of {', '.join(MAKERS)}")
-    if isinstance(entries.get("strips"), Sequence):  # numbers of a file
-        strips = tuple(int(one) if float(one).is_integer() else one for one in entries["strips"])
-        entries["strips"] = strips[0] if len(strips) == 1 else strips
+    if "strips" in entries:  # numbers of a file
+        given = entries["strips"]
+        strips = [
+            int(one) if isinstance(one, float) and one.is_integer() else one
+            for one in (given if isinstance(given, Sequence) else [given])
+        ]
+        entries["strips"] = strips[0] if len(strips) == 1 else tuple(strips)
     try:
         return MAKERS[kind](**entries)
     except TypeError as error:
