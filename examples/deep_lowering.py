@@ -31,8 +31,12 @@ G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 7.0  # m/s2, kg/m3, m, s
 MASS, SIZE, FILL, OPEN = 120e3, (8.0, 6.0, 4.0), 0.15, 0.2  # kg, m, shares
 EA, WIRE, DIAMETER, SEGMENTS = 1.5e8, 20.0, 0.06, 6  # N, kg/m, m
 LAG, FILTER, WINCH = 0.1, 0.01, 0.2  # s, Hz, s: of heave compensation, and of the winch that it moves
-LIFT, SPLASH, RATE, LAST, SOFT = 0.3, 0.25, 1.2, 0.2, 6.0  # m/s of the winch; s to change it
-DECK, CLEAR, SEABED, ABOVE, NEAR = 6.0, 3.0, 1500.0, 15.0, 3.0  # m
+LIFT, SPLASH, RATE, LAST = 0.15, 0.25, 1.2, 0.2  # m/s of the winch
+SOFT, DEEP = (
+    6.0,
+    30.0,
+)  # s to change its rate, on a short wire and on a long one, which else swings up and down
+DECK, CLEAR, SEABED, ABOVE, NEAR = 6.0, 3.0, 1500.0, 35.0, 3.0  # m
 LEAST = 0.1  # of the least static pull
 BODY = BoxPart(size=SIZE, strips=(2, 2), fill=FILL, perforation=OPEN)
 PIECES = list(BODY.pieces(RHO))
@@ -75,11 +79,12 @@ def lowered(hs: float) -> Result:
               commands={"wire.rate": ramp(0.0, SPLASH)}),
         Stage(name="splash zone", until=Until.depth("load", minimum=SIZE[2] + 4.0), maximum_duration=90.0),
         Stage(name="down", until=Until.depth("load", minimum=SEABED - ABOVE), maximum_duration=1500.0,
-              commands={"wire.rate": ramp(SPLASH, RATE, over=60.0)}),
-        Stage(name="compensate", duration=40.0, commands={"wire.rate": ramp(RATE, 0.0)}, connect=["active"]),
-        Stage(name="last metres", until=Until.depth("load", minimum=SEABED - NEAR), maximum_duration=90.0,
-              commands={"wire.rate": ramp(0.0, LAST)}),
-        Stage(name="stop", duration=120.0, commands={"wire.rate": ramp(LAST, 0.0)}),
+              commands={"wire.rate": ramp(SPLASH, RATE, over=2.0 * DEEP)}),
+        Stage(name="compensate", duration=60.0, commands={"wire.rate": ramp(RATE, 0.0, over=DEEP)},
+              connect=["active"]),
+        Stage(name="last metres", until=Until.depth("load", minimum=SEABED - NEAR - 0.5 * LAST * DEEP),
+              maximum_duration=150.0, commands={"wire.rate": ramp(0.0, LAST, over=DEEP)}),
+        Stage(name="stop", duration=150.0, commands={"wire.rate": ramp(LAST, 0.0, over=DEEP)}),
     ]  # fmt: skip
     return simulate_stages(manifold(hs), stages, dt_out=0.25, start="rest")
 
@@ -133,7 +138,7 @@ deep = {name: 0.5 * SIZE[2] - run.select("position", body="load", axis="z")
         for name, run in (("calm", calm), ("waves", waves))}  # fmt: skip
 for where, hand in (("slew out", (MASS + WIRE * (TIP - DECK - SIZE[2] - CLEAR)) * G),
                     ("stop", static(SEABED - NEAR))):  # fmt: skip
-    pull = float(np.median(pulls["calm"][calm.stage(where), 0]))
+    pull = float(np.mean(pulls["calm"][calm.stage(where), 0]))
     print(f"{where}: pull at the tip {pull / 1e3:6.1f} kN, by hand {hand / 1e3:6.1f} kN")
 lifted = waves.stage("slew out").start
 least = pulls["waves"][lifted:].min(axis=0) / LOAD
@@ -160,7 +165,7 @@ for one, two in pairwise(edges):
     hand.append(response(omega, heave, 0.5 * (one + two), RATE) / np.linalg.norm(heave))
 for each, one, two in zip(middles, ran, hand, strict=True):
     print(f"{each:6.0f} m: heave of the load over that of the tip {one:4.2f}, by hand {two:4.2f}")
-still = waves.time > waves.stages[-1].start + 20.0
+still = waves.time > waves.stages[-1].start + DEEP
 omega, heave = waves_of(tip[still], step)
 p = 1j * omega
 left = np.abs(1.0 - p / (p + 2.0 * np.pi * FILTER) / (1.0 + LAG * p) / (1.0 + WINCH * p))

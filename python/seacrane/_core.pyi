@@ -1535,7 +1535,7 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1645,6 +1645,11 @@ class Line:
     def name(self) -> str:
         ...
     @property
+    def paid_out_by(self) -> str:
+        """
+        line with mass, on a winch, of which it is a segment
+        """
+    @property
     def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
         """
         m, coordinates of these bodies
@@ -1668,6 +1673,11 @@ class Line:
     def settling(self) -> float:
         """
         s, in which a quasi-static stretch follows
+        """
+    @property
+    def share(self) -> float:
+        """
+        of the length that this winch pays out
         """
     @property
     def slip_speed(self) -> float:
@@ -2489,7 +2499,7 @@ class ImmersedSpan:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: Curve | typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ...) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: Curve | typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2539,6 +2549,11 @@ class ImmersedSpan:
     def name(self) -> str:
         ...
     @property
+    def paid_out_by(self) -> str:
+        """
+        line with mass, on a winch, that it is a part of
+        """
+    @property
     def second(self) -> str:
         """
         body
@@ -2547,6 +2562,11 @@ class ImmersedSpan:
     def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m, coordinates of the second body
+        """
+    @property
+    def share(self) -> float:
+        """
+        of the length that this winch pays out
         """
     @property
     def source(self) -> str:
@@ -2576,7 +2596,7 @@ class WoundSpan:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., mass_per_length: typing.SupportsFloat, length: Curve | typing.SupportsFloat, below_first: typing.SupportsFloat, below_second: typing.SupportsFloat) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., mass_per_length: typing.SupportsFloat, length: Curve | typing.SupportsFloat, below_first: typing.SupportsFloat, below_second: typing.SupportsFloat, paid_out_by: str = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2605,7 +2625,7 @@ class WoundSpan:
     @property
     def length(self) -> Curve:
         """
-        m, unstretched, of the segment
+        m, unstretched, of the segment; with a winch, that whose mass its ends have
         """
     @property
     def mass_per_length(self) -> float:
@@ -2615,6 +2635,11 @@ class WoundSpan:
     @property
     def name(self) -> str:
         ...
+    @property
+    def paid_out_by(self) -> str:
+        """
+        line with mass, on a winch, that it is a part of
+        """
     @property
     def second(self) -> str:
         """
