@@ -37,7 +37,8 @@ SceneDescription with_lines(SceneDescription scene) {
   return scene;
 }
 
-/// Bodies that hang on one another by such lines, listed in an order of their own: each line feels a few others.
+/// Bodies that hang on one another by such lines, listed in an order of their own: each line feels a few
+/// others.
 SceneDescription chain(Random& random) {
   SceneDescription scene;
   scene.name = "chain";
