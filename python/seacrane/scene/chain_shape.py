@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.one_thread import one_thread
+
 Array = NDArray[np.float64]
 LARGEST_ERROR = 1e-12  # of the chain's length
 LARGEST_COUNT = 500  # of iterations
@@ -40,6 +42,7 @@ class Chain:
         """The number of the segments."""
         return int(self.weights.size) + 1
 
+    @one_thread
     def forces(self) -> Array | None:
         """Tension of each segment as a vector, (n, 3), N, from the first end on; None where there is no rest.
 
@@ -126,7 +129,7 @@ class Chain:
         return energy + float(sunk.sum())
 
     def _moved(self, forces: Array, hung: Array, step: Array, gap: Array) -> Array:
-        """By a share of a step, halved until the energy falls as it should; near the minimum rounding hides it."""
+        """By a share of a step, halved until the energy falls as it should, as far as rounding shows it."""
         now, share = self._energy(forces, hung), 1.0
         rounding = 1e-13 * abs(now)
         while True:

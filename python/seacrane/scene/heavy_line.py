@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
 MOST_SEGMENTS = 1000
 STRAIGHT = 0.01  # of the span: a line that hangs slack by less starts straight where it has no rest shape
+SUNK = 10.0  # times what a line sinks in at rest: no end of it begins deeper in a seabed
 MOST_SHAPES, SAME_SHAPE = 30, 1e-9  # of which the last differ by less than this share of a segment
 
 
@@ -160,10 +161,12 @@ def _require_over(what: str, bed: Seabed, ends: tuple[_End, _End], weight: float
             "seabed; give more mass_per_length, or no seabed"
         )
     for end in ends:
-        if end.body != GROUND and end.place[2] < -bed.depth:
+        sunk = -bed.depth - float(end.place[2])
+        if end.body != GROUND and sunk > SUNK * weight / bed.stiffness:
             raise SceneError(
-                f"{what}: its end on {end.body!r} is at z = {end.place[2]:.6g} m, below the seabed at "
-                f"{-bed.depth:.6g} m; lift it, or tie it to the ground, which may be an anchor in the seabed"
+                f"{what}: its end on {end.body!r} is {sunk:.4g} m in the seabed, where it sinks in by "
+                f"{weight / bed.stiffness:.4g} m at rest; lift it, or tie it to the ground, which may be an "
+                "anchor in the seabed"
             )
 
 
