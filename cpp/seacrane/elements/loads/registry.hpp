@@ -11,6 +11,6 @@ using LoadTypes = std::tuple<struct HeaveCompensator, struct Actuator, struct Po
                              struct ForceTable, struct FunctionForce, struct FlowForce, struct Friction,
                              struct SoftStop, struct Line, struct GasSpring, struct PendulumDamping,
                              struct SpanDrag, struct HydraulicCylinder, struct ImmersedPart,
-                             struct EntrappedWater, struct ImmersedSpan, struct WoundSpan>;
+                             struct EntrappedWater, struct ImmersedSpan, struct WoundSpan, struct Contact>;
 
 }  // namespace seacrane
