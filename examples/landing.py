@@ -42,7 +42,7 @@ for rate in (0.1, 0.3, 0.6):
     print(
         f"{rate:5.1f} {len(hits):5d} {sum(hit.number > 1 for hit in hits):8d} "
         f"{max(hit.speed for hit in hits):12.3f} {hardest.peak / 1e3:8.1f} {hardest.dynamic_factor:15.2f} "
-        f"{hardest.bound / 1e3:19.1f}"
+        f"{hardest.undamped / 1e3:19.1f}"
     )
 
 if len(sys.argv) > 1:

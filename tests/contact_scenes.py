@@ -23,24 +23,29 @@ def ball(speed: float, damping: float, **contact: Any) -> Scene:
     return scene
 
 
-def block(scene: Scene, on: str, *, friction: float, hold: float, top: float = 0.0, **more: Any) -> Scene:
+def block(
+    scene: Scene, on: str, *, friction: float, hold: float, top: float = 0.0, size: float = 1.0,
+    stiffness: float = STIFFNESS, **more: Any
+) -> Scene:
     """A block on feet that stands where its weight is in balance, on a plane of `on`."""
-    sunk = MASS * GRAVITY / (len(FEET) * STIFFNESS)
+    sunk = MASS * GRAVITY / (len(FEET) * stiffness)
     body = {"position": (0.0, 0.0, top - sunk)} | more
-    scene.add_body(name="block", mass=MASS, inertia=(1.0e3,) * 3, **body)
-    scene.add_contact("block", points=FEET, on=on, place=(0.0, 0.0, top), stiffness=STIFFNESS,
+    scene.add_body(name="block", mass=MASS, inertia=(1.0e3 * size**2,) * 3, **body)
+    scene.add_contact("block", points=size * FEET, on=on, place=(0.0, 0.0, top), stiffness=stiffness,
                       friction=friction, hold=hold, name="feet")  # fmt: skip
     return scene
 
 
 def shaken(*, friction: float = 0.3, hold: float = 1e-4, omega: float = np.pi) -> Scene:
-    """A block on a plate that moves by 1 m sin(omega t)."""
+    """A block on a plate that moves by 1 m sin(omega t), at the speed that it keeps on it."""
     scene = Scene(name="shaken plate", gravity=GRAVITY)
     scene.add_body(name="plate", mass=500.0, inertia=(1.0e3,) * 3, velocity=(omega, 0.0, 0.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="plate", axis=(1.0, 0.0, 0.0))
     curve = Curve.harmonic(amplitude=1.0, omega=omega, phase=-0.5 * np.pi)
     scene.add_driver(joint="rail", curve=curve)
-    return block(scene, "plate", friction=friction, hold=hold)
+    fastest = 0.5 * np.pi * friction * GRAVITY / omega  # of the block, when the plate has just its speed
+    start = fastest - friction * GRAVITY * np.arccos(fastest / omega) / omega
+    return block(scene, "plate", friction=friction, hold=hold, velocity=(start, 0.0, 0.0))
 
 
 def slope(angle_deg: float, *, friction: float = 0.3, hold: float = 1e-3) -> Scene:
@@ -67,7 +72,8 @@ def rolling(roll_deg: float, *, friction: float = 0.3, hold: float = 1e-4, perio
     angle = np.radians(roll_deg) * x**3 * (10.0 - 15.0 * x + 6.0 * x * x) * np.sin(2.0 * np.pi / 8.0 * time)
     scene.add_driver(joint="roll", curve=spline_curve(times=time, values=angle))
     sunk = MASS * GRAVITY / (len(FEET) * STIFFNESS)
-    return block(scene, "deck", friction=friction, hold=hold, top=5.0 + sunk)
+    # small, so that its own turning takes nothing from some feet
+    return block(scene, "deck", friction=friction, hold=hold, top=5.0 + sunk, size=0.1)
 
 
 def spun() -> Scene:
@@ -94,17 +100,17 @@ def thrown() -> Scene:
     return scene
 
 
-def lifted(heave: float, omega: float, stretch: float, rate: float) -> Scene:
+def lifted(heave: float, omega: float, stretch: float, rate: float, stiffness: float) -> Scene:
     """A load on a barge that heaves by a sine, under a spring whose upper end rises at a steady rate."""
     scene = Scene(name="lifted", gravity=GRAVITY)
     scene.add_body(name="barge", mass=1e6, inertia=(1e6,) * 3, velocity=(0.0, 0.0, heave * omega))
     scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge", axis=(0.0, 0.0, 1.0))
     scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=heave, omega=omega, phase=-0.5 * np.pi))
-    block(scene, "barge", friction=0.3, hold=1e-3, velocity=(0.0, 0.0, heave * omega))
+    block(scene, "barge", friction=0.3, hold=1e-3, stiffness=stiffness, velocity=(0.0, 0.0, heave * omega))
     scene.add_body(name="tip", mass=100.0, inertia=(1.0,) * 3, position=(0.0, 0.0, 10.0), velocity=(0, 0, rate))
     scene.add_joint(kind="prismatic", name="hoist", first="ground", second="tip", axis=(0.0, 0.0, 1.0))
     scene.add_driver(joint="hoist", curve=Curve.table([0.0, 100.0], [0.0, 100.0 * rate]))
-    slack = 10.0 + MASS * GRAVITY / (len(FEET) * STIFFNESS)
+    slack = 10.0 + MASS * GRAVITY / (len(FEET) * stiffness)
     scene.add_spring(name="wire", first="block", second="tip", lengths=[0.0, slack, slack + 10.0],
                      forces=[0.0, 0.0, 10.0 * stretch])  # fmt: skip
     return scene

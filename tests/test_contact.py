@@ -51,26 +51,30 @@ def test_a_block_slides_on_a_shaken_plate_as_in_closed_form() -> None:
     share = mu * GRAVITY / omega**2
     slipped = 2.0 * np.sqrt(1.0 - (np.pi * share / 2.0) ** 2)
     assert slipped == pytest.approx(1.76721002, abs=1e-8)
-    errors = []
-    for hold in (4e-5, 1e-5):
-        result = simulate(shaken(hold=hold), t_end=6.0, dt_out=0.5, rtol=1e-9)
-        of_cycle = (lost(result)[-1] - lost(result)[-5]) / MASS
-        errors.append(of_cycle / 10.39824609 - 1.0)
-        assert kinds(result, "feet.1").count("slip") >= 11  # at each half turn of the plate
-    assert abs(errors[1]) < 1e-5
-    assert abs(errors[1]) < 0.5 * abs(errors[0])
+    of_cycle = []
+    for hold in (4e-7, 1e-7):
+        result = simulate(shaken(hold=hold), t_end=4.0, dt_out=1.0, rtol=1e-9)
+        of_cycle.append((lost(result)[4] - lost(result)[2]) / MASS)
+        assert kinds(result, "feet.1").count("slip") == 4  # at each turn of the plate
+    exact = 2.0 * slipped * mu * GRAVITY
+    assert exact == pytest.approx(10.39824609, abs=1e-8)
+    errors = [one / exact - 1.0 for one in of_cycle]
+    # the spring turns within a time that goes with the root of what it gives
+    assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.02)
+    assert 2.0 * of_cycle[1] - of_cycle[0] == pytest.approx(exact, rel=2e-6)
 
 
-@pytest.mark.parametrize(("roll_deg", "slides"), [(12.80, False), (12.86, True)])
+@pytest.mark.parametrize(("roll_deg", "slides"), [(12.82, False), (12.84, True)])
 def test_a_block_slides_on_a_rolling_deck_beyond_its_angle(roll_deg: float, slides: bool) -> None:
-    result = simulate(rolling(roll_deg), t_end=48.0, dt_out=0.05, rtol=1e-8)
-    assert ("slip" in kinds(result, "feet.1")) == slides
-    moved = np.ptp(np.asarray(result["contact_slip"]))
-    assert (moved > 0.0) == slides
+    """The closed form is 12.831052 deg."""
+    result = simulate(rolling(roll_deg), t_end=47.0, dt_out=0.05, rtol=1e-8)
+    for foot in range(1, 5):
+        assert ("slip" in kinds(result, f"feet.{foot}")) == slides
+    assert (float(result["contact_slip"].max()) > 0.0) == slides
 
 
 def test_a_block_sticks_for_an_hour_without_creep() -> None:
-    result = simulate(slope(10.0), t_end=3600.0, dt_out=60.0, rtol=1e-6)
+    result = simulate(slope(10.0), t_end=3600.0, dt_out=60.0, rtol=1e-6, integrator="cvode-bdf")
     place = np.asarray(result["position"])[:, 0]
     settled = result.time >= 60.0
     assert np.abs(place[settled] - place[settled][0]).max() < 1e-12
@@ -85,9 +89,9 @@ def test_a_block_slides_down_a_slope_with_what_friction_leaves_it() -> None:
     result = simulate(slope(25.0, friction=mu, hold=1e-5), t_end=2.0, dt_out=0.5, rtol=1e-9)
     pulled = GRAVITY * (np.sin(angle) - mu * np.cos(angle))
     along = np.asarray(result["velocity"])[:, 0] @ np.array([np.cos(angle), 0.0, -np.sin(angle)])
-    assert along[-1] == pytest.approx(2.0 * pulled, rel=3e-4)
+    assert along[-1] == pytest.approx(2.0 * pulled, rel=1e-3)
     work = mu * MASS * GRAVITY * np.cos(angle) * 0.5 * pulled * 2.0**2
-    assert lost(result)[-1] == pytest.approx(work, rel=1e-3)
+    assert lost(result)[-1] == pytest.approx(work, rel=2e-3)
 
 
 def test_momentum_goes_through_a_contact() -> None:
@@ -145,7 +149,7 @@ def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
     from scipy.integrate import solve_ivp
     from scipy.optimize import brentq
 
-    heave, omega, stretch, rate = 1.0, 2.0 * np.pi / 7.0, 4.0e5, 0.3
+    heave, omega, stretch, rate = 1.0, 2.0 * np.pi / 7.0, 4.0e5, 0.1
 
     def pressed(t: float) -> float:
         z = heave * np.sin(omega * t)
@@ -167,16 +171,20 @@ def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
     again = float(path.t_events[0][0])
     speed = heave * omega * np.cos(omega * again) - float(path.y_events[0][0][1])
 
-    result = simulate(lifted(heave, omega, stretch, rate), t_end=again + 0.5, dt_out=0.002, rtol=1e-9)
-    lift = [e.time for e in result.events if e.name == "feet.1" and e.kind == "release"]
-    touch = [e for e in result.events if e.name == "feet.1" and e.kind == "contact"]
-    assert lift[0] == pytest.approx(off, abs=2e-3)
-    assert touch[0].time == pytest.approx(again, abs=5e-3)
-    assert touch[0].speed == pytest.approx(speed, rel=2e-2)
+    late = []
+    for stiffness in (STIFFNESS, 16.0 * STIFFNESS):
+        scene = lifted(heave, omega, stretch, rate, stiffness)
+        result = simulate(scene, t_end=again + 0.2, dt_out=0.001, rtol=1e-9)
+        lift = [e for e in result.events if e.name == "feet.1" and e.kind == "release"]
+        touch = [e for e in result.events if e.name == "feet.1" and e.kind == "contact"]
+        late.append([lift[0].time - off, touch[0].time - again, touch[0].speed / speed - 1.0])
+    late = np.abs(late)
+    assert late[0].max() < 0.02
+    assert np.all(late[1] < 0.5 * late[0])
     hits = [one for one in contact_hits(result, "feet") if one.point == "feet.1"]
     assert [one.number for one in hits][:2] == [0, 1]
     assert hits[1].speed == touch[0].speed
-    assert 0.5 * hits[1].bound < hits[1].peak < hits[1].bound
+    assert hits[1].peak == pytest.approx(hits[1].undamped, rel=0.1)
 
 
 def test_points_that_start_deep_inside_are_refused() -> None:

@@ -35,9 +35,9 @@ class ContactHit:
         Of that force by the trapezoidal rule over the outputs, N s.
     dynamic_factor : float
         Peak over the point's share of the body's weight; not a number without gravity.
-    bound : float
-        weight share + speed sqrt(stiffness mass share), N: what an undamped hit of that share alone comes to
-        beside its weight. Not a number for a table.
+    undamped : float
+        Share of the weight + speed sqrt(stiffness mass), N, with the share of the mass: the peak of a hit by
+        that mass alone, without damping, which may raise it. Not a number for a table.
     """
 
     point: str
@@ -48,7 +48,7 @@ class ContactHit:
     peak: float
     impulse: float
     dynamic_factor: float
-    bound: float
+    undamped: float
 
 
 def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
@@ -77,7 +77,7 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
     if result.scene is None or not isinstance(element, _core.Contact):
         known = ", ".join(name for name, one in loads.items() if isinstance(one, _core.Contact)) or "none"
         raise SceneError(f"contact_hits: there is no contact {contact!r}; the scene has {known}")
-    if "contact_press" not in result.arrays:
+    if "contact_press" not in result:
         raise SceneError('contact_hits: the result has no channel "contact_press"; record it')
     count = len(element.points)
     body = element.body if element.body in result.scene.bodies else element.on
@@ -93,7 +93,7 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
             found.append(ContactHit(
                 point=point, number=number, begin=begin, end=end, speed=speed, peak=peak, impulse=impulse,
                 dynamic_factor=peak / weight if weight > 0.0 else np.nan,
-                bound=weight + speed * float(np.sqrt(stiffness * mass)),
+                undamped=weight + speed * float(np.sqrt(stiffness * mass)),
             ))  # fmt: skip
     return tuple(found)
 

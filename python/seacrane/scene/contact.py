@@ -83,7 +83,8 @@ def add_contact(
     Notes
     -----
     Normal force: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975). The spring of friction is
-    friction N / hold with N the share of the weight, critically damped with the share of the mass.
+    friction N / hold with N the share of the weight, damped by half of what is critical with the share of the
+    mass.
     """
     owner, other = text_of("contact: body", body), text_of("contact: on", on)
     label = name_of("contact", name, f"{owner} on {other}")
@@ -108,7 +109,7 @@ def add_contact(
         edge=_edge(what, shape, extent, edge), stiffness=k,
         damping=not_negative_of(f"{what}: damping", damping, "s/m"),
         compressions=[] if steps is None else steps[:, 0], forces=[] if steps is None else steps[:, 1],
-        friction=mu, shear_stiffness=shear, shear_damping=2.0 * np.sqrt(shear * share), hold=give,
+        friction=mu, shear_stiffness=shear, shear_damping=np.sqrt(shear * share), hold=give,
     )  # fmt: skip
     add_load(scene, element)
     return element
