@@ -422,7 +422,7 @@ on = "hull"
 surface = "plane"
 axis = [0, -1, 0]
 place_m = [0, 50, 0]
-table_m_N = [[0, 0], [0.1, 2e3], [0.3, 2e4]]
+table = [[0, 0], [0.1, 2e3], [0.3, 2e4]]
 
 [seabed]
 body = "box"

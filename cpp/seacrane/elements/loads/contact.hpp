@@ -76,12 +76,12 @@ struct Contact {
     d.surface = "box";
     d.place = {0.5, 0.2, -0.3};
     d.size = {30.0, 29.0, 28.0};
-    d.edge = 13.5;
+    d.edge = 13.9;
     d.stiffness = 0.2;
     d.damping = 0.01;
     d.friction = 0.3;
     d.shear_stiffness = 3.0;
-    d.shear_damping = 0.5;
+    d.shear_damping = 6.0;
     return d;
   }
 
