@@ -54,6 +54,6 @@ if len(sys.argv) > 1:
             press = result.select("contact_press", contact_point=f"feet.{i + 1}")
             row.plot(result.time, press / 1e3, linewidth=0.9, label=f"foot {i + 1}")
         row.set(ylabel="press [kN]", title=f"lowered at {rate:g} m/s", xlim=(5.0, 35.0))
-    rows[0].legend(ncols=4)
+    figure.legend(*rows[0].get_legend_handles_labels(), ncols=4, loc="outside upper right")
     rows[-1].set(xlabel="time [s]")
     figure.savefig(Path(sys.argv[1]) / "landing.png", dpi=110)

@@ -57,6 +57,6 @@ if len(sys.argv) > 1:
         place.plot(result.time, moved, label=f"{degrees:g} deg")
         pressed.plot(result.time, result.select("contact_press", contact_point="feet.1") / 1e3)
     place.set(ylabel="load over the deck [m]")
-    place.legend(title="roll", ncols=4)
+    figure.legend(title="roll", ncols=4, loc="outside upper right")
     pressed.set(xlabel="time [s]", ylabel="press of a foot [kN]")
     figure.savefig(Path(sys.argv[1]) / "sliding_on_deck.png", dpi=110)

@@ -11,21 +11,30 @@ from seacrane.description.curves import spline_curve
 
 GRAVITY = 9.80665
 MASS, STIFFNESS = 2000.0, 8.0e6
-FEET = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])  # at the height of the centre: no tipping
+FEET = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])  # as high as the centre: no tipping
 
 
 def ball(speed: float, damping: float, **contact: Any) -> Scene:
     """A ball that flies against the ground, without gravity, 0.1 m before it."""
     scene = Scene(name="ball", gravity=0.0)
-    scene.add_body(name="ball", mass=MASS, inertia=(1.0e3,) * 3, position=(0, 0, 0.1), velocity=(0, 0, -speed))
+    scene.add_body(
+        name="ball", mass=MASS, inertia=(1.0e3,) * 3, position=(0, 0, 0.1), velocity=(0, 0, -speed)
+    )
     scene.add_contact("ball", points=[(0.0, 0.0, 0.0)], on="ground", stiffness=STIFFNESS, damping=damping,
                       name="wall", **contact)  # fmt: skip
     return scene
 
 
 def block(
-    scene: Scene, on: str, *, friction: float, hold: float, top: float = 0.0, size: float = 1.0,
-    stiffness: float = STIFFNESS, **more: Any
+    scene: Scene,
+    on: str,
+    *,
+    friction: float,
+    hold: float,
+    top: float = 0.0,
+    size: float = 1.0,
+    stiffness: float = STIFFNESS,
+    **more: Any,
 ) -> Scene:
     """A block on feet that stands where its weight is in balance, on a plane of `on`."""
     sunk = MASS * GRAVITY / (len(FEET) * stiffness)
@@ -63,7 +72,7 @@ def slope(angle_deg: float, *, friction: float = 0.3, hold: float = 1e-3) -> Sce
 
 
 def rolling(roll_deg: float, *, friction: float = 0.3, hold: float = 1e-4, periods: int = 6) -> Scene:
-    """A block with its centre 5 m above the axis of a deck that rolls with 8 s, from rest to full amplitude."""
+    """A block with its centre 5 m above the axis of a deck that rolls with 8 s, from rest on."""
     scene = Scene(name="rolling deck", gravity=GRAVITY)
     scene.add_body(name="deck", mass=1.0e5, inertia=(1.0e6,) * 3)
     scene.add_joint(kind="revolute", name="roll", first="ground", second="deck", axis=(1.0, 0.0, 0.0))
@@ -107,7 +116,9 @@ def lifted(heave: float, omega: float, stretch: float, rate: float, stiffness: f
     scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge", axis=(0.0, 0.0, 1.0))
     scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=heave, omega=omega, phase=-0.5 * np.pi))
     block(scene, "barge", friction=0.3, hold=1e-3, stiffness=stiffness, velocity=(0.0, 0.0, heave * omega))
-    scene.add_body(name="tip", mass=100.0, inertia=(1.0,) * 3, position=(0.0, 0.0, 10.0), velocity=(0, 0, rate))
+    scene.add_body(
+        name="tip", mass=100.0, inertia=(1.0,) * 3, position=(0.0, 0.0, 10.0), velocity=(0, 0, rate)
+    )
     scene.add_joint(kind="prismatic", name="hoist", first="ground", second="tip", axis=(0.0, 0.0, 1.0))
     scene.add_driver(joint="hoist", curve=Curve.table([0.0, 100.0], [0.0, 100.0 * rate]))
     slack = 10.0 + MASS * GRAVITY / (len(FEET) * stiffness)

@@ -373,9 +373,10 @@ SAMPLES: Mapping[str, Sample] = {
     "contact": Sample(
         kind=_core.Contact,
         numbers={
-            "points": [(1.0, 0.0, -0.8), (-1.0, 0.0, -0.8)], "place": (0.0, 0.0, 4.0), "size": (6.0, 5.0, 0.4),
-            "axes": np.eye(3).tolist(), "edge": 0.05, "stiffness": 0.5 * MASS * G / 0.01, "damping": 1.0,
-            "friction": 0.3, "shear_stiffness": 150.0 * MASS * G, "shear_damping": 20.0 * MASS, "hold": 1e-3,
+            "points": [(1.0, 0.0, -0.8), (-1.0, 0.0, -0.8)], "place": (0.0, 0.0, 4.0),
+            "size": (6.0, 5.0, 0.4), "axes": np.eye(3).tolist(), "edge": 0.05,
+            "stiffness": 0.5 * MASS * G / 0.01, "damping": 1.0, "friction": 0.3,
+            "shear_stiffness": 150.0 * MASS * G, "shear_damping": 20.0 * MASS, "hold": 1e-3,
         },
         scene=lambda n: on_feet(n, surface="box"),
     ),

@@ -32,7 +32,9 @@ def kinds(result: Result, point: str) -> list[str]:
 
 
 @pytest.mark.parametrize(("loss", "restitution", "deepest"), REBOUNDS)
-def test_a_ball_rebounds_as_the_law_of_the_surface_says(loss: float, restitution: float, deepest: float) -> None:
+def test_a_ball_rebounds_as_the_law_of_the_surface_says(
+    loss: float, restitution: float, deepest: float
+) -> None:
     speed = 2.0
     result = simulate(ball(speed, loss / speed), t_end=0.2, dt_out=2e-4, rtol=1e-10)
     assert [(e.name, e.kind) for e in result.events] == [("wall.1", "contact"), ("wall.1", "release")]
@@ -192,7 +194,9 @@ def test_points_that_start_deep_inside_are_refused() -> None:
     scene.add_body(name="deck", mass=1e5, inertia=(1e5,) * 3)
     scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 0.7))
     scene.add_contact("load", points=[(0.0, 0.0, 0.0)], on="deck", surface="box", size=(9.0, 9.0, 2.0))
-    with pytest.raises(SceneError, match=r"contact 'load on deck': point 1 of 'load' starts 0\.3 m inside 'deck'"):
+    with pytest.raises(
+        SceneError, match=r"contact 'load on deck': point 1 of 'load' starts 0\.3 m inside 'deck'"
+    ):
         scene.compile()
 
 

@@ -26,9 +26,9 @@ def contact_cost(*, repeats: int) -> Section:
     return Section(
         title="Contact",
         text=(
-            "Shipped hull and held crane in a sea of 200 components (Hs 1.5 m, Tp 7 s), a load on a wire; its "
-            "points against a plane of the hull with friction, all 20 m away, or all pressed by 1 cm. Best of "
-            f"{repeats}."
+            "Shipped hull and held crane in a sea of 200 components (Hs 1.5 m, Tp 7 s), a load on a wire; "
+            "its points against a plane of the hull with friction, all 20 m away, or all pressed by 1 cm. "
+            f"Best of {repeats}."
         ),
         head=["formulation", "points", "without [ns]", "apart [ns]", "closed [ns]", "apart over without",
               "closed over without"],

@@ -130,6 +130,7 @@ void Switches::resume(Stepper& at, double t, const double* y) {
   make_room(at);
   find_sides(at, t, y, before_);
   refuse(at, t, before_);
+  settled_at_ = t;
 }
 
 void Switches::note(const Stepper& at) {
@@ -156,21 +157,26 @@ void Switches::note_contacts(Stepper& at, double t, const double* y) {
       const bool touches = change == Contact::Change::touch;
       const double speed = touches ? std::max(contact->touch(read(at, t, y), point).rate, 0.0) : 0.0;
       reached_.push_back({instant, contact->point_name(point), kind_of(change), speed});
-      last_touch_ = touches ? instant : last_touch_;
     }
   });
 }
 
 /// The step ends where it does: the next one begins on the sides there.
 void Switches::finish(Stepper& at, const LastStep& step) {
-  left_ = before_;
   note(at);
   note_contacts(at, step.time(), step.state());
-  has_jumped_ = last_touch_ > 0.5 * (step.previous_time() + step.time());
+  has_jumped_ = false;
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const Contact* const contact = contact_of(list, i);
+    has_jumped_ = has_jumped_ || (contact != nullptr && contact->touches(left_[k], after_[k]));
+    ++k;
+  });
   before_.swap(after_);
 }
 
 void Switches::settle(Stepper& at, double t, const double* y, double* load_states) {
+  settled_at_ = t;
   std::size_t k = 0;
   for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
     const std::optional<int> side = left_.empty() ? std::nullopt : std::optional(left_[k]);
@@ -210,6 +216,7 @@ void Switches::pass_start(Stepper& at, const LastStep& step) {
   instants_.assign(after_.size(), step.previous_time());
   note(at);
   note_contacts(at, step.previous_time(), step.previous_state());
+  if (settled_at_ == step.previous_time()) left_ = after_;
   before_.swap(after_);
   passed_.swap(after_);
 }
@@ -231,6 +238,7 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   instants_.assign(after_.size(), end);
+  left_ = before_;
   if (std::exchange(leads_across_, false)) {
     finish(at, step);
     return std::nullopt;

@@ -83,8 +83,8 @@ class Switches {
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
   std::vector<int> before_, after_, passed_;  // by load with sides
-  std::vector<int> left_;                     // likewise, where the last step began
-  double last_touch_ = -std::numeric_limits<double>::infinity();
+  std::vector<int> left_;                     // likewise, where states last jumped or the last step began
+  double settled_at_ = std::numeric_limits<double>::quiet_NaN();
   bool has_jumped_ = false;
   std::vector<double> instants_;  // of their change, likewise
   Aim aim_;                       // of the step that is taken again

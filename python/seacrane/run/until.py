@@ -187,5 +187,5 @@ class Until:
 
     @staticmethod
     def release(limit: str) -> Contact:
-        """A limit lets go: a load leaves its seat, a wire is slack; or the last point of a contact lifts off."""
+        """A limit lets go: a load leaves its seat, a wire is slack; or all points of a contact are off."""
         return Contact(name_of("until: limit", limit), False)

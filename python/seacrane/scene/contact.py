@@ -191,7 +191,8 @@ def _stiffness(what: str, given: float | None, steps: Array | None, weight: floa
     if given is not None:
         if friction > 0.0 and given == 0.0:
             raise SceneError(
-                f"{what}: has friction {friction:g} and a stiffness of 0 N/m: nothing presses; give a stiffness"
+                f"{what}: has friction {friction:g} and a stiffness of 0 N/m: nothing presses; give a "
+                "stiffness"
             )
         return positive_of(f"{what}: stiffness", given, "N/m")
     if steps is not None and len(steps) > 1 and steps[1, 0] > 0.0 and steps[1, 1] > 0.0:

@@ -264,8 +264,9 @@ def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
     reach = math.sqrt(1.5 * float(np.trace(np.asarray(owner.inertia))) / owner.mass)  # of a box with it
     levers = np.linalg.norm(np.asarray(contact.points) - np.asarray(owner.center_of_mass), axis=1)
     yield Proportion("points", "{:.3g} times the body's size", _over(levers.max(), reach), 3e-3, 100.0, "m")
-    apart = placed(around.scene, contact.on, contact.place) - placed(around.scene, contact.body, contact.points[0])
-    yield Proportion("place", "a surface {:.3g} m away", float(np.linalg.norm(apart)), 0.0, 3000.0, "m")
+    point = placed(around.scene, contact.body, contact.points[0])
+    apart = float(np.linalg.norm(placed(around.scene, contact.on, contact.place) - point))
+    yield Proportion("place", "a surface {:.3g} m away", apart, 0.0, 3000.0, "m")
 
 
 def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:

@@ -198,6 +198,14 @@ struct Contact {
     return out;
   }
 
+  /// Whether a point touches where the side changes, and needs an anchor.
+  bool touches(int from, int to) const {
+    if (states.count == 0) return false;
+    bool out = false;
+    for (std::size_t i = 0; i < points.size(); ++i) out = out || (~from & to) >> 2 * i & kClosed;
+    return out;
+  }
+
   /// Writes the anchors of points that may not have one yet, among the states of all loads: of those that are
   /// open at `side`, or, where no side is known, of those whose spring is longer than friction allows.
   void take_anchors(const LoadInput<double>& in, std::optional<int> side, double* all_states) const {
