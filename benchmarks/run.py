@@ -15,6 +15,7 @@ from pathlib import Path
 
 import facts
 from measure import (
+    contact_cost,
     crane,
     ensemble,
     ensemble_overhead,
@@ -93,6 +94,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield moving_points.moving_points(repeats=repeats)
     yield lines_in_water.lines_in_water(repeats=repeats)
     yield wet_parts.wet_parts(repeats=repeats)
+    yield contact_cost.contact_cost(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)
     integrators.figure(rows, folder / PICTURE)

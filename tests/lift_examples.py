@@ -402,6 +402,35 @@ joint = "pin"
 load_N_m = 4
 speed_deg_per_s = 1
 
+[[contact]]
+name = "landing"
+body = "bob"
+points_m = [[0.5, 0, -0.5], [-0.5, 0, -0.5]]
+on = "hull"
+surface = "box"
+place_m = [0, 0, -30]
+size_m = [8, 4, 0.5]
+stiffness_N_per_m = 1e5
+damping_s_per_m = 0.5
+friction = 0.3
+hold_m = 2e-3
+
+[[contact]]
+body = "bob"
+points_m = [[0.5, 0, 0.5]]
+on = "hull"
+surface = "plane"
+axis = [0, -1, 0]
+place_m = [0, 50, 0]
+table = [[0, 0], [0.1, 2e3], [0.3, 2e4]]
+
+[seabed]
+body = "box"
+points_m = [[0, 0, -0.5]]
+depth_m = 80
+stiffness_N_per_m = 2e5
+friction = 0.4
+
 [range]
 joint = "sleeve"
 minimum_m = -1
@@ -597,6 +626,15 @@ def every_table() -> Scene:
     scene.add_seat(joint="deck")
     scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
     scene.add_friction(joint="pin", load=4, speed=np.radians(1))
+    scene.add_contact(
+        "bob", name="landing", points=[(0.5, 0, -0.5), (-0.5, 0, -0.5)], on="hull", surface="box",
+        place=(0, 0, -30), size=(8, 4, 0.5), stiffness=1e5, damping=0.5, friction=0.3, hold=2e-3,
+    )  # fmt: skip
+    scene.add_contact(
+        "bob", points=[(0.5, 0, 0.5)], on="hull", axis=(0, -1, 0), place=(0, 50, 0),
+        table=[(0, 0), (0.1, 2e3), (0.3, 2e4)],
+    )  # fmt: skip
+    scene.add_seabed("box", points=[(0, 0, -0.5)], depth=80, stiffness=2e5, friction=0.4)
     scene.add_heave_compensation(
         name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
         lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,

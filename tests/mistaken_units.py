@@ -87,6 +87,14 @@ def lift_off_too_slowly() -> None:
     simulate_stages(scene, [lift, Stage(name="raised", duration=10.0)], dt_out=0.1)
 
 
+def on_deck(**surface: Any) -> None:
+    """A load on a deck whose surface is not where its feet are."""
+    scene = Scene(name="deck")
+    scene.add_body(name="load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 3.0))
+    scene.add_contact("load", on="ground", points=[(-1, 0, -1.0), (1, 0, -1.0)], **surface)
+    simulate(scene, t_end=1.0)
+
+
 SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "EA in kilonewtons": [lambda: hung({"EA": 5e4})],
     "times in milliseconds": [
@@ -112,4 +120,8 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a record with noise": [lambda: record(1.5, noise=5e-3) and None],
     "phases of the other sign, or in degrees": [phases_of_the_other_sign, phases_in_degrees],
     "a load that comes back to its deck": [lift_off_too_slowly],
+    "a deck upside down, or above the feet": [
+        lambda: on_deck(axis=(0, 0, -1), place=(0, 0, 1.0)),
+        lambda: on_deck(place=(0, 0, 2.8)),
+    ],
 }

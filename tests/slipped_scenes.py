@@ -69,6 +69,14 @@ def filled(**numbers: Any) -> Scene:
     return scene
 
 
+def on_feet(numbers: Mapping[str, Any], **more: Any) -> Scene:
+    """A load just above the top of a box of the ground that is 4 m over its origin."""
+    scene = with_load((0.0, 0.0, 5.0))
+    rest = {"stiffness": 0.5 * MASS * G / 0.01, "place": (0.0, 0.0, 4.0)}
+    add_load(scene, _core.Contact(name="feet", body="load", on="ground", **{**rest, **more, **numbers}))
+    return scene
+
+
 def hung(numbers: Mapping[str, Any], **more: Any) -> Scene:
     scene = with_load()
     add_load(scene, _core.Line(name="wire", bodies=["ground", "load"], **{**more, **numbers}))
@@ -362,6 +370,21 @@ SAMPLES: Mapping[str, Sample] = {
             "wave_factor": 1.2,
         },
         scene=lambda n: filled(**n),
+    ),
+    "contact": Sample(
+        kind=_core.Contact,
+        numbers={
+            "points": [(1.0, 0.0, -0.8), (-1.0, 0.0, -0.8)], "place": (0.0, 0.0, 4.0),
+            "size": (6.0, 5.0, 0.4), "axes": np.eye(3).tolist(), "edge": 0.05,
+            "stiffness": 0.5 * MASS * G / 0.01, "damping": 1.0, "friction": 0.3,
+            "shear_stiffness": 150.0 * MASS * G, "shear_damping": 20.0 * MASS, "hold": 1e-3,
+        },
+        scene=lambda n: on_feet(n, surface="box"),
+    ),
+    "fender": Sample(
+        kind=_core.Contact,
+        numbers={"compressions": (0.0, 0.1, 0.3), "forces": (0.0, 0.2 * MASS * G, MASS * G)},
+        scene=lambda n: on_feet(n, points=[(0.0, 0.0, -0.8)]),
     ),
     "immersed span": Sample(
         kind=_core.ImmersedSpan,

@@ -502,7 +502,7 @@ def test_every_keyword_is_a_key(name: str) -> None:
 
 
 PLAIN = {
-    "air", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
+    "air", "friction", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
     "length_scale", "design_factor", "mooring_damping", "inertia", "quaternion", "gamma", "spreading",
     "relative_bound", "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "rtol",
     "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",

@@ -69,7 +69,7 @@ py::list events(const Simulation& s) {
                                              e.impulse, e.energy_lost));
   }
   for (const LimitReached& l : s.limits_reached()) {
-    rows.emplace_back(l.time, py::make_tuple(l.time, l.name, "limit", 0.0, 0.0, 0.0));
+    rows.emplace_back(l.time, py::make_tuple(l.time, l.name, l.kind, l.speed, 0.0, 0.0));
   }
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   py::list out;

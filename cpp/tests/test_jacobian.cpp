@@ -6,6 +6,7 @@
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/elements/loads/heave_compensator.hpp"
 #include "seacrane/elements/loads/immersed_span.hpp"
 #include "seacrane/elements/loads/line.hpp"
@@ -178,6 +179,33 @@ TEST_CASE("exact Jacobian: water on a span in waves and current, wet, half wet a
       for (BodyDescription& body : scene.bodies) body.position.z() += height;
       scene.loads.of<ImmersedSpan>().push_back(ImmersedSpan::example());
       scene.sea = std::make_shared<const SeaField>(waves, stretching);
+      check_redundant(scene, 6);
+      check_recursive(scene, 6);
+      check_residual(scene, 6);
+    }
+  }
+}
+
+TEST_CASE("exact Jacobian: contact that slides and that sticks, on every surface") {
+  const std::vector<std::pair<const char*, Vec3d>> surfaces = {{"plane", {0.0, 0.0, 0.0}},
+                                                               {"box", {28.0, 28.0, 28.0}},
+                                                               {"post", {0.0, 12.0, 14.0}},
+                                                               {"pipe", {1.0, 16.0, 14.0}}};
+  for (const auto& [surface, size] : surfaces) {
+    for (const double friction : {0.05, 50.0}) {
+      CAPTURE(std::string(surface));
+      CAPTURE(friction);
+      Random random(16);
+      SceneDescription scene = pair("revolute", random);
+      Contact::Description contact = Contact::example();
+      contact.surface = surface;
+      contact.size = size;
+      contact.edge = contact.is("box") ? 13.9 : (contact.is("pipe") ? 3.4 : 5.4);
+      if (size.isZero()) contact.place += 5.0 * contact.axes.col(2);
+      contact.friction = friction;
+      contact.compressions = {0.0, 1.0, 3.0};
+      contact.forces = {0.0, 0.4, 1.8};
+      scene.loads.of<Contact>().push_back(contact);
       check_redundant(scene, 6);
       check_recursive(scene, 6);
       check_residual(scene, 6);

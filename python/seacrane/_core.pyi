@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -2650,6 +2650,118 @@ class WoundSpan:
         """
         m, coordinates of the second body
         """
+class Contact:
+    """
+    Points of a body against the surface of another, which presses and rubs; see Scene.add_contact. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    OWN_PACE: typing.ClassVar[bool] = True
+    PASSIVE: typing.ClassVar[bool] = False
+    STIFF: typing.ClassVar[bool] = False
+    @staticmethod
+    def example() -> Contact:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> Contact:
+        ...
+    def __deepcopy__(self, memo: dict) -> Contact:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, body: str, on: str, points: numpy.typing.ArrayLike, surface: str = ..., place: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike = ..., edge: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ..., compressions: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ..., friction: typing.SupportsFloat = ..., shear_stiffness: typing.SupportsFloat = ..., shear_damping: typing.SupportsFloat = ..., hold: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        columns: its axes in those of on; z away from a plane, along a post
+        """
+    @property
+    def body(self) -> str:
+        """
+        whose points they are
+        """
+    @property
+    def compressions(self) -> list[float]:
+        """
+        m, of a table, from 0, in place of stiffness
+        """
+    @property
+    def damping(self) -> float:
+        """
+        s/m, force = elastic force (1 + damping rate)
+        """
+    @property
+    def edge(self) -> float:
+        """
+        m, radius of its edges
+        """
+    @property
+    def forces(self) -> list[float]:
+        """
+        N, elastic force at the compressions
+        """
+    @property
+    def friction(self) -> float:
+        """
+        coefficient, of sticking and of sliding
+        """
+    @property
+    def hold(self) -> float:
+        """
+        m, that a point gives before it slides: errors of anchors count over it
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def on(self) -> str:
+        """
+        whose surface it is
+        """
+    @property
+    def place(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, of a plane one of its points, else its centre; coordinates of on
+        """
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        m, body coordinates
+        """
+    @property
+    def shear_damping(self) -> float:
+        """
+        N s/m, likewise
+        """
+    @property
+    def shear_stiffness(self) -> float:
+        """
+        N/m, of each point, while it sticks
+        """
+    @property
+    def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, of a box along its axes; of a post or pipe its inner and outer diameter, and its length
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        N/m, of each point; not used beside a table
+        """
+    @property
+    def surface(self) -> str:
+        """
+        'plane', 'box', 'post' or 'pipe'
+        """
 class Limit:
     """
     What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
@@ -3744,4 +3856,4 @@ def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
     """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'wound span': WoundSpan, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'wound span': WoundSpan, 'contact': Contact, 'limit': Limit}

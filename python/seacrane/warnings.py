@@ -507,6 +507,14 @@ class LineRungWarning(SceneWarning):
     """
 
 
+class SeabedWarning(SceneWarning):
+    """A seabed is a plane that gives and rubs, not a model of soil: nothing sinks in, sticks or flows.
+
+    Give a stiffness from the soil's own (bearing force over settlement), vary it, and add suction at
+    lift-off as a force table.
+    """
+
+
 class SeriesWarning(SeacraneWarning):
     """Of measured series, and of runs that are compared with them."""
 

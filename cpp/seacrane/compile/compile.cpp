@@ -14,6 +14,7 @@
 #include "seacrane/compile/locked_loops.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
+#include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/model/validate.hpp"
 
@@ -24,8 +25,10 @@ namespace {
 // cases closes to 1e-6 of the absolute work at rtol = 1e-6.
 constexpr double kTranslationScale = 0.1;  // m, m/s, times the scene's length scale
 constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of 10 m
-constexpr double kBeyond = 1e-9;           // m or rad: a start beyond a bound
-constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
+constexpr double kDeep = 0.1;              // m, that a point of a contact may start inside
+constexpr double kCrushed = 10.0;        // times its share of the weight, with which it may be pressed there
+constexpr double kBeyond = 1e-9;         // m or rad: a start beyond a bound
+constexpr double kLeastGyration = 1e-2;  // over the longest arm of a body, where geometry is judged
 
 class Compiler final : private LoadContext {
  public:
@@ -446,6 +449,33 @@ std::shared_ptr<Model> when_open(const std::shared_ptr<Model>& model, ClosedSet 
   return open;
 }
 
+/// Refuses a point of a contact that starts deep inside: it would be shot out.
+void check_depth(const Contact& contact, std::size_t point, const LoadInput<double>& in, const Model& model) {
+  const Contact::Touch<double> now = contact.touch(in, point);
+  const int of = contact.body < model.body_count() ? contact.body : contact.on;
+  const double weight = model.bodies[idx(of)].mass * model.description.gravity,
+               share = weight / static_cast<double>(contact.points.size());
+  if (-now.gap <= kDeep || now.press.elastic <= kCrushed * share) return;
+  throw SceneError("contact '" + contact.d.name + "': point " + std::to_string(point + 1) + " of '" +
+                   contact.d.body + "' starts " + to_text(-now.gap) + " m inside '" + contact.d.on +
+                   "', where it is pressed out with " + to_text(now.press.elastic) +
+                   " N; move the body out, turn the axis of the surface, or correct its place");
+}
+
+/// Gives points of contacts their anchors where they are at the start.
+void start_contacts(Model& model) {
+  if (model.loads.find<Contact>() == nullptr) return;
+  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
+  Terms terms(view);
+  double* const y = model.initial_state.data();
+  terms.read(0.0, y);
+  const LoadInput<double> in = terms.load_input(0.0, y + model.layout.memory);
+  for (const Contact& one : model.loads.of<Contact>()) {
+    for (std::size_t i = 0; i < one.points.size(); ++i) check_depth(one, i, in, model);
+    one.take_anchors(in, std::nullopt, y + model.layout.loads);
+  }
+}
+
 /// Refuses a start beyond a bound.
 void check_start(const Model& model) {
   if (model.limits.empty()) return;
@@ -474,6 +504,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   model->merges = merge;
   assemble(*model);
   start_fast_motions(*model);
+  start_contacts(*model);
   check_start(*model);
   const std::shared_ptr<Model> open = when_open(model, closed);
   hang_on_lines(*model, find_line_bounces(*open));

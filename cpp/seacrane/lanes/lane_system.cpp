@@ -1,6 +1,7 @@
 #include "seacrane/lanes/lane_system.hpp"
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
+#include "seacrane/elements/loads/contact.hpp"
 
 namespace seacrane {
 namespace {
@@ -22,6 +23,9 @@ std::string kept_out_of_lanes(const Model& model) {
   if (!m.limits.empty() || !model.limits.empty()) return "it has limits";
   for (const Vessel& vessel : m.vessels) {
     if (std::holds_alternative<Convolution>(vessel.memory)) return "its fluid memory is a convolution";
+  }
+  for (const Contact& one : m.loads.of<Contact>()) {
+    if (one.states.count > 0) return "its contacts take their anchors where they touch";
   }
   for (const WaveLoad& wave : m.wave_loads) {
     const std::string why = kept_out_by_waves(wave);

@@ -73,6 +73,10 @@ void Simulation::begin_steps(const State& start) {
     if (switches_ && start.steps.kink && *start.steps.kink > start.time) switch_at_ = *start.steps.kink;
     return;
   }
+  if (switches_) {
+    stepper().read_bodies(start.time, bodies_.data(), state_.data());
+    switches_->settle(stepper(), start.time, state_.data(), bodies_.data() + model_->layout.loads);
+  }
   const ClosedSet closed = stepper().model->closed;
   step_from(start.time, contacts_ ? contacts_->settle(start.time, bodies_.data(), closed) : closed);
 }
@@ -98,9 +102,10 @@ bool Simulation::carry_out_event() {
   state_.resize(at.stepped.size());
   integrator().interpolate(t, state_.data());
   at.stepped.project(t, state_.data(), false);
+  if (switches_) switches_->shorten(t);
+  settle(t);
   at.write_bodies(t, state_.data(), bodies_.data());
   event_time_ = t;
-  if (switches_) switches_->shorten(t);
   end_of_smooth_stretch(t);
   ClosedSet closed = at.model->closed;
   try {
@@ -123,6 +128,13 @@ void Simulation::step_from(double t, ClosedSet closed) {
   watch_limits();
 }
 
+/// Lets states of loads jump in state_, where a step ended at t.
+void Simulation::settle(double t) {
+  if (!switches_) return;
+  const std::size_t behind = model_->load_states.size() + 2;  // they stand before both integrals of work
+  switches_->settle(stepper(), t, state_.data(), state_.data() + state_.size() - behind);
+}
+
 /// Restarts the derivative's history at the present state.
 void Simulation::reset_integrator() {
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
@@ -133,7 +145,7 @@ void Simulation::reset_integrator() {
 /// sides. Methods that lose much by a reset are left to their step control: they would lose it twice.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  if (integrator().steps_lost_by_reset() > 0.0) {
+  if (integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_)) {
     switches_->watch(stepper(), time(), integrator().state());
     return false;
   }
@@ -202,12 +214,13 @@ void Simulation::finish_step(double now, double stop) {
     stepper().bodies.sample_histories(now, bodies_.data());
   }
   record_until(now);
-  if (now < stop) return;
+  if (now < stop && !(switches_ && switches_->has_jumped())) return;
   // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
   switch_at_ = kNever;
   end_of_smooth_stretch(now);
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);
+  settle(now);
   integrator().reset(now, state_.data());
   if (switches_) switches_->watch(stepper(), now, state_.data());
 }

@@ -96,6 +96,7 @@ class Simulation {
   void check_turning() const;
   bool retake_to_switch();
   bool carry_out_event();
+  void settle(double t);
   void finish_step(double now, double stop);
   void step_from(double t, ClosedSet closed);
   void reset_integrator();

@@ -7,6 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "seacrane/elements/loads/contact.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
+
 namespace seacrane {
 namespace {
 
@@ -27,7 +30,31 @@ void for_each_switch(const Model& model, F&& f) {
   });
 }
 
+/// Null for a load of another kind.
+const Contact* contact_of(const LoadList& list, std::size_t i) {
+  if (&list.kind != &load_kind<Contact>()) return nullptr;
+  return &static_cast<const LoadsOf<Contact>&>(list).items[i];
+}
+
+const char* kind_of(Contact::Change change) {
+  switch (change) {
+    case Contact::Change::touch:
+      return "contact";
+    case Contact::Change::lift:
+      return "release";
+    case Contact::Change::slip:
+      return "slip";
+    case Contact::Change::stick:
+      break;
+  }
+  return "stick";
+}
+
 }  // namespace
+
+bool Switches::any_jumps(const Model& model) {
+  return std::ranges::any_of(model.loads.of<Contact>(), [](const Contact& c) { return c.states.count > 0; });
+}
 
 bool Switches::any(const Model& model) {
   bool found = false;
@@ -80,17 +107,19 @@ void Switches::watch(Stepper& at, double t, const double* y) {
   make_room(at);
   find_sides(at, t, y, after_);
   refuse(at, t, after_);
-  if (before_.empty()) before_.assign(after_.size(), 0);
+  const bool begins = before_.empty();
+  if (begins) before_.assign(after_.size(), 0);
   if (before_.size() != after_.size()) before_ = after_;  // of another set of limits
   instants_.assign(after_.size(), t);
   note(at);
+  if (!begins) note_contacts(at, t, y);  // what stands as a run begins has not touched
   before_.swap(after_);
 }
 
 void Switches::make_room(const Stepper& at) {
   std::size_t count = 0;
   for_each_switch(*at.model, [&](const LoadList&, std::size_t) { ++count; });
-  for (std::vector<int>* sides : {&before_, &after_, &passed_}) sides->reserve(count);
+  for (std::vector<int>* sides : {&before_, &after_, &passed_, &left_}) sides->reserve(count);
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
   }
@@ -101,6 +130,7 @@ void Switches::resume(Stepper& at, double t, const double* y) {
   make_room(at);
   find_sides(at, t, y, before_);
   refuse(at, t, before_);
+  settled_at_ = t;
 }
 
 void Switches::note(const Stepper& at) {
@@ -111,6 +141,48 @@ void Switches::note(const Stepper& at) {
     if (from == to) return;
     for (const std::string& name : list.reached(i, from, to)) {
       if (!name.empty()) reached_.push_back({t, name});
+    }
+  });
+}
+
+/// What points of contacts did until (t, y), where it is read.
+void Switches::note_contacts(Stepper& at, double t, const double* y) {
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const int from = before_[k], to = after_[k];
+    const double instant = instants_[k++];
+    const Contact* const contact = contact_of(list, i);
+    if (from == to || contact == nullptr) return;
+    for (const auto& [point, change] : contact->happened(from, to)) {
+      const bool touches = change == Contact::Change::touch;
+      const double speed = touches ? std::max(contact->touch(read(at, t, y), point).rate, 0.0) : 0.0;
+      reached_.push_back({instant, contact->point_name(point), kind_of(change), speed});
+    }
+  });
+}
+
+/// The step ends where it does: the next one begins on the sides there.
+void Switches::finish(Stepper& at, const LastStep& step) {
+  note(at);
+  note_contacts(at, step.time(), step.state());
+  has_jumped_ = false;
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const Contact* const contact = contact_of(list, i);
+    has_jumped_ = has_jumped_ || (contact != nullptr && contact->touches(left_[k], after_[k]));
+    ++k;
+  });
+  before_.swap(after_);
+}
+
+void Switches::settle(Stepper& at, double t, const double* y, double* load_states) {
+  settled_at_ = t;
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const std::optional<int> side = left_.empty() ? std::nullopt : std::optional(left_[k]);
+    ++k;
+    if (const Contact* const contact = contact_of(list, i)) {
+      contact->take_anchors(read(at, t, y), side, load_states);
     }
   });
 }
@@ -139,10 +211,12 @@ bool Switches::began_behind(Stepper& at, const LastStep& step, double margin) {
 }
 
 /// Takes as passed what the step crossed as it began: a crossing that the last one ended on.
-void Switches::pass_start(const Stepper& at, double start) {
+void Switches::pass_start(Stepper& at, const LastStep& step) {
   passed_.swap(after_);
-  instants_.assign(after_.size(), start);
+  instants_.assign(after_.size(), step.previous_time());
   note(at);
+  note_contacts(at, step.previous_time(), step.previous_state());
+  if (settled_at_ == step.previous_time()) left_ = after_;
   before_.swap(after_);
   passed_.swap(after_);
 }
@@ -164,9 +238,9 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   instants_.assign(after_.size(), end);
+  left_ = before_;
   if (std::exchange(leads_across_, false)) {
-    note(at);
-    before_.swap(after_);
+    finish(at, step);
     return std::nullopt;
   }
   if (fell_short(at, step)) {
@@ -177,7 +251,7 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
   if (after_ != before_ && start + margin < end) {
     leads_across_ = began_behind(at, step, margin);
     if (leads_across_) return start + margin;
-    pass_start(at, start);
+    pass_start(at, step);
     instants_.assign(after_.size(), end);
   }
   for (std::size_t i = 0; i < after_.size(); ++i) {
@@ -197,9 +271,7 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
             .to = after_[i],
             .from_start = margin_at(start, step.previous_state())};
   }
-  if (first) return first;
-  note(at);
-  before_.swap(after_);
+  if (!first) finish(at, step);
   return first;
 }
 

@@ -11,10 +11,12 @@
 
 namespace seacrane {
 
-/// A bound that a load of the scene ran into, such as "hoist.stroke".
+/// A bound that a load of the scene ran into, such as "hoist.stroke", or what a point of a contact did.
 struct LimitReached {
   double time = 0.0;  // s
   std::string name;
+  const char* kind = "limit";
+  double speed = 0.0;  // m/s, of a point that touches
 };
 
 /// A line on the quasi-static rung that would go slack, or whose winch has hauled in to its end.
@@ -44,6 +46,14 @@ class Switches {
   /// it, or just behind its start, where it began on the old side of a jump. Nothing where there is no
   /// crossing but at its ends: then the next step starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
+  /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
+  /// on kinks.
+  static bool any_jumps(const Model& model);
+  /// Writes such states of the described or the stepped bodies, all states of loads in a row, for the last
+  /// step's end (t, y); before the first step as far as the state shows that they are not given.
+  void settle(Stepper& at, double t, const double* y, double* load_states);
+  /// Whether the last step ended on a kink where states jump.
+  bool has_jumped() const { return has_jumped_; }
   /// Cuts the last step: only its part until t counts.
   void shorten(double t);
   /// Bounds reached so far.
@@ -64,16 +74,21 @@ class Switches {
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
+  void note_contacts(Stepper& at, double t, const double* y);
+  void finish(Stepper& at, const LastStep& step);
   bool fell_short(Stepper& at, const LastStep& step);
   bool began_behind(Stepper& at, const LastStep& step, double margin);
-  void pass_start(const Stepper& at, double start);
+  void pass_start(Stepper& at, const LastStep& step);
   LoadInput<double> read(Stepper& at, double t, const double* y);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
   std::vector<int> before_, after_, passed_;  // by load with sides
-  std::vector<double> instants_;              // of their change, likewise
-  Aim aim_;                                   // of the step that is taken again
-  bool leads_across_ = false;                 // the step under way, a jump: it is not taken again
+  std::vector<int> left_;                     // likewise, where states last jumped or the last step began
+  double settled_at_ = std::numeric_limits<double>::quiet_NaN();
+  bool has_jumped_ = false;
+  std::vector<double> instants_;  // of their change, likewise
+  Aim aim_;                       // of the step that is taken again
+  bool leads_across_ = false;     // the step under way, a jump: it is not taken again
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;
   std::vector<double> rate_, late_rate_, end_rate_, scale_;  // of what is stepped

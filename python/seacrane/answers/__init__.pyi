@@ -10,3 +10,5 @@ from seacrane.answers.lift_sheet import lift_sheet as lift_sheet
 from seacrane.answers.lift_sheet import LiftSheet as LiftSheet
 from seacrane.answers.report import report as report
 from seacrane.answers.report import Report as Report
+from seacrane.answers.contact_hits import contact_hits as contact_hits
+from seacrane.answers.contact_hits import ContactHit as ContactHit

@@ -14,8 +14,9 @@ WAITS = {
     "length": "Line whose unstretched length ends it.",
     "depth": "Body with parts in water, or part, the depth of whose lowest point ends it.",
     "channel": "Channel that ends it.",
-    "contact": "Limit that takes hold.",
-    "release": "Limit that lets go.",
+    "clear": "Contact whose points are all at least so far from the surface.",
+    "contact": "Limit that takes hold, or contact that is touched.",
+    "release": "Limit that lets go, or contact that is left.",
 }
 
 _UNTIL = (

@@ -23,7 +23,10 @@ from seacrane.run.stage import Stage
 from seacrane.run.until import Condition, Until
 from seacrane.scene.scene import Scene
 
-LIMITED = {"tension": "line_tension", "length": "line_unstretched_length", "depth": "immersed_depth"}
+LIMITED = {
+    "tension": "line_tension", "length": "line_unstretched_length", "depth": "immersed_depth",
+    "clear": "contact_least_gap",
+}  # fmt: skip
 WAYS = ("to", "by", "value", "curve")
 OF_LOADS = {
     "rate": "m/s", "tension": "N", "brake": "1", "length": "m", "command": "1", "reference": "m", HOLE: "m2",
@@ -103,8 +106,16 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     require_unit_of_channel(keys, table, channel, names)
     if kind == "channel":
         return Until.channel(values[kind], **bounds, **names)
+    if kind == "clear":
+        return Until.clear(values[kind], minimum=_minimum(bounds))
     by_name = {"tension": Until.tension, "length": Until.length, "depth": Until.depth}
     return by_name[kind](values[kind], **bounds)
+
+
+def _minimum(bounds: Mapping[str, float]) -> float:
+    if set(bounds) != {"minimum"}:
+        raise SceneError("until: clear needs a minimum, in m, and no maximum; give minimum_m")
+    return bounds["minimum"]
 
 
 def _commands(keys: tuple[Key, ...], tables: Iterable[Mapping[str, Any]]) -> dict[str, Command]:

@@ -38,6 +38,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene import (
     bridles,
+    contact,
     entrapped,
     given_vessel,
     heave,
@@ -144,6 +145,13 @@ WIRE: dict[str, dict[str, Any]] = {
     "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
     "segment_rung": {"type": "text", "choices": lines.STRETCHING},
 }
+CONTACT = {
+    "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
+    "surface": {"type": "text", "choices": contact.SURFACES},
+    "place": POINT, "axis": DIRECTION, "size": ROW | {"unit": "m", "shapes": ((-1,),)}, "edge": LENGTH,
+    "stiffness": {"unit": "N/m"}, "depth": LENGTH,
+    "table": {"type": "array", "unit": "m, N", "shapes": ((-1, 2),)},
+}  # fmt: skip
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -343,6 +351,8 @@ _ALL = (
     _call("seat", limits.add_seat, _core.Limit),
     _call("soft_stop", limits.add_soft_stop, _core.SoftStop),
     _call("friction", limits.add_friction, _core.Friction),
+    _call("contact", contact.add_contact, _core.Contact, **CONTACT),
+    _call("seabed", contact.add_seabed, _core.Contact, **CONTACT),
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-KINDS = ("contact", "rebound", "release", "through", "stage", "connection", "limit")
+KINDS = ("contact", "rebound", "release", "slip", "stick", "through", "stage", "connection", "limit")
 PREFIX = "event_"
 NUMBERS: Mapping[str, tuple[str, str]] = {
     "time": ("s", "when it happened"),
@@ -29,10 +29,12 @@ class Event:
     time : float
         s.
     name : str
-        The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both.
+        The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both,
+        the number of the point, such as ".1", to a contact.
     kind : str
-        "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
-        no more (a wire is slack, a seat is lifted off, a stage released a connection); "through": what has
+        "contact": holds from now on (a wire is taut, a point touches); "rebound": was hit and left at once;
+        "release": holds no more (a wire is slack, a seat or a point is lifted off, a stage released a
+        connection); "slip", "stick": a point slides from now on, or friction holds it; "through": what has
         left a seat went below its plane again, unhindered; "stage": a stage
         began; "connection": a stage connected an element; "limit": a winch, a compensator, a gas spring
         or a hydraulic cylinder reached one of its bounds, which the name ends with, such as ".stroke", or its
@@ -40,8 +42,8 @@ class Event:
     speed : float
         Rate of approach just before, m/s or rad/s; 0 for a release, a stage or a limit.
     impulse : float
-        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages, connections and
-        limits of that kind.
+        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages, connections,
+        limits of that kind, and contacts, whose force lasts: `seacrane.answers.contact_hits` adds it up.
     energy_lost : float
         Mechanical energy lost in the impact, or with what a stage connected or released, J.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from seacrane import _core
@@ -15,14 +16,14 @@ from seacrane.run.connections import table_of, without
 from seacrane.run.move import Move
 from seacrane.run.stage import Stage
 from seacrane.run.unreachable import check_bounds, check_limits
-from seacrane.run.until import Contact, Level
+from seacrane.run.until import Contact, Level, of_contact
 from seacrane.scene.scene import Scene
 
 LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
 
 
 def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
-    """The stages, which fit the scene and each other.
+    """The stages, which fit the scene and each other, conditions on contacts as such on their gaps.
 
     Raises SceneError for names given twice, connections of what is there and releases of what is not,
     commands and conditions of what is not there in their stage.
@@ -33,6 +34,8 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
             raise SceneError(f"stages hold {shown(one)}; give a list of seacrane.Stage")
     if not stages:
         raise SceneError("stages: there are none; give at least one seacrane.Stage")
+    contacts = [name for name, load in scene.loads.items() if isinstance(load, _core.Contact)]
+    stages = tuple(_with_gaps(stage, contacts) for stage in stages)
     seen: set[str] = set()
     absent, burst = waiting(stages), dict[str, str]()
     for stage in stages:
@@ -45,6 +48,11 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
             error.name = stage.name
             raise
     return stages
+
+
+def _with_gaps(stage: Stage, contacts: Collection[str]) -> Stage:
+    until = tuple(of_contact(one, contacts) for one in stage.conditions)
+    return stage if until == stage.conditions else replace(stage, until=until)
 
 
 def _check(scene: Scene, stage: Stage, absent: set[str], burst: dict[str, str]) -> None:
@@ -102,6 +110,7 @@ def _check_names(stage: Stage, there: Scene) -> None:
         "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
         "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
         "point": there.points,
+        "contact": [name for name, load in there.loads.items() if isinstance(load, _core.Contact)],
     }  # fmt: skip
     for condition in stage.conditions:
         for dim, name in condition.names if isinstance(condition, Level) else ():

@@ -17,7 +17,7 @@ from seacrane.run.channel_names import all_names
 from seacrane.run.run import Run
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,8 @@ class Contact:
 
     Attributes
     ----------
-    limit : Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
+    limit : Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both. Or of a
+        contact.
     """
 
     limit: str
@@ -89,6 +90,13 @@ class Contact:
 
 
 Condition = Level | Contact
+
+
+def of_contact(condition: Condition, contacts: Collection[str]) -> Condition:
+    """A condition on a limit that is a contact by name as one on its least gap; others as they are."""
+    if not isinstance(condition, Contact) or condition.limit not in contacts:
+        return condition
+    return Level("contact_least_gap", (("contact", condition.limit),), 0.0, not condition.holds)
 
 
 def names_along(run: Run) -> dict[str, tuple[str, ...]]:
@@ -168,11 +176,16 @@ class Until:
         )
 
     @staticmethod
+    def clear(contact: str, *, minimum: float) -> Level:
+        """All points of a contact are at least so far from the surface, m."""
+        return Until.channel("contact_least_gap", minimum=minimum, contact=name_of("until: contact", contact))
+
+    @staticmethod
     def contact(limit: str) -> Contact:
-        """A limit takes hold: a stop is touched, a wire is taut."""
+        """A limit takes hold: a stop is touched, a wire is taut; or the first point of a contact touches."""
         return Contact(name_of("until: limit", limit), True)
 
     @staticmethod
     def release(limit: str) -> Contact:
-        """A limit lets go: a load leaves its seat, a wire is slack."""
+        """A limit lets go: a load leaves its seat, a wire is slack; or all points of a contact are off."""
         return Contact(name_of("until: limit", limit), False)

@@ -25,6 +25,7 @@ from seacrane._core import HydraulicCylinder as HydraulicCylinder
 from seacrane._core import Limit as Limit
 from seacrane._core import Line as Line
 from seacrane._core import SoftStop as SoftStop
+from seacrane._core import Contact as Contact
 from seacrane._core import joint_kinds as joint_kinds
 from seacrane.description.waves import Waves as Waves
 from seacrane.description.waves import ByHeading as ByHeading

@@ -35,6 +35,7 @@ from seacrane.plotting.html import notebook_table
 from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
+    contact,
     drift,
     entrapped,
     given_vessel,
@@ -140,6 +141,8 @@ class Scene(Description):
     add_winch = lines.add_winch
     add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
+    add_contact = contact.add_contact
+    add_seabed = contact.add_seabed
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring
     add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder

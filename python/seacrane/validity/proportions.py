@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -243,6 +243,35 @@ def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Propo
     yield Proportion("opening_areas", "{:.3g} of the section open", share, 1e-4, 12.0, "m2")
 
 
+def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
+    """Each point counts with its share of the lighter body."""
+    count = len(contact.points)
+    mass = around.mass(contact.body, contact.on) / count
+    weight = mass * abs(around.scene.gravity)
+    if len(contact.forces):
+        deepest = float(contact.compressions[-1])
+        yield Proportion("compressions", "a depth of {:.3g} m", deepest, 2e-3, 10.0, "m")
+        share = _over(float(contact.forces[-1]), weight)
+        yield Proportion("forces", "{:.3g} times the weight on a point", share, 0.02, 500.0, "N")
+    else:
+        sunk = _over(weight, contact.stiffness)
+        yield Proportion("stiffness", "{:.3g} m of compression at rest", sunk, 2e-5, 1.0, "N/m")
+    if contact.friction > 0.0:
+        give = _over(contact.friction * weight, contact.shear_stiffness)
+        yield Proportion("shear_stiffness", "{:.3g} m before a point slides", give, 5e-6, 0.3, "N/m")
+        ratio = _damped("shear_damping", contact.shear_damping, contact.shear_stiffness, mass, "N s/m")
+        yield replace(ratio, least=2e-3)
+    owner = around.scene.bodies.get(contact.body)
+    if owner is None:
+        return
+    reach = math.sqrt(1.5 * float(np.trace(np.asarray(owner.inertia))) / owner.mass)  # of a box with it
+    levers = np.linalg.norm(np.asarray(contact.points) - np.asarray(owner.center_of_mass), axis=1)
+    yield Proportion("points", "{:.3g} times the body's size", _over(levers.max(), reach), 3e-3, 100.0, "m")
+    point = placed(around.scene, contact.body, contact.points[0])
+    apart = float(np.linalg.norm(placed(around.scene, contact.on, contact.place) - point))
+    yield Proportion("place", "a surface {:.3g} m away", apart, 0.0, 3000.0, "m")
+
+
 def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:
     mass = around.mass(swing.second)
     share = _over(swing.mass, mass)
@@ -319,6 +348,7 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.ImmersedSpan: ("immersed span", _wet_span),
     _core.ImmersedPart: ("immersed part", _part),
     _core.EntrappedWater: ("entrapped water", _compartment),
+    _core.Contact: ("contact", _contact),
     _core.WoundSpan: ("wound span", _wet_span),
     _core.PendulumDamping: ("pendulum damping", _pendulum),
     _core.Spring: ("spring", _spring),

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "seacrane/elements/loads/friction.hpp"
+#include "seacrane/elements/loads/normal_law.hpp"
 
 namespace seacrane {
 
@@ -29,7 +30,7 @@ struct SoftStopDescription {
   }
 };
 
-/// Compliant bounds of a joint coordinate (Hunt, Crossley 1975): stiffness p (1 + damping p') back, where the
+/// Compliant bounds of a joint coordinate (hunt_crossley): stiffness p (1 + damping p') back, where the
 /// coordinate is beyond a bound by p; never a pull. Load and power are continuous where it is touched.
 struct SoftStop {
   static constexpr const char* kind = "soft stop";
@@ -75,12 +76,9 @@ struct SoftStop {
     if (side == 0.0) return;
     const T depth = T(side) * (T(side > 0.0 ? d.minimum : d.maximum) - row.value);
     const T rate = coordinate_rate<T>(row, ka, kb);
-    const T elastic = T(d.stiffness) * depth;
-    T viscous = T(-side * d.damping) * rate * elastic;
-    if (elastic + viscous < T(0)) viscous = -elastic;
-    const T total = T(side) * (elastic + viscous);
-    apply_along<T>(coordinate, row, total, rate, out);
-    out.add_power(T(side) * viscous * rate);
+    const auto force = hunt_crossley<T>(T(d.stiffness) * depth, d.damping, T(-side) * rate);
+    apply_along<T>(coordinate, row, T(side) * force.total(), rate, out);
+    out.add_power(T(side) * force.viscous * rate);
   }
 
   static bool has_sides() { return true; }

@@ -1,0 +1,298 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seacrane/elements/loads/contact_description.hpp"
+#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/margin.hpp"
+#include "seacrane/elements/loads/normal_law.hpp"
+
+namespace seacrane {
+
+/// Points of one body against the surface of another. A point that is inside by p, which grows at the rate
+/// p', is pressed out with N of hunt_crossley(). With friction it hangs on an anchor a, in axes of the
+/// surface, by a spring and a damper along the surface: with x the point in these axes and s the velocity at
+/// which it slides over the surface,
+///
+///   z = x - a along the surface,   T = k z + c s, not above friction N,   a' = s - (T - k z) / c.
+///
+/// While T is below its bound, a' is zero: a point that sticks does not creep. Beyond, the anchor follows,
+/// and k |z| comes to friction N. Open points do not pull, and their anchors rest. Where one touches, and
+/// only there, its anchor jumps to it (take_anchors): steps end on that instant.
+///
+/// T s is lost in the ledger, what the spring holds with it, which is friction N hold / 2 of a point at most.
+struct Contact {
+  static constexpr const char* kind = "contact";
+  static constexpr bool own_pace = true;  // it strikes
+  using Description = ContactDescription;
+
+  /// A point at an instant, inertial axes.
+  template <class T>
+  struct Touch {
+    T gap{1}, rate{0};  // m, and of the compression, m/s
+    NormalForce<T> press;
+    Vec3<T> lever, surface_lever;  // from the state points of both bodies
+    Vec3<T> normal = Vec3<T>::Zero();
+    Vec3<T> slip = Vec3<T>::Zero();       // velocity along the surface
+    Vec3<T> shear = Vec3<T>::Zero();      // on the point
+    Vec3<T> spring = Vec3<T>::Zero();     // z, axes of the surface
+    Vec3<T> following = Vec3<T>::Zero();  // a', likewise
+    Vec3<T> at = Vec3<T>::Zero();         // the point, from the place of the surface, likewise
+    T square{0};                          // of k z + c s
+    bool slides = false;                  // presses, and is not held by friction
+
+    Vec3<T> force() const { return normal * press.total() + shear; }
+  };
+  enum class Change { touch, lift, slip, stick };
+  struct Happened {
+    std::size_t point;
+    Change change;
+  };
+
+  Description d;
+  ContactSurface surface;
+  int body = 0, on = 0;
+  std::vector<Vec3d> points;       // from the state point, body axes
+  Vec3d center = Vec3d::Zero();    // of a ball about all points, likewise
+  double radius = 0.0;             // of the ball
+  Vec3d place = Vec3d::Zero();     // of the surface, from the state point of `on`, its axes
+  Mat3d axes = Mat3d::Identity();  // likewise
+  StateRange states;               // anchors, and what friction has taken, J
+
+  static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
+
+  static Description example() {
+    Description d;
+    d.name = "load";
+    d.body = "second";
+    d.on = "third";
+    d.points = {{0.3, -0.2, 0.4}, {0.5, 0.1, 9.0}};
+    d.axes = Eigen::AngleAxisd(0.4, Vec3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+    d.surface = "box";
+    d.place = {0.5, 0.2, -0.3};
+    d.size = {30.0, 29.0, 28.0};
+    d.edge = 13.9;
+    d.stiffness = 0.2;
+    d.damping = 0.01;
+    d.friction = 0.3;
+    d.shear_stiffness = 3.0;
+    d.shear_damping = 6.0;
+    return d;
+  }
+
+  template <class Context>
+  static Contact compile(const Description& d, Context& context) {
+    Contact out;
+    out.d = d;
+    out.surface = d.shape();
+    const Attachment surface = context.attach(d.on, d.place);
+    out.on = surface.body;
+    out.place = surface.point;
+    out.axes = surface.axes * d.axes;
+    for (const Vec3d& point : d.points) {
+      const Attachment at = context.attach(d.body, point);
+      out.body = at.body;
+      out.points.push_back(at.point);
+      out.center += at.point / static_cast<double>(d.points.size());
+    }
+    for (const Vec3d& point : out.points) out.radius = std::max(out.radius, (point - out.center).norm());
+    if (d.friction == 0.0) return out;
+    for (std::size_t i = 0; i < d.points.size(); ++i) {
+      for (const char* axis : {"x", "y", "z"}) {
+        const int at = context.state({out.point_name(i) + ".anchor_" + axis, "m", 0.0, d.hold});
+        if (out.states.count++ == 0) out.states.first = at;
+      }
+    }
+    const double weight = d.shear_stiffness * d.hold;
+    context.state({d.name + ".friction_loss", "J", 0.0, weight * context.length_scale()});
+    ++out.states.count;
+    return out;
+  }
+
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  std::array<int, 2> bodies() const { return {on, body}; }
+
+  /// "<contact>.1" and so on, as channels and events have it.
+  std::string point_name(std::size_t i) const { return d.name + "." + std::to_string(i + 1); }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    for (int i = 0; i < states.count; ++i) out.state_rates[states.first + i] = T(0);
+    if (apart(in)) return;
+    T loss(0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Touch<T> now = touch(in, i);
+      if (!(now.press.total() > T(0))) continue;
+      const Vec3<T> force = now.force();
+      out.wrench[idx(body)].add(force, now.lever);
+      out.wrench[idx(on)].add(-force, now.surface_lever);
+      out.add_power(-now.press.viscous * now.rate);
+      if (states.count == 0) continue;
+      for (int k = 0; k < 3; ++k) out.state_rates[anchor(i) + k] = now.following[k];
+      const T taken = -now.shear.dot(now.slip);
+      out.add_power(-taken);
+      loss += taken;
+    }
+    if (states.count > 0) out.state_rates[states.first + states.count - 1] = loss;
+  }
+
+  /// Of all points, whether the ball about them is apart or not.
+  template <class T>
+  Touch<T> touch(const LoadInput<T>& in, std::size_t i) const {
+    const auto &b = in.bodies[body], &s = in.bodies[on];
+    Touch<T> out;
+    out.lever = b.rotation * points[i].cast<T>();
+    out.surface_lever = b.position + out.lever - s.position;
+    out.at = local(s, out.surface_lever);
+    const SurfaceDistance<T> found = surface.at<T>(out.at);
+    out.gap = found.distance;
+    const Mat3<T> turn = s.rotation * axes.cast<T>();
+    out.normal = turn * found.normal;
+    const Vec3<T> over = b.velocity + cross<T>(b.angular_velocity, out.lever) - s.velocity -
+                         cross<T>(s.angular_velocity, out.surface_lever);
+    out.rate = -out.normal.dot(over);
+    out.slip = over + out.normal * out.rate;
+    if (out.gap < T(0)) out.press = hunt_crossley<T>(elastic<T>(-out.gap), d.damping, out.rate);
+    out.slides = out.press.total() > T(0);
+    if (states.count > 0) rub(in, i, found.normal, turn, out);
+    return out;
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    if (apart(in)) return 0.0;
+    double out = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double p = -touch(in, i).gap;
+      if (p > 0.0) out += stored(p);
+    }
+    return out;
+  }
+
+  static bool has_sides() { return true; }
+  /// Of each point, whether it is closed, and whether it is not held by friction: open points are not.
+  int side(const LoadInput<double>& in) const {
+    if (!apart(in)) return margins(in).side();
+    int out = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) out |= kFree << 2 * i;
+    return states.count > 0 ? out : 0;
+  }
+  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+
+  /// What a change of the side is, point by point.
+  std::vector<Happened> happened(int from, int to) const {
+    std::vector<Happened> out;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int before = from >> 2 * i & 3, after = to >> 2 * i & 3, changed = before ^ after;
+      if ((changed & kClosed) != 0) {
+        out.push_back({i, (after & kClosed) != 0 ? Change::touch : Change::lift});
+      } else if ((after & kClosed) != 0 && changed != 0) {
+        out.push_back({i, (after & kFree) != 0 ? Change::slip : Change::stick});
+      }
+    }
+    return out;
+  }
+
+  /// Whether a point touches where the side changes, and needs an anchor.
+  bool touches(int from, int to) const {
+    if (states.count == 0) return false;
+    bool out = false;
+    for (std::size_t i = 0; i < points.size(); ++i) out = out || (~from & to) >> 2 * i & kClosed;
+    return out;
+  }
+
+  /// Writes the anchors of points that may not have one yet, among the states of all loads: of those that are
+  /// open at `side`, or, where no side is known, of those whose spring is longer than friction allows.
+  void take_anchors(const LoadInput<double>& in, std::optional<int> side, double* all_states) const {
+    if (states.count == 0) return;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Touch<double> now = touch(in, i);
+      const double longest = kLongest * d.friction * now.press.total() / d.shear_stiffness;
+      const bool held = side ? (*side >> 2 * i & kClosed) != 0 : now.spring.norm() <= longest;
+      if (!held) view<3>(all_states + anchor(i)) = now.at;
+    }
+  }
+
+ private:
+  static constexpr int kClosed = 1, kFree = 2;
+  static constexpr double kLongest = 1.5;  // of the spring of a point that slides, in a state that is given
+
+  int anchor(std::size_t i) const { return states.first + 3 * static_cast<int>(i); }
+
+  /// A point from the state point of `on`, in axes of the surface.
+  template <class T>
+  Vec3<T> local(const BodyKinematics<T>& s, const Vec3<T>& lever) const {
+    return axes.transpose().cast<T>() * (s.rotation.transpose() * lever - place.cast<T>());
+  }
+
+  template <class T>
+  bool apart(const LoadInput<T>& in) const {
+    const auto &b = in.bodies[body], &s = in.bodies[on];
+    const Vec3<T> ball = b.position + b.rotation * center.cast<T>() - s.position;
+    return surface.at<T>(local<T>(s, ball)).distance > T(radius);
+  }
+
+  /// Elastic force at a compression: beyond the table its last slope goes on.
+  template <class T>
+  T elastic(const T& p) const {
+    if (d.forces.empty()) return T(d.stiffness) * p;
+    const std::size_t i = piece(p);
+    return T(d.forces[i]) + T(slope(i)) * (p - T(d.compressions[i]));
+  }
+  double stored(double p) const {
+    if (d.forces.empty()) return 0.5 * d.stiffness * p * p;
+    double out = 0.0;
+    const std::size_t last = piece(p);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const double x = (i == last ? p : d.compressions[i + 1]) - d.compressions[i];
+      out += x * (d.forces[i] + 0.5 * slope(i) * x);
+    }
+    return out;
+  }
+  template <class T>
+  std::size_t piece(const T& p) const {
+    std::size_t i = 0;
+    while (i + 2 < d.compressions.size() && p >= T(d.compressions[i + 1])) ++i;
+    return i;
+  }
+  double slope(std::size_t i) const {
+    return (d.forces[i + 1] - d.forces[i]) / (d.compressions[i + 1] - d.compressions[i]);
+  }
+
+  template <class T>
+  void rub(const LoadInput<T>& in, std::size_t i, const Vec3<T>& normal, const Mat3<T>& turn,
+           Touch<T>& out) const {
+    using std::sqrt;
+    for (int k = 0; k < 3; ++k) out.spring[k] = out.at[k] - in.states[anchor(i) + k];
+    out.spring -= normal * normal.dot(out.spring);
+    const Vec3<T> slip = turn.transpose() * out.slip, pull = out.spring * T(d.shear_stiffness);
+    Vec3<T> held = pull + slip * T(d.shear_damping);
+    const T most = T(d.friction) * out.press.total();
+    out.square = held.squaredNorm();
+    out.slides = out.slides && out.square > most * most;
+    if (out.square > most * most) {
+      held *= most / sqrt(out.square);
+      out.following = slip - (held - pull) * T(1.0 / d.shear_damping);
+    }
+    out.shear = -(turn * held);
+  }
+
+  /// Two of each point: how far it is open, and what friction could hold beyond what it is asked for.
+  Margins margins(const LoadInput<double>& in) const {
+    Margins out;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Touch<double> now = touch(in, i);
+      const double spare = d.friction * now.press.total() - std::sqrt(now.square);
+      out.add({nullptr, std::max(now.gap, -1.0 - d.damping * now.rate)});
+      out.add({nullptr, states.count > 0 ? spare : 1.0});
+    }
+    return out;
+  }
+};
+
+}  // namespace seacrane

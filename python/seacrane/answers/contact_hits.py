@@ -1,0 +1,128 @@
+"""How often and how hard the points of contacts were hit in a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import SceneError
+from seacrane.result.result import Result
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactHit:
+    """One time that a point of a contact was closed.
+
+    Attributes
+    ----------
+    point : str
+        Such as "landing.1".
+    number : int
+        1 for the first time, 2 and on for re-hits; 0 where the run began with it closed.
+    begin, end : float
+        s; the run's own where it began or ended closed.
+    speed : float
+        At which the point came, m/s; 0 where the run began with it closed.
+    peak : float
+        Largest force away from the surface in the outputs, N.
+    impulse : float
+        Of that force by the trapezoidal rule over the outputs, N s.
+    dynamic_factor : float
+        Peak over the point's share of the body's weight; not a number without gravity.
+    undamped : float
+        Share of the weight + speed sqrt(stiffness mass), N, with the share of the mass: the peak of a hit by
+        that mass alone, without damping, which may raise it. Not a number for a table.
+    """
+
+    point: str
+    number: int
+    begin: float
+    end: float
+    speed: float
+    peak: float
+    impulse: float
+    dynamic_factor: float
+    undamped: float
+
+
+def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
+    """Each time that a point of a contact was closed: when, how fast, with what peak and impulse.
+
+    Parameters
+    ----------
+    result : Result
+        With the channel "contact_press". Peak and impulse are those of its outputs: 20 outputs within a hit
+        give both to about 1 %.
+    contact : str
+        Name of the contact.
+
+    Returns
+    -------
+    tuple of ContactHit
+        By point, then by time. The first of a point has number 1; each later one is a re-hit.
+
+    Raises
+    ------
+    SceneError
+        For a contact that is not there, or a result without the channel.
+    """
+    loads = {} if result.scene is None else result.scene.loads
+    element = loads.get(contact)
+    if result.scene is None or not isinstance(element, _core.Contact):
+        known = ", ".join(name for name, one in loads.items() if isinstance(one, _core.Contact)) or "none"
+        raise SceneError(f"contact_hits: there is no contact {contact!r}; the scene has {known}")
+    if "contact_press" not in result:
+        raise SceneError('contact_hits: the result has no channel "contact_press"; record it')
+    count = len(element.points)
+    body = element.body if element.body in result.scene.bodies else element.on
+    mass = float(result.scene.bodies[body].mass) / count
+    weight = mass * result.scene.gravity
+    stiffness = np.nan if len(element.forces) else element.stiffness
+    found: list[ContactHit] = []
+    for i in range(count):
+        point = f"{contact}.{i + 1}"
+        press = np.asarray(result.select("contact_press", contact_point=point))
+        for number, begin, end, speed in _closed(result, point, float(press[0])):
+            peak, impulse = _of_hit(np.asarray(result.time), press, begin, end)
+            found.append(ContactHit(
+                point=point, number=number, begin=begin, end=end, speed=speed, peak=peak, impulse=impulse,
+                dynamic_factor=peak / weight if weight > 0.0 else np.nan,
+                undamped=weight + speed * float(np.sqrt(stiffness * mass)),
+            ))  # fmt: skip
+    return tuple(found)
+
+
+def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, float, float]]:
+    """Number, begin, end and speed of each time that a point was closed."""
+    time = result.time
+    events = [e for e in result.events if e.name == point and e.kind in ("contact", "release")]
+    out: list[tuple[int, float, float, float]] = []
+    number, since, speed = 0, float(time[0]), 0.0
+    closed = events[0].kind == "release" if events else first > 0.0
+    for event in events:
+        if event.kind == "contact":
+            number, since, speed, closed = number + 1, event.time, event.speed, True
+        elif closed:
+            out.append((number, since, event.time, speed))
+            closed = False
+    if closed:
+        out.append((number, since, float(time[-1]), speed))
+    return out
+
+
+def _of_hit(time: Array, press: Array, begin: float, end: float) -> tuple[float, float]:
+    within = (time > begin) & (time < end)
+    if not within.any():
+        return 0.0, 0.0
+    ends: Any = np.interp([begin, end], time, press)
+    ends[0] = ends[0] if begin <= time[0] else 0.0
+    ends[1] = ends[1] if end >= time[-1] else 0.0
+    t = np.concatenate([[begin], time[within], [end]])
+    n = np.concatenate([ends[:1], press[within], ends[1:]])
+    return float(press[within].max()), float(np.trapezoid(n, t))

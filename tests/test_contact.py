@@ -1,0 +1,234 @@
+"""Contact: rebounds, sticking and sliding against closed forms; ledger, momentum, restarts, formulations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from contact_scenes import FEET, GRAVITY, MASS, STIFFNESS, ball, lifted, rolling, shaken, slope, spun, thrown
+
+from seacrane import Result, Run, Scene, SceneError, simulate
+from seacrane.answers import contact_hits
+from seacrane.warnings import SeabedWarning
+
+# d v, restitution, deepest compression over v sqrt(m / k): Hunt and Crossley's law in closed form
+REBOUNDS = [
+    (0.05, 0.96773858, 0.98380316),
+    (0.1, 0.93747558, 0.96848544),
+    (0.2, 0.88218999, 0.94017135),
+    (0.5, 0.74843493, 0.86964311),
+    (1.0, 0.59362426, 0.78339367),
+    (2.0, 0.41071969, 0.67133736),
+]
+
+
+def lost(result: Result) -> Any:
+    return np.asarray(result.select("load_state", state_name="feet.friction_loss"))
+
+
+def kinds(result: Result, point: str) -> list[str]:
+    return [event.kind for event in result.events if event.name == point]
+
+
+@pytest.mark.parametrize(("loss", "restitution", "deepest"), REBOUNDS)
+def test_a_ball_rebounds_as_the_law_of_the_surface_says(
+    loss: float, restitution: float, deepest: float
+) -> None:
+    speed = 2.0
+    result = simulate(ball(speed, loss / speed), t_end=0.2, dt_out=2e-4, rtol=1e-10)
+    assert [(e.name, e.kind) for e in result.events] == [("wall.1", "contact"), ("wall.1", "release")]
+    assert result.events[0].time == pytest.approx(0.1 / speed, abs=1e-9)
+    assert result.events[0].speed == pytest.approx(speed, rel=1e-9)
+    away = float(result.select("velocity", body="ball", axis="z")[-1])
+    assert away / speed == pytest.approx(restitution, abs=2e-8)
+    least = -float(result["contact_gap"].min())
+    assert least / (speed * np.sqrt(MASS / STIFFNESS)) == pytest.approx(deepest, rel=2e-5)
+    assert float(result["contact_press"].min()) >= 0.0
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * 0.5 * MASS * speed**2
+
+
+def test_a_block_slides_on_a_shaken_plate_as_in_closed_form() -> None:
+    mu, omega = 0.3, np.pi
+    share = mu * GRAVITY / omega**2
+    slipped = 2.0 * np.sqrt(1.0 - (np.pi * share / 2.0) ** 2)
+    assert slipped == pytest.approx(1.76721002, abs=1e-8)
+    of_cycle = []
+    for hold in (4e-7, 1e-7):
+        result = simulate(shaken(hold=hold), t_end=4.0, dt_out=1.0, rtol=1e-9)
+        of_cycle.append((lost(result)[4] - lost(result)[2]) / MASS)
+        assert kinds(result, "feet.1").count("slip") == 4  # at each turn of the plate
+    exact = 2.0 * slipped * mu * GRAVITY
+    assert exact == pytest.approx(10.39824609, abs=1e-8)
+    errors = [one / exact - 1.0 for one in of_cycle]
+    # the spring turns within a time that goes with the root of what it gives
+    assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.02)
+    assert 2.0 * of_cycle[1] - of_cycle[0] == pytest.approx(exact, rel=2e-6)
+
+
+@pytest.mark.parametrize(("roll_deg", "slides"), [(12.82, False), (12.84, True)])
+def test_a_block_slides_on_a_rolling_deck_beyond_its_angle(roll_deg: float, slides: bool) -> None:
+    """The closed form is 12.831052 deg."""
+    result = simulate(rolling(roll_deg), t_end=47.0, dt_out=0.05, rtol=1e-8)
+    for foot in range(1, 5):
+        assert ("slip" in kinds(result, f"feet.{foot}")) == slides
+    assert (float(result["contact_slip"].max()) > 0.0) == slides
+
+
+def test_a_block_sticks_for_an_hour_without_creep() -> None:
+    result = simulate(slope(10.0), t_end=3600.0, dt_out=60.0, rtol=1e-6, integrator="cvode-bdf")
+    place = np.asarray(result["position"])[:, 0]
+    settled = result.time >= 60.0
+    assert np.abs(place[settled] - place[settled][0]).max() < 1e-12
+    names = [name for name in result.coords["state_name"] if "anchor" in name]
+    anchors = np.stack([np.asarray(result.select("load_state", state_name=name)) for name in names])
+    assert np.array_equal(anchors[:, 0], anchors[:, -1])
+    assert not result.events
+
+
+def test_a_block_slides_down_a_slope_with_what_friction_leaves_it() -> None:
+    angle, mu = np.radians(25.0), 0.3
+    result = simulate(slope(25.0, friction=mu, hold=1e-5), t_end=2.0, dt_out=0.5, rtol=1e-9)
+    pulled = GRAVITY * (np.sin(angle) - mu * np.cos(angle))
+    along = np.asarray(result["velocity"])[:, 0] @ np.array([np.cos(angle), 0.0, -np.sin(angle)])
+    assert along[-1] == pytest.approx(2.0 * pulled, rel=1e-3)
+    work = mu * MASS * GRAVITY * np.cos(angle) * 0.5 * pulled * 2.0**2
+    assert lost(result)[-1] == pytest.approx(work, rel=2e-3)
+
+
+def test_momentum_goes_through_a_contact() -> None:
+    result = simulate(spun(), t_end=1.0, dt_out=0.01, rtol=1e-11)
+    assert kinds(result, "touch.1")[:1] == ["contact"]
+    scene = spun()
+    linear, angular = np.zeros((len(result.time), 3)), np.zeros((len(result.time), 3))
+    for i, body in enumerate(scene.bodies.values()):
+        v, x, w = (np.asarray(result[key])[:, i] for key in ("velocity", "position", "angular_velocity"))
+        linear += body.mass * v
+        angular += np.cross(x, body.mass * v) + w * body.inertia[0, 0]  # balls
+    for momentum in (linear, angular):
+        assert np.abs(momentum - momentum[0]).max() < 1e-9 * np.abs(momentum).max()
+    assert lost_of(result, "touch.friction_loss") > 1.0
+
+
+def lost_of(result: Result, name: str) -> float:
+    return float(np.asarray(result.select("load_state", state_name=name))[-1])
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_thrown_load_lands_and_closes_its_ledger(formulation: str) -> None:
+    result = simulate(thrown(), t_end=4.0, dt_out=0.02, rtol=1e-9, formulation=formulation)
+    fallen = MASS * GRAVITY * 0.5
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * fallen
+    assert lost_of(result, "feet.friction_loss") > 0.1 * fallen
+    assert {event.name for event in result.events} == {f"feet.{i}" for i in range(1, 5)}
+    rest = np.asarray(result["contact_press"])[-1]
+    assert rest.sum() == pytest.approx(MASS * GRAVITY, rel=1e-3)
+
+
+def test_both_formulations_and_a_stiff_method_agree() -> None:
+    places = [
+        np.asarray(simulate(thrown(), t_end=2.0, dt_out=2.0, rtol=1e-9, **how)["position"])[-1, 0]
+        for how in ({"formulation": "redundant"}, {"formulation": "recursive"}, {"integrator": "cvode-bdf"})
+    ]
+    np.testing.assert_allclose(places[1], places[0], atol=2e-6)
+    np.testing.assert_allclose(places[2], places[0], atol=2e-5)
+
+
+@pytest.mark.parametrize("stop", [0.2, 0.45, 1.0])
+def test_a_run_that_continues_is_the_run_that_was_not_stopped(stop: float) -> None:
+    whole = Run(thrown(), t_end=2.0, dt_out=0.05)
+    whole.advance(stop)
+    state = whole.state
+    whole.advance(2.0)
+    rest = Run(thrown(), t_end=2.0, dt_out=0.05, start=state)
+    rest.advance(2.0)
+    assert np.array_equal(np.array(whole.state.values), np.array(rest.state.values))
+    later = [event for event in whole.events() if event.time > stop]
+    assert [event for event in rest.events() if event.time > stop] == later
+
+
+def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
+    from scipy.integrate import solve_ivp
+    from scipy.optimize import brentq
+
+    heave, omega, stretch, rate = 1.0, 2.0 * np.pi / 7.0, 4.0e5, 0.1
+
+    def pressed(t: float) -> float:
+        z = heave * np.sin(omega * t)
+        return MASS * (GRAVITY - omega**2 * z) - max(stretch * (rate * t - z), 0.0)
+
+    time = np.linspace(0.0, 10.0, 10001)
+    first = int(np.flatnonzero(np.array([pressed(t) for t in time]) < 0.0)[0])
+    off = brentq(pressed, time[first - 1], time[first])
+
+    def free(t: float, y: Any) -> list[float]:
+        return [y[1], max(stretch * (rate * t - y[0]), 0.0) / MASS - GRAVITY]
+
+    def hit(t: float, y: Any) -> float:
+        return float(y[0] - heave * np.sin(omega * t))
+
+    hit.terminal, hit.direction = True, -1.0  # type: ignore[attr-defined]
+    start = [heave * np.sin(omega * off), heave * omega * np.cos(omega * off)]
+    path = solve_ivp(free, (off + 1e-9, 20.0), start, rtol=1e-10, atol=1e-12, events=hit)
+    again = float(path.t_events[0][0])
+    speed = heave * omega * np.cos(omega * again) - float(path.y_events[0][0][1])
+
+    late = []
+    for stiffness in (STIFFNESS, 16.0 * STIFFNESS):
+        scene = lifted(heave, omega, stretch, rate, stiffness)
+        result = simulate(scene, t_end=again + 0.2, dt_out=0.001, rtol=1e-9)
+        lift = [e for e in result.events if e.name == "feet.1" and e.kind == "release"]
+        touch = [e for e in result.events if e.name == "feet.1" and e.kind == "contact"]
+        late.append([lift[0].time - off, touch[0].time - again, touch[0].speed / speed - 1.0])
+    late = np.abs(late)
+    assert late[0].max() < 0.02
+    assert np.all(late[1] < 0.5 * late[0])
+    hits = [one for one in contact_hits(result, "feet") if one.point == "feet.1"]
+    assert [one.number for one in hits][:2] == [0, 1]
+    assert hits[1].speed == touch[0].speed
+    assert hits[1].peak == pytest.approx(hits[1].undamped, rel=0.1)
+
+
+def test_points_that_start_deep_inside_are_refused() -> None:
+    scene = Scene(name="sunk")
+    scene.add_body(name="deck", mass=1e5, inertia=(1e5,) * 3)
+    scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 0.7))
+    scene.add_contact("load", points=[(0.0, 0.0, 0.0)], on="deck", surface="box", size=(9.0, 9.0, 2.0))
+    with pytest.raises(
+        SceneError, match=r"contact 'load on deck': point 1 of 'load' starts 0\.3 m inside 'deck'"
+    ):
+        scene.compile()
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"friction": 0.3, "stiffness": 0.0}, "friction 0.3 and a stiffness of 0 N/m"),
+        ({"surface": "pipe", "size": (2.0, 2.02, 3.0), "edge": 0.05}, "is 0.01 m thin"),
+        ({"surface": "cone"}, "choose one of plane, box, post, pipe"),
+        ({"surface": "post"}, "needs a size; give 2 lengths"),
+        ({"size": (1.0, 1.0, 1.0)}, "a plane has no size"),
+        ({"points": []}, "points is empty"),
+        ({"on": "deck"}, "there is no body 'deck'"),
+        ({"on": "load"}, "has body and on 'load'"),
+        ({"stiffness": 1e5, "table": [(0.0, 0.0), (0.1, 1e3)]}, "a stiffness and a table"),
+        ({"table": [(0.1, 0.0), (0.2, 1e3)]}, "both from 0"),
+    ],
+)
+def test_bad_contacts_are_refused_by_name(given: dict[str, Any], told: str) -> None:
+    scene = Scene(name="bad")
+    scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 9.0))
+    with pytest.raises(SceneError, match="contact '") as error:
+        scene.add_contact("load", **{"points": FEET, "on": "ground"} | given)
+        scene.compile()
+    assert told in str(error.value)
+
+
+def test_a_seabed_says_that_it_is_no_model_of_soil() -> None:
+    scene = Scene(name="seabed", gravity=GRAVITY)
+    scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, -39.99))
+    with pytest.warns(SeabedWarning, match="'load on seabed'"):
+        made = scene.add_seabed("load", points=FEET, depth=40.0)
+    assert made.stiffness == pytest.approx(MASS * GRAVITY / 4.0 / 0.01)
+    result = simulate(scene, t_end=5.0, dt_out=0.5)
+    assert float(result["contact_gap"][-1].mean()) == pytest.approx(-0.01, abs=1e-4)
