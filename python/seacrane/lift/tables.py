@@ -54,6 +54,7 @@ from seacrane.scene import (
     wind_current,
 )
 from seacrane.scene.gusts import gust_curve
+from seacrane.scene.line_seabed import Seabed
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 from seacrane.water import Opening
@@ -145,6 +146,7 @@ WIRE: dict[str, dict[str, Any]] = {
     "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
     "segment_rung": {"type": "text", "choices": lines.STRETCHING},
 }
+SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
 CONTACT = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     "surface": {"type": "text", "choices": contact.SURFACES},
@@ -291,6 +293,7 @@ _ALL = (
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
         sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"},
         breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS}, **WIRE,
+        seabed={"type": "table", "keys": SEABED},
     ),
     _call("winch", lines.add_winch, _core.Line),
     Table(

@@ -43,9 +43,8 @@ Array = NDArray[np.float64]
 BLOCK_DENSITY = 2000.0  # kg/m3 over its outline: plates, sheaves and gaps; gives a block its size alone
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 Place = tuple[str, Any]  # a body, and a point in its coordinates, m
-OF_A_WIRE = tuple(
-    key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,) and key != "mass_per_length"
-)
+OWN = ("mass_per_length", "seabed")  # a keyword of its own; what no line on a winch takes
+OF_A_WIRE = tuple(key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,) and key not in OWN)
 WIRE_KEYS = ("settling", "damping_ratio", *OF_A_WIRE)
 
 
@@ -169,8 +168,8 @@ def add_hoist(
     mass_per_length : float
         Of a line with mass, kg/m.
     wire : mapping, optional
-        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio and
-        those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
+        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio
+        and those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
     block_mass : float
         Hook block, kg; slings need one.
     slings : Slings or mapping, optional
