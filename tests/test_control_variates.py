@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import HydroDatabase, Scene, SceneError, ensemble, simulate
+from seacrane import HydroDatabase, Scene, SceneError, ensemble, equilibrium, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import shipped_database
 from seacrane.statistics import controlled_mean
+from seacrane.water import BoxPart
 
 Array = NDArray[np.float64]
 
@@ -177,3 +178,54 @@ def test_a_link_that_is_none_is_named(database: HydroDatabase) -> None:
 def test_a_convolution_is_refused(database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match="is a convolution"):
         LinearControl(vessel(memory="convolution"), "position[vessel, z]", t_end=10.0)
+
+
+def lowered_load(drag: float, *, depth: float = 12.0, EA: float = 1e7) -> Scene:
+    """A box in water, its middle at a depth, on a wire from the side of a ship."""
+    scene = Scene(name="wet")
+    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_body("box", mass=40e3, size=(4.0, 3.0, 2.0), position=(33.0, 30.0, -depth))
+    scene.add_line(
+        "wire", "vessel", "box", first_point=(33.0, 30.0, 20.0), second_point=(0.0, 0.0, 1.0), EA=EA,
+        tension_at_start=(40e3 - 0.5 * 24.0 * 1025.0 * min(0.5 * depth + 0.5, 1.0)) * 9.80665,
+    )  # fmt: skip
+    scene.add_immersed("box", parts=[BoxPart(size=(4.0, 3.0, 2.0), fill=0.5, drag=drag)])
+    scene.add_sea(hs=0.02, tp=7.0, direction_deg=150.0)
+    return scene
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
+def test_the_control_of_a_load_in_water_is_the_run_in_small_waves() -> None:
+    """With the waves on it: without them it is another motion."""
+    scene = lowered_load(drag=0.0)
+    state = equilibrium(scene)
+    control = LinearControl(scene, "position[box, z]", t_end=30.0, after=3.0, state=state)
+    run = simulate(
+        with_sea(scene, {"seed": 5}), 30.0, rtol=1e-7, dt_out=0.1, channels=["position"], start=state
+    )
+    late = run.time >= 3.0
+    motion = run.curve("position[box, z]")
+    moved = motion[late] - motion[0]
+    assert np.abs(control.series(5) - moved).max() < 0.02 * moved.std()
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
+def test_drag_in_the_sea_as_described_damps_a_control() -> None:
+    free, braked = (
+        LinearControl(
+            lowered_load(drag, EA=2e6), "position[box, z]", t_end=100.0, after=20.0, words={"hs": 2.0}
+        )
+        for drag in (0.0, 5.0)
+    )
+    seeds = range(1, 5)
+    assert braked.extremes(seeds).mean() < 0.98 * free.extremes(seeds).mean()
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
+def test_controls_that_know_no_water_are_refused_by_name() -> None:
+    with pytest.raises(SceneError, match="crosses the surface at rest"):
+        LinearControl(lowered_load(1.0, depth=0.2), "position[box, z]", t_end=10.0)
+    hooked = lifted()
+    hooked.add_immersed("payload", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
+    with pytest.raises(SceneError, match="load 'payload' is in water"):
+        HookLoadControl(hooked, t_end=10.0)

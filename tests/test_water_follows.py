@@ -278,6 +278,74 @@ def test_a_transfer_function_without_a_ship_is_of_the_parts_alone() -> None:
     assert rao[0, 2] == pytest.approx(expected, rel=1e-9)
 
 
+def with_wire(depth: float, sea: dict[str, Any] | None = None, *, drag: float = 1.2) -> Scene:
+    """A small weight below a wire with mass whose lower part is in water."""
+    scene = Scene(name="wire", gravity=G)
+    scene.add_body("load", mass=4e3, size=(1.0, 1.0, 1.0), position=(0.0, 0.0, -depth))
+    scene.add_line(
+        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), EA=5e6, rung="with mass", medium="sea",
+        segments=4, mass_per_length=40.0, diameter=0.2, length=0.992 * (depth + 4.5), drag_coefficient=drag,
+    )  # fmt: skip
+    if sea is not None:
+        scene.add_sea(vessel=None, **sea)
+    return scene
+
+
+def test_waves_on_a_line_in_a_linear_model_are_those_of_a_run_in_small_waves() -> None:
+    sea = {"hs": 0.02, "tp": 7.0, "direction_deg": 30.0, "seed": 3, "stretching": "none"}
+    scene = with_wire(25.0, sea, drag=0.0)
+    linear = linear_model(scene)
+    summed = response_summed(linear, body="load")
+    start = linear.full_state(summed.state_at(0.0))
+    result = simulate(scene, t_end=15.0, dt_out=0.5, start=start, channels=["position"], rtol=1e-7)
+    expected = result.select("position", body="load")[0] - summed.at(0.0)[:3] + summed.at(result.time)[:, :3]
+    moved = float(np.abs(expected - expected.mean(axis=0)).max())
+    assert moved > 1e-4
+    assert result.select("position", body="load") == pytest.approx(expected, abs=2e-3 * moved)
+
+
+def test_halves_of_spans_have_the_mass_and_the_drag_of_the_engine() -> None:
+    """The added mass of all bodies less their own: by the model; what is dry has none."""
+    linear = linear_model(with_wire(25.0))
+    halves = PartsInWaves(linear).parts
+    assert 1 < len(halves) < 8, "the upper end is on the ground, and one half at least is in air"
+    scene = linear.scene
+    mass = np.zeros_like(linear.mass)
+    for body in scene.bodies.values():
+        at = 6 * linear.bodies.index(body.name)
+        mass[at : at + 3, at : at + 3] += body.mass * np.eye(3)
+    for half in halves:
+        at = 6 * linear.bodies.index(half.body)
+        span = scene.loads[half.name.rpartition(".")[0]]
+        ratio = span.added_mass_coefficient / (1.0 + span.added_mass_coefficient)
+        across = half.axes[:, 1:] @ half.axes[:, 1:].T
+        mass[at : at + 3, at : at + 3] += ratio * half.axes[:, 1] @ half.inertia @ half.axes[:, 1] * across
+    translations = np.concatenate([6 * i + np.arange(3) for i in range(len(linear.bodies))])
+    block = np.ix_(translations, translations)
+    assert mass[block] == pytest.approx(linear.mass[block], rel=1e-9, abs=1e-6)
+
+
+def test_drag_of_a_line_damps_in_its_sea() -> None:
+    spectrum = jonswap(hs=2.0, tp=7.0)
+    told = [
+        response_statistics(with_wire(25.0, drag=drag), spectrum=spectrum, direction=0.3, body="load").std
+        for drag in (1.2, 12.0)
+    ]
+    free = linear_model(with_wire(25.0))
+    damped = drag_in_sea(free, spectrum=spectrum, direction=0.3)
+    assert len(damped.drag_damping) == len(PartsInWaves(free).parts)
+    rates = [np.linalg.eigvals(one.a).real.sum() for one in (free, damped)]
+    assert rates[1] < rates[0] - 1e-3
+    assert np.abs(told[1] / told[0] - 1.0).max() > 0.02
+
+
+def test_a_line_in_a_current_is_refused_by_name() -> None:
+    scene = with_wire(25.0)
+    scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=0.3, direction_deg=0.0))
+    with pytest.raises(SceneError, match=r"immersed span 'wire.*': is in a current"):
+        PartsInWaves(linear_model(scene))
+
+
 def test_waves_on_what_crosses_the_surface_are_refused_by_name() -> None:
     with pytest.raises(
         SceneError, match=r"immersed part 'load.1': crosses the surface at rest, 1.* m deep of 2 m"

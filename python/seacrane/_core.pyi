@@ -2285,7 +2285,7 @@ class ImmersedPart:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, shape: str = ..., point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike, fill: typing.SupportsFloat = ..., density: typing.SupportsFloat, depths: numpy.typing.ArrayLike, added_masses: numpy.typing.ArrayLike, volumes: numpy.typing.ArrayLike = ..., drag: numpy.typing.ArrayLike = ..., row: str = ..., place: typing.SupportsFloat = ..., count: typing.SupportsFloat = ..., step: numpy.typing.ArrayLike = ..., wave_factor: typing.SupportsFloat = ..., source: str = ...) -> None:
+    def __init__(self, *, name: str, body: str, shape: str = ..., point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike, fill: typing.SupportsFloat = ..., density: typing.SupportsFloat, depths: numpy.typing.ArrayLike, added_masses: numpy.typing.ArrayLike, volumes: numpy.typing.ArrayLike = ..., drag: numpy.typing.ArrayLike = ..., row: str = ..., place: typing.SupportsFloat = ..., count: typing.SupportsFloat = ..., step: numpy.typing.ArrayLike = ..., wave_factor: typing.SupportsFloat = ..., source: str = ..., slow_added_masses: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2358,6 +2358,11 @@ class ImmersedPart:
     def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m, along its axes; of a cylinder, its length and twice its diameter
+        """
+    @property
+    def slow_added_masses(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        kg, at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone
         """
     @property
     def source(self) -> str:

@@ -1,8 +1,9 @@
-"""Drag of parts under water made linear for a sea: its mean slope over a Gaussian response."""
+"""Drag of parts and lines under water made linear for a sea: its mean slope over a Gaussian response."""
 
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from math import gamma
 from typing import TYPE_CHECKING
 
@@ -10,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.frequency_domain import excitation_of
+from seacrane.analysis.frequency_domain import component_forces, excitation_of
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.one_thread import one_thread
@@ -42,7 +44,7 @@ def drag_in_sea(
     spreading: Spreading | None = None,
     database: HydroDatabase | None = None,
 ) -> LinearModel:
-    """A linear model with the drag of its immersed parts as damping, and as a load of the waves, in a sea.
+    """A linear model with the drag of what is in water as damping, and as a load of the waves, in a sea.
 
     Drag along an axis, b |v| v with v over the water, becomes sqrt(8 / pi) sigma b v, which errs least in the
     mean square where v is Gaussian with the standard deviation sigma. sigma is that of the response itself,
@@ -83,27 +85,33 @@ def drag_in_sea(
     base = excitation_of(linear, database) if linear.vessel is not None else None
     first, last = band_of(base, spectrum)
     angles, shares = directions_of(spreading, direction)
-    still = parts.damped([np.zeros((3, 3))] * len(parts.parts))
-    rough = np.linspace(first, last, ROUGH)
-    quiet = _Sea(still, rough, base, spectrum, angles, shares)
-    moving = still.damped(quiet.slopes(quiet.flows))  # as if nothing moved but the water
+    still = _without_drag(parts)
+
+    def sea_at(omega: Array) -> _Sea:
+        return _Sea.of_spectrum(still, omega, base, spectrum, angles, shares)
+
+    moving = sea_at(np.linspace(first, last, ROUGH)).as_if_still(still)
     with warnings.catch_warnings():
         warnings.simplefilter(
             "ignore"
         )  # of modes that drag does not damp: whoever sums a response tells them
         omega = quadrature_frequencies(moving.linear, first, last)
-    sea = _Sea(moving, omega, base, spectrum, angles, shares)
-    for _ in range(MOST_STEPS):
-        known = [moving.linear.drag_damping[part.element.name] for part in moving.parts]
-        found = sea.slopes(sea.over(moving))
-        apart = max(float(np.max(np.abs(a - b))) for a, b in zip(found, known, strict=True))
-        if apart <= SETTLED * max(float(np.max(np.abs(each))) for each in found):
-            return moving.linear
-        moving = moving.damped([a + RELAXED * (b - a) for a, b in zip(known, found, strict=True)])
-    raise SceneError(
-        f"scene {linear.scene.name!r}: the damping of its parts in water did not settle in {MOST_STEPS} "
-        "steps; simulate the scene"
-    )
+    return sea_at(omega).settled(moving)
+
+
+@one_thread
+def drag_in_components(linear: LinearModel, sea: Waves) -> LinearModel:
+    """As `drag_in_sea`, in a sea of the components of a realisation, and its loads on all vessels."""
+    parts = PartsInWaves(linear)
+    if not parts:
+        return linear
+    still = _without_drag(parts)
+    components = _Sea.of_components(still, sea)
+    return components.settled(components.as_if_still(still))
+
+
+def _without_drag(parts: PartsInWaves) -> PartsInWaves:
+    return parts.damped([np.zeros((3, 3))] * len(parts.parts))
 
 
 def band_of(database: HydroDatabase | None, spectrum: _core.Spectrum) -> tuple[float, float]:
@@ -112,43 +120,93 @@ def band_of(database: HydroDatabase | None, spectrum: _core.Spectrum) -> tuple[f
     return float(first), float(last)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
 class _Sea:
-    """Waves of several directions on a model, and what speeds they make over the parts."""
+    """Waves of several directions on a model, and what speeds they make over the parts.
 
-    def __init__(
-        self, parts: PartsInWaves, omega: Array, database: HydroDatabase | None, spectrum: _core.Spectrum,
+    Attributes
+    ----------
+    omega : (k,) rad/s.
+    flows : (k, 3 p) by direction
+        Velocities of the water at the parts, per metre of wave amplitude, or of all of a component.
+    on_vessels : (k, n) by direction: rates of x by the loads on vessels, likewise.
+    density : (directions, k) With which squares of amplitudes are summed to variances.
+    """
+
+    parts: PartsInWaves
+    omega: Array
+    flows: list[Complex]
+    on_vessels: list[Complex]
+    density: Array
+
+    @classmethod
+    def of_spectrum(
+        cls, parts: PartsInWaves, omega: Array, base: HydroDatabase | None, spectrum: _core.Spectrum,
         angles: Array, shares: Array,
-    ) -> None:  # fmt: skip
-        self._omega, self._parts = omega, parts
-        self._density = np.outer(shares, weights_of(omega) * np.asarray(spectrum.density(omega)))
-        depth = parts.water_depth if database is None else database.depth
-        self.flows = [parts.flow(parts.waves(omega, angle, depth)) for angle in angles]
+    ) -> _Sea:  # fmt: skip
+        """Waves of a metre, at frequencies of a quadrature."""
+        depth = parts.water_depth if base is None else base.depth
         none: Complex = np.zeros((omega.size, len(parts.linear.a)), dtype=complex)
-        self._on_vessel = [none] * len(angles)
-        if database is not None:
-            forces = force_on_grid(database, omega, angles)
-            self._on_vessel = [force @ parts.linear.b.T for force in forces]
+        on_vessels = [none] * len(angles)
+        if base is not None:
+            on_vessels = [force @ parts.linear.b.T for force in force_on_grid(base, omega, angles)]
+        return cls(
+            parts=parts, omega=omega, on_vessels=on_vessels,
+            flows=[parts.flow(parts.waves(omega, angle, depth)) for angle in angles],
+            density=np.outer(shares, weights_of(omega) * np.asarray(spectrum.density(omega))),
+        )  # fmt: skip
+
+    @classmethod
+    def of_components(cls, parts: PartsInWaves, sea: Waves) -> _Sea:
+        """Those of a realisation."""
+        omega, forces = component_forces(sea)
+        rates: Complex = np.zeros((omega.size, len(parts.linear.a)), dtype=complex)
+        for vessel, force in forces.items():
+            rates += force @ parts.linear.excited(vessel).b.T
+        return cls(
+            parts=parts, omega=omega, flows=[parts.flow_of(sea)], on_vessels=[rates],
+            density=np.full((1, omega.size), 0.5),
+        )  # fmt: skip
+
+    def as_if_still(self, parts: PartsInWaves) -> PartsInWaves:
+        """Parts with drag as if nothing moved but the water."""
+        return parts.damped(self.slopes(self.flows))
+
+    def settled(self, moving: PartsInWaves) -> LinearModel:
+        """The model with the drag of its own response.
+
+        Raises SceneError where that does not settle.
+        """
+        for _ in range(MOST_STEPS):
+            known = [moving.linear.drag_damping[part.name] for part in moving.parts]
+            found = self.slopes(self.over(moving))
+            apart = max(float(np.max(np.abs(a - b))) for a, b in zip(found, known, strict=True))
+            if apart <= SETTLED * max(float(np.max(np.abs(each))) for each in found):
+                return moving.linear
+            moving = moving.damped([a + RELAXED * (b - a) for a, b in zip(known, found, strict=True)])
+        raise SceneError(
+            f"scene {moving.linear.scene.name!r}: the damping of what is in water did not settle in "
+            f"{MOST_STEPS} steps; simulate the scene"
+        )
 
     def over(self, parts: PartsInWaves) -> list[Complex]:
         """Velocities of all parts over the water, by direction, (k, 3 p), per metre of wave amplitude."""
         dof, found = parts.linear.degrees_of_freedom, []
-        for flow, rates in zip(self.flows, self._on_vessel, strict=True):
-            x = parts.linear.response_to_rates(self._omega, rates + parts.rates(self._omega, flow))
+        for flow, rates in zip(self.flows, self.on_vessels, strict=True):
+            x = parts.linear.response_to_rates(self.omega, rates + parts.rates(self.omega, flow))
             found.append(np.asarray(x[:, dof : 2 * dof] @ parts.along.T - flow))
         return found
 
     def slopes(self, velocities: list[Complex]) -> list[Array]:
         """Of the drag of each part, (3, 3), inertial axes."""
         found = []
-        for i, part in enumerate(self._parts.parts):
+        for i, part in enumerate(self.parts.parts):
             local = [each[:, 3 * i : 3 * i + 3] @ part.axes for each in velocities]
             covariance = sum(
                 np.real(np.einsum("ki,kj,k->ij", each, each.conj(), density))
-                for each, density in zip(local, self._density, strict=True)
+                for each, density in zip(local, self.density, strict=True)
             )
-            slope = mean_slope(
-                np.asarray(part.element.drag), np.asarray(covariance), shape=part.element.shape
-            )
+            slope = mean_slope(part.drag, np.asarray(covariance), shape=part.shape)
             found.append(np.asarray(part.axes @ slope @ part.axes.T))
         return found
 

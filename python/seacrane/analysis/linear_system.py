@@ -67,7 +67,7 @@ class LinearModel:
         Memory that depends on the frequency and is in `response`, not in `a`: that of convolutions, or of a
         database. `at_frequency` puts its matrices of one frequency into `a`.
     drag_damping : mapping of str to ndarray, shape (3, 3)
-        N s/m of immersed parts, inertial axes, as `drag_in_sea` put it into `a`; empty without.
+        N s/m of what is in water, inertial axes, as `drag_in_sea` put it into `a`; empty without.
     """
 
     scene: Description
@@ -340,7 +340,7 @@ def linear_model(
 
     The quaternions do not appear: poses are perturbed by translations and rotation vectors within the null
     space of the constraints, so the model has exactly 2 degrees of freedom + memory states. Loads
-    proportional to u |u| have no linear part at rest and drop out; `drag_in_sea` gives that of immersed parts
+    proportional to u |u| have no linear part at rest and drop out; `drag_in_sea` gives that of what is in water
     one for a sea.
 
     Parameters

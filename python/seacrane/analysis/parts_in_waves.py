@@ -1,116 +1,26 @@
-"""Waves on the parts of a load that are under water, in a linear model: inertia of the water, and drag."""
+"""Waves on what is under water in a linear model: inertia of the water, and drag."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel
-from seacrane.analysis.reduced_coordinates import Terms
-from seacrane.description.compilation import compile_scene
-from seacrane.description.description import Description
-from seacrane.description.loads import changed
+from seacrane.analysis.wet_at_rest import PlaneWaves, wet_at_rest
 from seacrane.description.waves import Waves
-from seacrane.description.wet_parts import displaced_volume, half_height, immersed_parts, waters_in
 from seacrane.errors import SceneError
-from seacrane.inputs.frames import heading_of, rotation_matrix
-from seacrane.sea.dispersion import wavenumber
+from seacrane.inputs.frames import heading_of
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-# Of a box with the second moments of a disc and a ball, as in the engine, over the diameter.
-DISC, BALL = np.sqrt(0.75), np.sqrt(0.6)
-SHALLOW = 20.0  # of k d, beyond which water is deep
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class WetPart:
-    """One part under water at rest, with its axes and forces in inertial axes.
-
-    Attributes
-    ----------
-    center : (3,) m.
-    axes : (3, 3) In columns.
-    inertia : (3, 3)
-        kg: of the water that it displaces, and its added mass. Times the acceleration of the water it is the
-        force of a wave.
-    along : (3, degrees of freedom) Velocity of its centre by the speeds of the model.
-    """
-
-    element: _core.ImmersedPart
-    center: Array
-    axes: Array
-    inertia: Array
-    along: Array
-
-    @cached_property
-    def extents(self) -> Array:
-        """(3, 3) Columns: over which the flow is averaged, m."""
-        disc = {"cylinder": (1.0, DISC, DISC), "sphere": (BALL, BALL, BALL)}.get(
-            self.element.shape, np.ones(3)
-        )
-        return np.asarray(self.axes * (np.asarray(self.element.size) * disc))
-
-    def flow(self, waves: PlaneWaves) -> Complex:
-        """Velocity of the water per metre of wave amplitude, mean over the part, (k, 3), 1/s."""
-        k, turn = waves.wavenumber, waves.along
-        mean = np.ones(k.size)
-        for extent in self.extents.T:
-            half = 0.5 * k * (turn @ extent[:2])
-            mean *= np.where(np.abs(half) < np.pi, np.sinc(half / np.pi), 0.0)
-        half = 0.5 * k * np.linalg.norm(self.extents[2])
-        mean *= np.where(half > 0.0, np.sinh(half) / np.where(half > 0.0, half, 1.0), 1.0)
-        level = k * self.center[2]
-        floor = np.where(waves.floor < SHALLOW, np.exp(-2.0 * np.minimum(waves.floor, SHALLOW) - level), 0.0)
-        bottom = 1.0 - np.where(waves.floor < SHALLOW, np.exp(-2.0 * np.minimum(waves.floor, SHALLOW)), 0.0)
-        across, up = ((np.exp(level) + sign * floor) / bottom for sign in (1.0, -1.0))
-        phase = np.exp(-1j * k * (turn @ (self.center[:2] - waves.origin)))
-        wave = self.element.wave_factor * waves.omega * mean * phase
-        return np.stack([turn[:, 0] * across * wave, turn[:, 1] * across * wave, 1j * up * wave], axis=1)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PlaneWaves:
-    """Waves of one metre, their phase zero at a place.
-
-    Attributes
-    ----------
-    omega, direction : (k,) rad/s; rad, of travel, inertial frame.
-    origin : (2,) m.
-    depth, gravity : m, m/s2.
-    """
-
-    omega: Array
-    direction: Array
-    origin: Array
-    depth: float
-    gravity: float
-
-    @cached_property
-    def wavenumber(self) -> Array:
-        """1/m."""
-        return wavenumber(self.omega, g=self.gravity, depth=self.depth)
-
-    @cached_property
-    def along(self) -> Array:
-        """Unit vectors, (k, 2)."""
-        return np.stack([np.cos(self.direction), np.sin(self.direction)], axis=1)
-
-    @property
-    def floor(self) -> Array:
-        """Wavenumber times depth."""
-        return self.wavenumber * self.depth
 
 
 class PartsInWaves:
-    """The parts of a linear model that are under water at rest.
+    """The parts and lines of a linear model that are under water at rest.
 
     Raises SceneError for parts that cross the surface, compartments, and a current: their loads in waves have
     no linear part that this knows.
@@ -118,16 +28,16 @@ class PartsInWaves:
 
     def __init__(self, linear: LinearModel) -> None:
         self.linear, scene = linear, linear.scene
-        self.parts = [part for part in _at_rest(linear) if part is not None]
+        self.parts = wet_at_rest(linear)
         if self.parts and scene.waves is not None and scene.waves.current is not None:
             raise SceneError(
-                f"immersed part {self.parts[0].element.name!r}: is in a current, and a linear model knows no "
-                "waves on a current for parts in water; take the current out, or simulate the scene"
+                f"{self.parts[0].what}: is in a current, and a linear model knows no waves on a current for "
+                "what is in water; take the current out, or simulate the scene"
             )
         if self.parts and linear.speed != 0.0:
             raise SceneError(
-                f"immersed part {self.parts[0].element.name!r}: its ship goes at {linear.speed:g} m/s, and "
-                "parts in water are at rest in it; take matrices of zero speed"
+                f"{self.parts[0].what}: its ship goes at {linear.speed:g} m/s, and it is at rest in the "
+                "water; take matrices of zero speed"
             )
         dof = linear.degrees_of_freedom
         self.along = np.concatenate([np.zeros((0, dof)), *(part.along for part in self.parts)])
@@ -191,13 +101,13 @@ class PartsInWaves:
         out, a = copy(self), linear.a.copy()
         more = blocks(list(damping)) - self._damping()
         a[dof : 2 * dof, dof : 2 * dof] -= self._load @ more @ self.along
-        named = {part.element.name: each for part, each in zip(self.parts, damping, strict=True)}
+        named = {part.name: each for part, each in zip(self.parts, damping, strict=True)}
         out.linear = replace(linear, a=a, drag_damping=named)
         return out
 
     def _damping(self) -> Array:
         known, none = self.linear.drag_damping, np.zeros((3, 3))
-        return blocks([known.get(part.element.name, none) for part in self.parts])
+        return blocks([known.get(part.name, none) for part in self.parts])
 
 
 def blocks(each: list[Array]) -> Array:
@@ -206,63 +116,3 @@ def blocks(each: list[Array]) -> Array:
     for i, block in enumerate(each):
         out[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = block
     return out
-
-
-def _at_rest(linear: LinearModel) -> list[WetPart | None]:
-    """Those under water; None for those in air."""
-    for water in waters_in(linear.scene):
-        _, _, bottom = _place(linear, water.body, water.point)
-        if bottom[2] < 0.0:
-            raise SceneError(
-                f"entrapped water {water.name!r}: flows by the root of a head, and linear models have no "
-                "waves on it; take it as filled, with its mass on the body, or simulate the scene"
-            )
-    return [_placed(linear, element) for element in immersed_parts(linear.scene).values()]
-
-
-def _place(linear: LinearModel, name: str, point: Any) -> tuple[Array, Array, Array]:
-    """Where a body's origin is at rest, m, its quaternion, and where a point of it is, m."""
-    body = linear.scene.bodies[name]
-    at = linear.model.pose_index(linear.bodies.index(name))
-    pose = np.array(linear.state.values)[at : at + 7]
-    floating = {vessel.body for vessel in linear.scene.vessels.values()}
-    start = np.zeros(3) if name in floating else np.asarray(body.center_of_mass)
-    turn = rotation_matrix(pose[3:])
-    origin = pose[:3] - turn @ start
-    return origin, pose[3:], origin + turn @ np.asarray(point)
-
-
-def _placed(linear: LinearModel, element: _core.ImmersedPart) -> WetPart | None:
-    origin, quaternion, center = _place(linear, element.body, element.point)
-    turn = rotation_matrix(quaternion)
-    axes = turn @ np.asarray(element.axes)
-    half = float(half_height(element, axes))
-    if center[2] - half >= 0.0:
-        return None
-    if center[2] + half > 0.0:
-        raise SceneError(
-            f"immersed part {element.name!r}: crosses the surface at rest, {half - center[2]:.3g} m deep of "
-            f"{2.0 * half:.3g} m: its loads in waves are not linear. Simulate the scene in its sea, or lower "
-            "the load until all of it is under water"
-        )
-    added = _added_mass(linear.scene, element, origin, quaternion)
-    dof = linear.degrees_of_freedom
-    return WetPart(
-        element=element, center=center, axes=axes,
-        inertia=element.density * displaced_volume(element) * np.eye(3) + added,
-        along=linear.output(body=element.body, point=element.point)[:3, :dof],
-    )  # fmt: skip
-
-
-def _added_mass(scene: Description, element: _core.ImmersedPart, position: Array, quaternion: Array) -> Array:
-    """Of one part as the engine has it in a pose of its body, (3, 3), kg: by a scene of nothing else."""
-    body = changed(
-        scene.bodies[element.body], position=position, quaternion=quaternion, velocity=np.zeros(3),
-        angular_velocity=np.zeros(3),
-    )  # fmt: skip
-    alone = Description(name=element.name, gravity=scene.gravity)
-    alone.bodies[body.name] = body
-    alone.loads[element.name] = changed(element, row="", place=0.0, count=1.0, step=np.zeros(3))
-    model = compile_scene(alone)
-    mass = np.asarray(Terms(model, time=0.0).evaluator.terms(0.0, np.array(model.initial_state))["mass"])
-    return np.asarray(mass[:3, :3] - body.mass * np.eye(3))

@@ -38,6 +38,7 @@ UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
         "t": (1e3, _dimension(1, 0, 0, 0)),
         "N": (1.0, _dimension(1, 1, -2, 0)),
         "kN": (1e3, _dimension(1, 1, -2, 0)),
+        "N s": (1.0, _dimension(1, 1, -1, 0)),
         "N m": (1.0, _dimension(1, 2, -2, 0)),
         "J": (1.0, _dimension(1, 2, -2, 0)),
         "kN m": (1e3, _dimension(1, 2, -2, 0)),

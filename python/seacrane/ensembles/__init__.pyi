@@ -6,6 +6,8 @@ from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
 from seacrane.ensembles.sensitivity import sensitivity as sensitivity
 from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
+from seacrane.ensembles.coefficient_scatter import coefficient_scatter as coefficient_scatter
+from seacrane.ensembles.coefficient_scatter import CoefficientScatter as CoefficientScatter
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.certainty import Certainty as Certainty
 from seacrane.ensembles.linear_control import LinearControl as LinearControl

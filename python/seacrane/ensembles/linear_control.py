@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.description.crane_parts import hooks
 from seacrane.description.pick import Pick
+from seacrane.description.wet_parts import wet_bodies
 from seacrane.ensembles.linear_motions import LinearMotions, Motion, motion_of
 from seacrane.ensembles.members import Value
 from seacrane.errors import SceneError
@@ -48,7 +49,7 @@ class LinearControl(_Control):
     """A motion of the linearised scene, from rest, in the waves of any seed.
 
     Its extremes go along with those of runs of the same seeds as far as the lift is linear. A seed takes
-    milliseconds.
+    milliseconds. Waves load what is under water too, with drag made linear in the sea as described.
 
     Parameters
     ----------
@@ -68,8 +69,8 @@ class LinearControl(_Control):
     Raises
     ------
     SceneError
-        For a scene without such a sea, a value that makes no sense, or a vessel whose memory is a
-        convolution.
+        For a scene without such a sea, a value that makes no sense, a vessel whose memory is a convolution,
+        or a part in water that crosses the surface at rest.
     """
 
     def __init__(
@@ -114,7 +115,7 @@ class HookLoadControl(_Control):
     Raises
     ------
     SceneError
-        As of `LinearControl`, and for a link that is none.
+        As of `LinearControl`, for a link that is none, and for a load in water.
     """
 
     def __init__(
@@ -129,6 +130,11 @@ class HookLoadControl(_Control):
         state: _core.State | None = None,
     ) -> None:
         joint = scene.joints[_link(scene, link)]
+        if joint.second in wet_bodies(scene):
+            raise SceneError(
+                f"control: load {joint.second!r} is in water, which pushes it too, and this knows its weight "
+                "alone; take a LinearControl of its motion"
+            )
         head, load = np.array(joint.first_frame.point), scene.bodies[joint.second]
         below = np.array(joint.second_frame.point) - np.array(load.center_of_mass)
         self._length = float(np.linalg.norm(below)) + float(joint.parameters["length"])

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import component_forces
 from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.members import Value
@@ -83,8 +85,10 @@ def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
 class LinearMotions:
     """Several motions at even times, in the sea of any seed: what the constructors of controls share.
 
-    Raises SceneError for a scene without a sea of one wave system, a value that makes no sense, or a vessel
-    whose memory is a convolution.
+    Waves load vessels, and parts and lines under water, with drag made linear in the sea as described.
+
+    Raises SceneError for a scene without a sea of one wave system, a value that makes no sense, a vessel
+    whose memory is a convolution, or a part that crosses the surface at rest.
     """
 
     def __init__(
@@ -111,6 +115,10 @@ class LinearMotions:
                 "control: the memory of a vessel is a convolution, whose start from rest the linear model "
                 "does not know; take a fitted one, such as memory='by-motion'"
             )
+        described = with_sea(scene, self._words).waves
+        assert described is not None
+        linear = drag_in_components(linear, described)
+        self._parts = PartsInWaves(linear)
         self.times = _times(t_end, after, dt_out)
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
         self._resolvent = Resolvent(linear)
@@ -126,6 +134,8 @@ class LinearMotions:
         rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
         for vessel, force in forces.items():
             rates += force @ self._by_vessel[vessel].T
+        if self._parts:
+            rates += self._parts.rates(omega, self._parts.flow_of(sea))
         x = self._resolvent.response(omega, rates)
         orders = (1j * omega) ** np.array(self._orders)[:, None]
         steady = _sums_of(omega, (self._rows @ x.T) * orders, self.times)

@@ -97,18 +97,28 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
 
 def _by_part(model: LinearModel, criteria: Sequence[Criterion], parts: PartsInWaves) -> Array:
     columns = [np.zeros((len(criteria), 0))]
+    known: dict[tuple[str, tuple[float, ...]], Array] = {}  # halves of spans meet at points
     for part in parts.parts:
-        element = part.element
-        size = PUSH * model.scene.bodies[element.body].mass
-        for axis in np.eye(3):
-            pushed = [
-                _Look(_pushed(model, element.body, element.point, sign * size * axis), criteria).at(
-                    model.state
-                )
-                for sign in (1.0, -1.0)
-            ]
-            columns.append(((pushed[0] - pushed[1]) / (2.0 * size))[:, None])
+        place = (part.body, tuple(map(float, part.point)))
+        if place not in known:
+            known[place] = _by_force_at(model, criteria, *place)
+        columns.append(known[place])
     return np.concatenate(columns, axis=1)
+
+
+def _by_force_at(
+    model: LinearModel, criteria: Sequence[Criterion], body: str, point: tuple[float, ...]
+) -> Array:
+    """Channels per force at a point of a body, inertial axes, (m, 3)."""
+    size = PUSH * model.scene.bodies[body].mass
+    columns = []
+    for axis in np.eye(3):
+        pushed = [
+            _Look(_pushed(model, body, point, sign * size * axis), criteria).at(model.state)
+            for sign in (1.0, -1.0)
+        ]
+        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    return np.stack(columns, axis=1)
 
 
 def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:

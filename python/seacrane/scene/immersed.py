@@ -89,6 +89,7 @@ def add_immersed(
                 place=piece.place, count=piece.count, step=axes @ piece.step,
                 fill=piece.fill, density=density, wave_factor=waves, depths=piece.depths,
                 added_masses=piece.added_masses, volumes=piece.volumes, drag=piece.drag, source=part.sources,
+                slow_added_masses=piece.slow_added_masses,
             )  # fmt: skip
             out.append(add_load(scene, element))
     return out

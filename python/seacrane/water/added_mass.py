@@ -133,20 +133,26 @@ def box_deep(size: Array) -> Array:
     return out
 
 
-def sphere_table() -> tuple[Array, Array]:
+def sphere_table(*, slow: bool = False) -> tuple[Array, Array]:
     """Depths over the radius, and added mass of a sphere over that in an unbounded fluid, for a spline.
 
     Up to its centre a rational function of the depth that begins as von Karman's disc, of the radius that
     is wet, and ends at half; from awash on 1 - 3/8 (radius / depth of the centre)^3, one image (H. Lamb,
     Hydrodynamics, art. 138, with the sign of a free surface). Monotone between them.
+
+    `slow` is the same at zero frequency, where the surface is a wall: it begins as a piston in it, twice the
+    disc (Rayleigh, Theory of Sound, art. 302), has 0.8310 at half depth (Hulme 1982), and the image the other
+    sign.
     """
     from scipy.interpolate import PchipInterpolator
 
+    touch, half, image = (2.0, 0.8310, 1.0) if slow else (1.0, 0.5, -1.0)
     shallow = np.linspace(0.0, 1.0, 41) ** 2
-    disc = 2.0 / np.pi * (2.0 * shallow) ** 1.5 / (1.0 + (2.0**3.5 / np.pi - 1.0) * shallow)
+    bend = touch * 2.0**2.5 / (np.pi * half) - 1.0
+    disc = touch * 2.0 / np.pi * (2.0 * shallow) ** 1.5 / (1.0 + bend * shallow)
     deep = 2.0 + 0.25 * np.arange(33) ** 1.25
-    image = 1.0 - 0.375 / (deep - 1.0) ** 3
+    below = 1.0 + image * 0.375 / (deep - 1.0) ** 3
     depths = np.concatenate([shallow, np.linspace(1.0, 2.0, 11)[1:-1], deep, [2.0 * deep[-1]]])
     known = np.concatenate([shallow, deep, [2.0 * deep[-1]]])
-    values = PchipInterpolator(known, np.concatenate([disc, image, [1.0]]))(depths)
+    values = PchipInterpolator(known, np.concatenate([disc, below, [1.0]]))(depths)
     return depths, np.asarray(values)

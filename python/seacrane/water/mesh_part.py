@@ -77,8 +77,11 @@ class MeshPart(TablePart):
 
     def pieces(self, density: float) -> Iterator[Piece]:
         for piece in super().pieces(density):
-            masses = piece.added_masses * (density / self.density)
-            yield replace(piece, size=np.array(self.size), added_masses=masses)
+            ratio = density / self.density
+            yield replace(
+                piece, size=np.array(self.size), added_masses=ratio * piece.added_masses,
+                slow_added_masses=ratio * np.asarray(self.low_frequency_added_masses),
+            )  # fmt: skip
 
 
 def from_mesh(

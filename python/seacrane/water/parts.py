@@ -56,6 +56,7 @@ class Piece:
     drag: Array
     fill: float = 1.0
     volumes: Array = field(default_factory=lambda: np.zeros(0))
+    slow_added_masses: Array = field(default_factory=lambda: np.zeros((0, 3)))
     row: int = 0  # of which it is strip `place` of `count`, at equal steps in axes of the part
     place: int = 0
     count: int = 1
@@ -366,10 +367,13 @@ class SpherePart(_Part):
         if self.diameter == 0.0:
             return
         radius = 0.5 * self.diameter
+        unbounded = 2.0 / 3.0 * np.pi * density * radius**3
         shares, values = sphere_table()
+        slow = sphere_table(slow=True)[1]  # of heave; the others see half of a sphere in an unbounded fluid
         yield Piece(
             shape="sphere", offset=np.zeros(3), size=np.full(3, self.diameter), depths=radius * shares,
-            added_masses=np.outer(2.0 / 3.0 * np.pi * density * radius**3 * values, np.ones(3)),
+            added_masses=unbounded * np.outer(values, np.ones(3)),
+            slow_added_masses=unbounded * np.stack([values, values, slow], axis=1),
             drag=np.full(3, 0.5 * density * self.drag * np.pi * radius**2),
         )  # fmt: skip
 

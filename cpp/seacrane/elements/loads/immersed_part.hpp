@@ -11,6 +11,7 @@
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
+#include "seacrane/elements/loads/water_by_cause.hpp"
 #include "seacrane/elements/loads/wet_volume.hpp"
 #include "seacrane/math/monotone_spline.hpp"
 #include "seacrane/math/spatial.hpp"
@@ -35,6 +36,7 @@ struct ImmersedPartDescription {
   double place = 0.0, count = 1.0;  // its own among them; whole numbers
   Vec3d step = Vec3d::Zero();       // body coordinates
   std::string source;
+  std::vector<Vec3d> slow_added_masses;
 
   static constexpr const char* type = "ImmersedPart";
   static constexpr const char* text =
@@ -64,7 +66,10 @@ struct ImmersedPartDescription {
                  "times the waves of the sea: what a hull beside makes of them")
             .not_negative()
             .usually(0.1, 3.0),
-        optional("source", &D::source, "", "where its coefficients are from"));
+        optional("source", &D::source, "", "where its coefficients are from"),
+        optional("slow_added_masses", &D::slow_added_masses, "kg",
+                 "at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone")
+            .not_negative());
   }
 
   bool is(const char* name) const { return shape == name; }
@@ -122,6 +127,10 @@ struct ImmersedPart {
     if (n < 2 || d.added_masses.size() != n || d.depths.front() != 0.0) {
       c.fail("has " + std::to_string(n) + " depths and " + std::to_string(d.added_masses.size()) +
              " added masses; give as many of both, at least two, from depth 0 m on");
+    }
+    if (!d.slow_added_masses.empty() && d.slow_added_masses.size() != n) {
+      c.fail("has " + std::to_string(d.slow_added_masses.size()) + " slow_added_masses at " +
+             std::to_string(n) + " depths; give as many of both");
     }
     c.increases("depths", d.depths);
     check_growth("added_masses", d.added_masses, d, c);
@@ -198,9 +207,47 @@ struct ImmersedPart {
     const WetShare<T> wet = wet_share(at);
     if (wet.share > T(0)) {
       float_on(at, wet, out);
-      resist(at, wet, out);
+      const Vec3<T> force = drag(at, wet);
+      out.wrench[body].add(force, at.lever);
+      out.add_power(force.dot(at.own));
     }
-    if (at.depth > T(0)) slam = add_momentum(at, out);
+    if (at.depth > T(0)) {
+      const Carried<T> water = carried(at);
+      out.wrench[body].add(water.force, at.lever);
+      out.wrench[body].moment += water.moment;
+      out.add_power(water.power);
+      slam = water.loss;
+    }
+  }
+
+  /// By cause, with an acceleration of its body (state point, inertial axes).
+  WaterByCause by_cause(const LoadInput<double>& in, const Vec6d& acceleration) const {
+    using Cause = WaterCause;
+    const Place<double> at = place(in);
+    const WetShare<double> wet = wet_share(at);
+    WaterByCause out;
+    if (wet.share > 0.0) {
+      out.force(Cause::buoyancy).z() = weight * wet.share;
+      out.force(Cause::waves) = at.flow.acceleration * (d.density * volume * wet.share);
+      out.force(Cause::drag) = drag(at, wet);
+      out.power(Cause::waves) = weight * wet.share * at.rise + out.force(Cause::waves).dot(at.own);
+      out.power(Cause::drag) = out.force(Cause::drag).dot(at.own);
+    }
+    if (!(at.depth > 0.0)) return out;
+    const auto here = added.at(at.depth);
+    const Carried<double> water = carried(at);
+    const Mat3d mass = at.axes * here.value.asDiagonal() * at.axes.transpose();
+    const Vec3d gain = at.rate * here.slope, v = at.axes.transpose() * at.velocity;
+    const Vec3d accelerated = acceleration.head<3>() + Vec3d(acceleration.tail<3>()).cross(at.lever);
+    const Vec3d driven = mass * at.flow.acceleration;
+    out.force(Cause::waves) += driven;
+    out.force(Cause::slam) = -(at.axes * gain.cwiseMax(0.0).cwiseProduct(v));
+    out.force(Cause::added_mass) = water.force - out.force(Cause::slam) - driven - mass * accelerated;
+    out.power(Cause::slam) = -water.loss;
+    out.power(Cause::waves) += water.power + water.loss;
+    out.momentum = mass * at.velocity;
+    out.shed = -(at.axes * gain.cwiseMin(0.0).cwiseProduct(v));
+    return out;
   }
 
   double potential(const LoadInput<double>& in) const {
@@ -233,6 +280,13 @@ struct ImmersedPart {
     T rise;                 // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
     T below;                // its lowest point under its centre
+  };
+
+  /// What the added mass does to a part beside -A a.
+  template <class T>
+  struct Carried {
+    Vec3<T> force, moment;        // inertial axes
+    T loss = T(0), power = T(0);  // by slam, and into the energy of the ledger
   };
 
   /// |n|, rounded off at zero, exact at 0 and 1, from n^2; and its derivative in n^2.
@@ -363,16 +417,16 @@ struct ImmersedPart {
 
   /// Drag of the part that is wet: of a cylinder across and along by themselves, of a sphere by its speed.
   template <class T>
-  void resist(const Place<T>& at, const WetShare<T>& wet, LoadSum<T>& out) const {
+  Vec3<T> drag(const Place<T>& at, const WetShare<T>& wet) const {
     using std::sqrt;
     const Vec3<T> v = at.axes.transpose() * at.velocity;
-    Vec3<T> drag = Vec3<T>::Zero();
+    Vec3<T> along = Vec3<T>::Zero();
     const auto brake = [&](int first, int last) {  // by their common speed
       T square = T(0);
       for (int i = first; i <= last; ++i) square += v[i] * v[i];
       if (!(square > T(0))) return;
       const T speed = sqrt(square) * wet.share;
-      for (int i = first; i <= last; ++i) drag[i] = T(-d.drag[i]) * speed * v[i];
+      for (int i = first; i <= last; ++i) along[i] = T(-d.drag[i]) * speed * v[i];
     };
     if (shape == Shape::sphere) {
       brake(0, 2);
@@ -382,14 +436,12 @@ struct ImmersedPart {
     } else {
       for (int i = 0; i < 3; ++i) brake(i, i);
     }
-    const Vec3<T> force = at.axes * drag;
-    out.wrench[body].add(force, at.lever);
-    out.add_power(force.dot(at.own));
+    return at.axes * along;
   }
 
-  /// What the added mass does beside -A a. Returns the power that slam takes.
   template <class T>
-  T add_momentum(const Place<T>& at, LoadSum<T>& out) const {
+  Carried<T> carried(const Place<T>& at) const {
+    Carried<T> out;
     const auto here = added.at(at.depth);
     const auto local = [&](const Vec3<T>& x) -> Vec3<T> { return at.axes.transpose() * x; };
     const Vec3<T> v = local(at.velocity), own = local(at.own);
@@ -397,22 +449,20 @@ struct ImmersedPart {
     const Vec3<T> swept = cross<T>(at.turning, cross<T>(at.turning, at.lever));
     const Vec3<T> swing = swept - cross<T>(at.turning, at.velocity) - at.flow.acceleration;
     Vec3<T> along = here.value.cwiseProduct(local(swing));
-    T loss = T(0), stored = T(0);  // what the ledger's energy of A gains beside that of A a
+    T stored = T(0);  // what the ledger's energy of A gains beside that of A a
     const Vec3<T> turned = here.value.cwiseProduct(local(swept - cross<T>(at.turning, at.own)));
     for (int i = 0; i < 3; ++i) {
       const T gain = at.rate * here.slope[i];
       const bool enters = gain > T(0);
       if (enters) along[i] += gain * v[i];
       const T power = T(0.5) * gain * v[i] * v[i];
-      loss += enters ? power : T(-power);
+      out.loss += enters ? power : T(-power);
       stored += own[i] * (turned[i] + T(0.5) * gain * own[i]);
     }
-    const Vec3<T> force = -(at.axes * along + cross<T>(at.turning, momentum));
-    const Vec3<T> moment = -cross<T>(at.velocity, momentum);
-    out.wrench[body].add(force, at.lever);
-    out.wrench[body].moment += moment;
-    out.add_power(force.dot(at.own) + moment.dot(at.turning) + stored);
-    return loss;
+    out.force = -(at.axes * along + cross<T>(at.turning, momentum));
+    out.moment = -cross<T>(at.velocity, momentum);
+    out.power = out.force.dot(at.own) + out.moment.dot(at.turning) + stored;
+    return out;
   }
 
   static Shape shape_of(const Description& d) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seacrane/elements/loads/span.hpp"
+#include "seacrane/elements/loads/water_by_cause.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/spatial.hpp"
 #include "seacrane/sea/sea_view.hpp"
@@ -132,6 +133,31 @@ struct ImmersedSpan {
       out.wrench[end.body].add(force, end.lever);
       out.add_power(force.dot(end.own) + stored);
     }
+  }
+
+  /// Its powers by cause: buoyancy is one here, and added mass is that of a span that grows.
+  WaterByCause by_cause(const LoadInput<double>& in) const {
+    using Cause = WaterCause;
+    const Place<double> at = place(in);
+    WaterByCause out;
+    if (!(at.ends[0].wet > 0.0) && !(at.ends[1].wet > 0.0)) return out;
+    const Vec3d couple = this->couple(at);
+    double all = 0.0;
+    for (const End<double>& end : at.ends) {
+      const Vec3d braked = drag(at, end);
+      Vec3d force = flow_force(end) + braked + (end.second ? couple : Vec3d(-couple));
+      const double stored = add_momentum(at, end, force);
+      all += force.dot(end.own) + stored;
+      const double square = at.across(end.velocity).squaredNorm();
+      out.power(Cause::buoyancy) += weight * end.wet * end.own.z();
+      out.power(Cause::drag) += braked.dot(end.own);
+      out.power(Cause::slam) -= 0.5 * added * std::abs(end.dips) * square;
+      out.power(Cause::added_mass) -= 0.5 * added * end.grows * square;
+    }
+    double told = 0.0;
+    for (const double power : out.powers) told += power;
+    out.power(Cause::waves) = all - told;
+    return out;
   }
 
  private:

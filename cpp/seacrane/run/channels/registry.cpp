@@ -14,6 +14,7 @@ std::vector<Channel> heave_channels();
 std::vector<Channel> hydraulic_channels();
 std::vector<Channel> sheave_channels();
 std::vector<Channel> sea_channels();
+std::vector<Channel> water_channels();
 std::vector<Channel> limit_channels();
 std::vector<Channel> point_channels();
 std::vector<Channel> load_force_channels();
@@ -22,9 +23,10 @@ std::vector<Channel> accuracy_channels();
 const std::vector<Channel>& all_channels() {
   static const std::vector<Channel> all = [] {
     std::vector<Channel> out;
-    for (const auto& channels : {body_channels, vessel_channels, joint_channels, load_channels,
-                                 heave_channels, hydraulic_channels, sheave_channels, sea_channels,
-                                 limit_channels, point_channels, load_force_channels, accuracy_channels}) {
+    for (const auto& channels :
+         {body_channels, vessel_channels, joint_channels, load_channels, heave_channels, hydraulic_channels,
+          sheave_channels, sea_channels, water_channels, limit_channels, point_channels, load_force_channels,
+          accuracy_channels}) {
       for (Channel& channel : channels()) out.push_back(std::move(channel));
     }
     return out;
