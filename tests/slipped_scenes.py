@@ -342,6 +342,7 @@ SAMPLES: Mapping[str, Sample] = {
             "added_masses": [(0, 0, 0), (1e3, 1e3, 1e4), (8e3, 9e3, 2e4), (8e3, 9e3, 4e4)],
             "drag": (6e3, 8e3, 1.2e4), "place": 1.0, "count": 2.0, "step": (4.0, 0.0, 0.0),
             "wave_factor": 1.2,
+            "slow_added_masses": [(0, 0, 0), (1e3, 1e3, 1.8e4), (8e3, 9e3, 3e4), (8e3, 9e3, 4e4)],
         },
         scene=lambda n: immersed(shape="box", row="strips", **n),
     ),

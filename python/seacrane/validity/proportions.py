@@ -224,6 +224,9 @@ def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     plate = part.density * face * float(sizes[1])
     share = _over(float(part.added_masses[-1].max()), plate)
     yield Proportion("added_masses", "{:.3g} times a plate's of this size", share, 4e-3, 50.0, "kg")
+    if len(part.slow_added_masses):
+        share = _over(float(part.slow_added_masses[-1].max()), float(part.added_masses[-1].max()))
+        yield Proportion("slow_added_masses", "{:.3g} times added_masses, deep down", share, 0.2, 5.0, "kg")
     share = _over(float(np.max(part.drag)), 0.5 * part.density * face)
     yield Proportion("drag", "a drag coefficient of {:.3g}", share, 5e-3, 100.0, "N s2/m2")
     if len(part.volumes):
