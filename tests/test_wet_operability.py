@@ -50,6 +50,25 @@ def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
     assert np.all(np.std(found - told, axis=0) < 0.02 * np.std(told, axis=0))
 
 
+def test_waves_on_a_wire_in_water_are_in_the_linear_channels() -> None:
+    """Of which one span goes through the surface."""
+    criteria = (Criterion(channel="point_acceleration", names={"point": "ball", "axis": "x"}, maximum=1.0),)
+    scene = towed(20.0, hs=0.002)
+    del scene.loads["wire"]
+    scene.add_line(
+        "wire", "vessel", "load", first_point=TOP, second_point=(0.0, 0.0, 0.0), EA=2e7, length=39.98,
+        rung="with mass", medium="sea", mass_per_length=60.0, diameter=0.2, segments=2,
+        drag_coefficient=0.0, drag_coefficient_along=0.0, damping_ratio=0.05,
+    )  # fmt: skip
+    still = held(scene).copy(waves=scene.waves)
+    linear = LinearSeas(still, equilibrium(scene), criteria)
+    assert still.waves is not None
+    start, told = linear.in_waves(still.waves, 0.0, 0.5 * np.arange(41))
+    run = simulate(still, t_end=20.0, start=start, dt_out=0.5, rtol=1e-8, channels=["point_acceleration"])
+    found = run.select("point_acceleration", point="ball", axis="x")
+    assert np.std(found - told[:, 0]) < 1e-3 * np.std(told)
+
+
 def test_a_part_that_crosses_the_surface_has_no_linear_route() -> None:
     criterion = Criterion(channel="line_tension", names={"line": "wire"}, maximum=1e6)
     with pytest.raises(SceneError, match=r"immersed part 'load\.1': crosses the surface at rest"):
