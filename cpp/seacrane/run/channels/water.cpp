@@ -52,7 +52,7 @@ void write_immersed_force(const Output& o, double* out) {
 
 /// A vector of each part.
 template <Vec3d WaterByCause::*vector>
-void write_each(const Output& o, double* out) {
+void write_vectors(const Output& o, double* out) {
   for_each_part(o, [&](const WaterByCause& water) {
     view<3>(out) = water.*vector;
     out += 3;
@@ -85,14 +85,14 @@ std::vector<Channel> water_channels() {
        .text = "momentum of the water that goes along with the part, inertial frame",
        .needs = {.solution = true},
        .by_default = false,
-       .write = write_each<&WaterByCause::momentum>},
+       .write = write_vectors<&WaterByCause::momentum>},
       {.name = "immersed_shed",
        .axes = {&part, &axes::xyz},
        .unit = "N",
        .text = "momentum that stays behind in the water each second as the part leaves it, inertial frame",
        .needs = {.solution = true},
        .by_default = false,
-       .write = write_each<&WaterByCause::shed>},
+       .write = write_vectors<&WaterByCause::shed>},
       {.name = "water_power",
        .axes = {&wet, &cause},
        .unit = "W",
