@@ -32,7 +32,7 @@ from seacrane import (
     summary,
 )
 from seacrane.analysis import drag_in_sea, response_summed
-from seacrane.analysis.drag_in_sea import mean_slope
+from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.ensembles import LatinHypercube
 from seacrane.pictures.page_sea import sea_words, without_sea
@@ -222,6 +222,16 @@ def test_drag_of_a_box_becomes_the_damping_of_its_sea() -> None:
     assert linear.drag_damping["load.1"][2, 2] == pytest.approx(damping, rel=1e-3)
     told = response_statistics(scene, spectrum=spectrum, direction=DIRECTION, body="load")
     assert told.std[2] == pytest.approx(heave, rel=1e-3)
+
+
+def test_drag_in_the_components_of_a_sea_is_that_in_its_spectrum() -> None:
+    sea = {"hs": 3.0, "tp": 8.0, "direction_deg": np.degrees(DIRECTION), "seed": 2, "count": 400}
+    scene = hung(4.0, sea=sea)
+    linear = linear_model(scene)
+    assert scene.waves is not None
+    found = drag_in_components(linear, scene.waves).drag_damping["load.1"]
+    expected = drag_in_sea(linear, spectrum=jonswap(hs=3.0, tp=8.0), direction=DIRECTION)
+    assert found == pytest.approx(expected.drag_damping["load.1"], rel=0.03, abs=1.0)
 
 
 def test_a_run_in_the_sea_heaves_as_the_linear_model_says() -> None:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import SummedResponse, response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.crane_parts import payloads
@@ -149,7 +150,8 @@ def _carried(scene: Scene, times: Array) -> _Carried:
     if isinstance(element.memory, _core.RetardationFunctions) or not element.memory:
         raise SceneError(f"vessel {vessel!r}: has no fitted memory whose error could be told")
     known = database_of(scene, vessel, "the error of its memory")
-    linear, functions = linear_model(scene, vessel=vessel), _functions(known)
+    linear = drag_in_components(linear_model(scene, vessel=vessel), scene.waves)
+    functions = _functions(known)
     even = np.arange(times[0], times[-1] + functions.step, functions.step)
     states = _from_rest(linear, response_summed(linear, body=vessel), even)
     load = _misfit(linear, element, known, functions, states)

@@ -340,8 +340,8 @@ def linear_model(
 
     The quaternions do not appear: poses are perturbed by translations and rotation vectors within the null
     space of the constraints, so the model has exactly 2 degrees of freedom + memory states. Loads
-    proportional to u |u| have no linear part at rest and drop out; `drag_in_sea` gives that of what is in water
-    one for a sea.
+    proportional to u |u| have no linear part at rest and drop out; `drag_in_sea` gives one to those of what
+    is in water.
 
     Parameters
     ----------

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.accuracy.quantities import Quantity, compare
+from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.crane_parts import hooks, payloads
@@ -168,6 +169,8 @@ def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:
     scene = case.scene
     hulls = {} if scene.waves is None else scene.waves.hulls
     linear = linear_model(scene, vessel=next(iter(hulls), None))
+    if scene.waves is not None:
+        linear = drag_in_components(linear, scene.waves)
     times: Array = case.dt_out * np.arange(len(next(iter(truth.values()))), dtype=float)
     values: dict[str, Array] = {}
     if "roll" in truth:
