@@ -184,7 +184,7 @@ def test_momentum_closes_through_entry_exit_and_entry_with_weight(formulation: s
     """m v + A v, what stays behind in the water, and the impulse of weight and buoyancy."""
     mass, balance, shed, largest = 150.0, [], 0.0, 0.0
     impulse = 0.0
-    for piece in stretches(sunk_and_risen(), 3.0, 32, formulation):
+    for piece in stretches(sunk_and_risen(), 1.5, 32, formulation):
         time = np.asarray(piece.time)
         momentum = mass * np.asarray(piece.select("velocity", body="load", axis="z"))
         momentum = momentum + np.asarray(piece.select("immersed_momentum", part="load.1", axis="z"))
