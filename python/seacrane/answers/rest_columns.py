@@ -108,10 +108,12 @@ def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     for vessel in scene.vessels.values():
         which = f" {vessel.name}" if len(scene.vessels) > 1 else ""
         motion = attitude(values, model, vessel.body)
-        stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
         found[f"heel{which}"] = ("rad", float(motion[3]))
         found[f"trim{which}"] = ("rad", float(motion[4]))
         found[f"draught change{which}"] = ("m", float(-motion[2]))
+        if not vessel.floats:  # it stands as it is given, whatever hangs on it
+            continue
+        stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
         weight = displaced_weight(scene, vessel, motion)
         found[f"GM{which}"] = ("m", stiffness / weight)
         known = scene.provenance.get(vessel.name)
