@@ -574,7 +574,7 @@ def every_table() -> Scene:
     scene.add_line(
         name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
         length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
-        diameter=0.02, flow=(1, 0, 0),
+        diameter=0.02, flow=(1, 0, 0), seabed={"depth": 60, "stiffness": 2e4, "friction": 0.5, "give": 0.1},
     )  # fmt: skip
     scene.add_line(
         name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],
