@@ -17,6 +17,8 @@ from seacrane.hydro.database.check import CheckRow as CheckRow
 from seacrane.hydro.database.check import memory_rows as memory_rows
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
 from seacrane.hydro.database.shipped import shipped_database as shipped_database
+from seacrane.hydro.data.group_body import GroupBody as GroupBody
+from seacrane.hydro.group.group import HydroGroup as HydroGroup
 from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
