@@ -188,7 +188,9 @@ def group_of_databases(
         origin="group's origin, on the still waterline",
         source="hulls without interaction: " + "; ".join(data.source for data in databases.values()),
     )
-    phases = np.concatenate([np.broadcast_to(phase_at_body(group, b), (len(circle), n, 6)) for b in bodies], 2)
+    phases = np.concatenate(
+        [np.broadcast_to(phase_at_body(group, b), (len(circle), n, 6)) for b in bodies], 2
+    )
     return replace(group, force=force / phases)
 
 
@@ -253,7 +255,9 @@ def joined_memory(memories: Sequence[MemoryModel]) -> MemoryModel:
     """
     bands = {memory.band for memory in memories}
     if len(bands) != 1:
-        raise ValueError(f"the memories are of other bands, {sorted(bands)} rad/s; fit them over the same one")
+        raise ValueError(
+            f"the memories are of other bands, {sorted(bands)} rad/s; fit them over the same one"
+        )
     worst = min((memory.passivity for memory in memories), key=lambda each: each.minimum)
     starts = np.concatenate([[0], np.cumsum([memory.motions for memory in memories])])
     shifted = list(zip(memories, (int(start) for start in starts), strict=False))
