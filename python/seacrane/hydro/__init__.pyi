@@ -18,7 +18,12 @@ from seacrane.hydro.database.check import memory_rows as memory_rows
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
 from seacrane.hydro.database.shipped import shipped_database as shipped_database
 from seacrane.hydro.data.group_body import GroupBody as GroupBody
+from seacrane.hydro.group.gap import Gap as Gap
+from seacrane.hydro.group.gap import Spike as Spike
+from seacrane.hydro.group.gap import piston_frequency as piston_frequency
+from seacrane.hydro.group.gap import spikes as spikes
 from seacrane.hydro.group.group import HydroGroup as HydroGroup
+from seacrane.hydro.group.modes import GroupMode as GroupMode
 from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping, check_increasing
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping, check_increasing
 from seacrane.hydro.data.memory_model import MemoryModel
 
 FloatArray = NDArray[np.float64]
@@ -21,10 +21,10 @@ ComplexArray = NDArray[np.complex128]
 class HydroGroupData:
     """Linear hydrodynamics of k hulls that feel each other's waves; immutable, every array read-only.
 
-    Motion ``6 i + j`` is motion j (surge to yaw) of body i, about its own reference point and in its own axes,
-    turned with its heading. ``exp(+i omega t)``; ``heading`` is the direction that waves travel to, from the
-    group's x axis towards its y axis; they have zero phase at the group's origin. SI, radians. Valid while
-    the hulls keep their places and headings to each other, at zero speed.
+    Motion ``6 i + j`` is motion j (surge to yaw) of body i, about its own reference point and in its own
+    axes, turned with its heading. ``exp(+i omega t)``; ``heading`` is the direction that waves travel to,
+    from the group's x axis towards its y axis; they have zero phase at the group's origin. SI, radians.
+    Valid while the hulls keep their places and headings to each other, at zero speed.
 
     Attributes
     ----------
@@ -158,6 +158,9 @@ class HydroGroupData:
             raise KeyError(f"group {self.name!r} has no body {name!r}; it has {', '.join(self.names)}")
         start = 6 * self.names.index(name)
         return slice(start, start + 6)
+
+
+Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
 
 
 def _frozen(array: FloatArray) -> FloatArray:

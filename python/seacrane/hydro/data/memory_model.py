@@ -23,9 +23,10 @@ class MemoryBlock:
     """One model ``x' = A x + B v``, ``mu = C x + D v``; the load on the vessel is ``-mu``.
 
     ``v`` holds the velocities (m/s, rad/s) of the motions ``inputs``, ``mu`` the loads (N, N m) along the
-    motions ``outputs``, both counted from 0 (surge) to 5 (yaw), and on over the hulls of a group. States are scaled to the size of the output;
-    ``state_scale`` (k,) is the largest amplitude each state takes when the inputs oscillate with 0.1 m/s
-    (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for absolute tolerances.
+    motions ``outputs``, both counted from 0 (surge) to 5 (yaw), and on over the hulls of a group. States are
+    scaled to the size of the output; ``state_scale`` (k,) is the largest amplitude each state takes when the
+    inputs oscillate with 0.1 m/s (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for
+    absolute tolerances.
     """
 
     cause: str

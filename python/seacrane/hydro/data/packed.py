@@ -30,8 +30,8 @@ KIND, ARRAY = "$kind", "$array"
 STORED = {"f": "<f8", "c": "<c16", "i": "<i8"}  # types of arrays, by the kind that NumPy calls them
 NOT_PACKED = (ValueError, TypeError, LookupError, AttributeError, RecursionError, SceneError)
 PARTS: tuple[type, ...] = (
-    AdditionalMatrices, RollDamping, GroupBody, DriftCoefficients, MemoryModel, MemoryBlock, FitRow, Passivity,
-    MotionFit, MotionError,
+    AdditionalMatrices, RollDamping, GroupBody, DriftCoefficients, MemoryModel, MemoryBlock, FitRow,
+    Passivity, MotionFit, MotionError,
 )  # fmt: skip
 
 

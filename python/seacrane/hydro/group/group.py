@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import digest_of
+from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.group.check import check_group
+from seacrane.hydro.group.gap import Gap, gaps
+from seacrane.hydro.group.modes import GroupMode, natural_modes_of
 from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
+from seacrane.hydro.group.require import require_apart, require_group
+
+ComplexArray = NDArray[np.complex128]
 
 
 class HydroGroup(HydroGroupData):
@@ -37,9 +47,12 @@ class HydroGroup(HydroGroupData):
         ------
         ValueError : other names in the two, another water or other frequencies, a forward speed, additional
             matrices or tabulated roll damping.
-        SceneError : headings of the waves that would have to be interpolated over more than 45 degrees.
+        SceneError : boxes of hulls that overlap, or headings of the waves that would have to be interpolated
+            over more than 45 degrees.
         """
-        return group_of_databases(HydroGroup, databases, positions, headings or {}, name)
+        group = group_of_databases(HydroGroup, databases, positions, headings or {}, name)
+        require_apart(group)
+        return group
 
     def __getitem__(self, name: str) -> HydroDatabase:
         """One hull while the others are held at rest beside it: its own blocks, forces with shielding.
@@ -75,6 +88,58 @@ class HydroGroup(HydroGroupData):
         Forces stay as they are, with the shielding.
         """
         return uncoupled_group(self)
+
+    @cached_property
+    def motion_rao(self) -> ComplexArray:
+        """Motions (m, n, 6 k) per metre of wave amplitude, all hulls together; read-only.
+
+        ``(-w^2 (M + A) + i w (B + B_lin) + C) X = F`` (`motion_response`), phases from the group's origin.
+        Quadratic damping is left out, and there is no mooring.
+        """
+        motions = motion_response(self)
+        motions.setflags(write=False)
+        return motions
+
+    def natural_modes(self) -> tuple[GroupMode, ...]:
+        """Modes of all hulls together without damping, within the frequencies, by rising frequency.
+
+        A mode that water in a gap makes is among them. Motions that nothing restores have none.
+        """
+        return natural_modes_of(self)
+
+    def gaps(self) -> list[Gap]:
+        """The gaps between hulls that are narrower than these, with the piston mode of their water by Molin.
+
+        Main dimensions are those of the bodies' boxes. A hull within another's ring has no gap here.
+        """
+        return gaps(self)
+
+    def check(self) -> list[CheckRow]:
+        """Self-check over all motions; see `check_group`."""
+        return check_group(self)
+
+    def require(
+        self,
+        *,
+        names: Sequence[str] | None = None,
+        positions: Mapping[str, ArrayLike] | None = None,
+        draughts: Mapping[str, float] | None = None,
+        apart: bool = False,
+    ) -> None:
+        """Raise unless the group is what its user takes it for.
+
+        Parameters
+        ----------
+        names : of the bodies, in this order.
+        positions : (3,) m, by name: the reference points, to 0.01 m.
+        draughts : m, by name, to 2 %.
+        apart : whether boxes of hulls may not overlap; a hull within the ring of another has one that does.
+
+        Raises
+        ------
+        SceneError : names the body, both values and the fix.
+        """
+        require_group(self, names=names, positions=positions, draughts=draughts, apart=apart)
 
     @property
     def digest(self) -> str:

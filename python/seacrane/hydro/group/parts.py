@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,7 +34,9 @@ def hull_of(group: HydroGroupData, name: str) -> HydroDatabase:
     own[2.0 * np.pi - own < SAME_HEADING] = 0.0
     order = np.argsort(own)
     force = group.force[:, :, at] * phase_at_body(group, body)
-    limits = {key: None if (whole := getattr(group, key)) is None else whole[at, at] for key in LIMITS}
+    limits: dict[str, Any] = {
+        key: None if (whole := getattr(group, key)) is None else whole[at, at] for key in LIMITS
+    }
     return HydroDatabase(
         name=f"{group.name}/{name}",
         omega=group.omega,
@@ -76,7 +78,9 @@ def ordered_group(group: Group, names: Sequence[str]) -> Group:
         )
     at = np.concatenate([np.arange(6) + group.place(name).start for name in names])
     square = np.ix_(at, at)
-    limits = {key: None if (whole := getattr(group, key)) is None else whole[square] for key in LIMITS}
+    limits: dict[str, Any] = {
+        key: None if (whole := getattr(group, key)) is None else whole[square] for key in LIMITS
+    }
     moved = replace(
         group,
         bodies=tuple(group.bodies[group.names.index(name)] for name in names),
@@ -120,7 +124,9 @@ def _ordered_memory(memory: MemoryModel, at: NDArray[np.intp]) -> MemoryModel:
 def uncoupled_group(group: Group) -> Group:
     """`HydroGroup.without_coupling`."""
     own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6)))
-    limits = {key: None if (whole := getattr(group, key)) is None else whole * own for key in LIMITS}
+    limits: dict[str, Any] = {
+        key: None if (whole := getattr(group, key)) is None else whole * own for key in LIMITS
+    }
     return replace(
         group,
         added_mass=group.added_mass * own,
@@ -156,8 +162,8 @@ def group_of_databases(
     )
     circle = first.heading if keeps else full_circle(first)[0]
     n, k = len(first.omega), 6 * len(bodies)
-    tables = {key: np.zeros((n, k, k)) for key in ("added_mass", "damping")}
-    limits: dict[str, FloatArray | None] = {key: np.zeros((k, k)) for key in LIMITS}
+    tables: dict[str, Any] = {key: np.zeros((n, k, k)) for key in ("added_mass", "damping")}
+    limits: dict[str, Any] = {key: np.zeros((k, k)) for key in LIMITS}
     force = np.zeros((len(circle), n, k), dtype=complex)
     for i, (body, database) in enumerate(zip(bodies, databases.values(), strict=True)):
         at = slice(6 * i, 6 * i + 6)
@@ -198,7 +204,8 @@ def _body_of(name: str, database: HydroData, position: ArrayLike, heading: float
     """A vessel of zero speed as a body; what stands apart by cause has no place in a group."""
     if database.additional or database.roll_damping is not None or database.speed != 0.0:
         raise ValueError(
-            f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward speed, "
+            f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward "
+            "speed, "
             "which a group does not take; use with_roll_damping(), and a database without them"
         )
     return GroupBody(
@@ -229,7 +236,8 @@ def _check_alike(name: str, databases: Mapping[str, HydroData]) -> None:
                 )
         if not np.array_equal(first.omega, database.omega):
             raise ValueError(
-                f"group {name!r}: {first_name!r} and {label!r} have other frequencies; compute both at the same"
+                f"group {name!r}: {first_name!r} and {label!r} have other frequencies; compute both at "
+                "the same"
             )
 
 

@@ -59,9 +59,11 @@ def with_band_of_group(group: HydroGroup) -> HydroGroup:
     at, entry = rough[name]
     low, high = float(group.omega[0]), float(group.omega[at - 1])
     warn_caller(
-        f"group {group.name!r}: its files do not say how far their panels can be trusted, and {entry} of {name} "
+        f"group {group.name!r}: its files do not say how far their panels can be trusted, and {entry} of "
+        f"{name} "
         f"jumps at {group.omega[at]:.4g} rad/s, as of waves too short for the panels, of an irregular "
-        "frequency, or of a resonance of the water between the hulls that the frequencies do not resolve. The "
+        "frequency, or of a resonance of the water between the hulls that the frequencies do not "
+        "resolve. The "
         f"trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one give "
         "load_database(path, trusted_band=(low, high)) in rad/s; group.check() tells the causes apart",
         RoughDataWarning,

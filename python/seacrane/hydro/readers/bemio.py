@@ -100,7 +100,8 @@ def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatab
     bodies = bodies_in(file)
     if len(bodies) != 1:
         raise FileFormatError(
-            f"{path}: holds {', '.join(bodies)[:200] or 'no body'}; one body is read, several by load_database "
+            f"{path}: holds {', '.join(bodies)[:200] or 'no body'}; one body is read, several by "
+            "load_database "
             "and read_bemio_group"
         )
     body = bodies[0]

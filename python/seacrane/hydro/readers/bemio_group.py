@@ -45,8 +45,8 @@ def read_bemio_group(
 
     Returns
     -------
-    HydroGroup : each body about its centre of gravity, named as in the file, in its order. Lengths, breadths and
-        draughts are those of the equivalent boxes.
+    HydroGroup : each body about its centre of gravity, named as in the file, in its order. Lengths, breadths
+        and draughts are those of the equivalent boxes.
 
     Warns
     -----
@@ -54,7 +54,8 @@ def read_bemio_group(
 
     Raises
     ------
-    FileFormatError : the file is missing, damaged, of one body, or no BEMIO file; the message names the entry.
+    FileFormatError : the file is missing, damaged, of one body, or no BEMIO file; the message names the
+        entry.
     """
     source = Path(path)
     found = from_bemio(source, lambda file: _convert(source, file, mass_matrices))

@@ -244,7 +244,8 @@ def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Da
         bodies = {label.rpartition("__")[0] for label in labels}
         if len(bodies) > 1:
             raise FileFormatError(
-                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); load_database and "
+                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); "
+                "load_database and "
                 "read_capytaine_group read them"
             )
         plain = [label.rpartition("__")[2] for label in labels]

@@ -55,8 +55,8 @@ def read_capytaine_group(
 
     Parameters
     ----------
-    path : file as of `read_capytaine`, of two or more bodies, each with all six rigid motions, which are found
-        by name: "<body>__Surge" and so on, in any order.
+    path : file as of `read_capytaine`, of two or more bodies, each with all six rigid motions, which are
+        found by name: "<body>__Surge" and so on, in any order.
     depth : m, which of the file's water depths; needed where it has several (inf: deep water).
     mass_matrices, restorings : by body, (6, 6) in SI about its rotation centre; in the place of the blocks of
         ``inertia_matrix`` and ``hydrostatic_stiffness``.
@@ -164,7 +164,8 @@ def _rotation_centres(path: Path, dataset: xarray.Dataset, names: list[str], giv
     if there is not None and there.shape == (len(names), 3):
         return there
     warn_caller(
-        f"{path}: does not tell about which points {', '.join(names)} turn; the origin of the meshes is taken "
+        f"{path}: does not tell about which points {', '.join(names)} turn; the origin of the meshes is "
+        "taken "
         "for all. Give read_capytaine_group(rotation_centres={name: (x, y, z)}) in m, or write the file with "
         "Capytaine 3",
         AssumedReferenceWarning,
@@ -195,7 +196,8 @@ def _blocks(
         return of_each(path, variable, names, given, (6, 6))
     if variable not in dataset:
         raise FileFormatError(
-            f"{path}: {variable} is missing; set it for each body before solving, or give read_capytaine_group "
+            f"{path}: {variable} is missing; set it for each body before solving, or give "
+            "read_capytaine_group "
             f"{'mass_matrices' if variable == 'inertia_matrix' else 'restorings'}"
         )
     whole = real_values(path, dataset, variable, MATRIX)

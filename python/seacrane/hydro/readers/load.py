@@ -67,8 +67,8 @@ def load_database(
     Warns
     -----
     RoughDataWarning : matrices that jump, in files that do not tell their panels.
-    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions; of a group,
-        those of a hull.
+    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions; of a
+        group, those of a hull.
     """
     found, source = _format_of(Path(path))
     if trusted_band is None:

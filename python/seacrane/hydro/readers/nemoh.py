@@ -205,7 +205,8 @@ def blocks(path: Path, *, bodies: int = 1) -> list[_Block]:
             if len(rows[-1]) != 1 + 2 * motions:
                 many = "six" if bodies == 1 else motions
                 raise FileFormatError(
-                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of {many} motions "
+                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of {many} "
+                    "motions "
                     "are needed: the file is truncated, or of another body"
                 )
         elif words:
@@ -265,7 +266,7 @@ def read_stiffness(path: Path) -> FloatArray:
 
 
 def read_control(path: Path) -> tuple[Water, list[str]]:
-    """Water and bodies of ``Nemoh.cal``, and the names of their meshes: values stand before exclamation marks."""
+    """Water and bodies of ``Nemoh.cal``, and their mesh files: values stand before exclamation marks."""
     lines = enumerate(text_lines(path), start=1)
     rows = [(n, line.split("!")[0].split()) for n, line in lines if not line.lstrip().startswith("---")]
     numbers = [
@@ -287,7 +288,8 @@ def read_control(path: Path) -> tuple[Water, list[str]]:
         turns = turns[:3]
     if not turns or bodies < 1.0 or (bodies > 1.0 and len(turns) != 6 * bodies):
         raise FileFormatError(
-            f"{path}: {bodies:g} bodies with {len(turns)} lines of rotations; each has three motions and three "
+            f"{path}: {bodies:g} bodies with {len(turns)} lines of rotations; each has three motions and "
+            "three "
             "moments about a point"
         )
     centres = []

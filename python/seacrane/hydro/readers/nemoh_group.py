@@ -1,6 +1,7 @@
 """Reader of NEMOH's results of several bodies; files, axes and phases as in `read_nemoh`.
 
-Hydrostatics are a file for each body, ``KH_0.dat`` and ``Hydrostatics_0.dat`` on, in the order of ``Nemoh.cal``.
+Hydrostatics are a file for each body, ``KH_0.dat`` and ``Hydrostatics_0.dat`` on, in the order of
+``Nemoh.cal``.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ def read_nemoh_group(
 
     Parameters
     ----------
-    path : the folder, or a file in it, with ``Nemoh.cal``, which tells the water, the bodies and the points that
-        they turn about.
+    path : the folder, or a file in it, with ``Nemoh.cal``, which tells the water, the bodies and the points
+        that they turn about.
     mass_matrices : by body, (6, 6) in SI about that point; by default the displaced masses at the centres of
         gravity with usual radii of gyration.
     restorings : by body, (6, 6) in SI, in the place of ``KH_0.dat`` on.
@@ -68,8 +69,8 @@ def read_nemoh_group(
 
     Raises
     ------
-    FileFormatError : a file is missing, truncated or damaged, or the hydrostatics of a body are not its own; the
-        message names the file and the body.
+    FileFormatError : a file is missing, truncated or damaged, or the hydrostatics of a body are not its own;
+        the message names the file and the body.
     """
     folder = project_of(Path(path))
     files = {name: found_file(folder, name) for name in (RADIATION, EXCITATION, CONTROL)}
@@ -104,7 +105,8 @@ def _convert(
     radiation = blocks(files[RADIATION], bodies=count)
     if len(radiation) != 6 * count:
         raise FileFormatError(
-            f"{files[RADIATION]}: {len(radiation)} degrees of freedom; six of each of {', '.join(names)} are needed"
+            f"{files[RADIATION]}: {len(radiation)} degrees of freedom; six of each of {', '.join(names)} "
+            "are needed"
         )
     waves = blocks(files[EXCITATION], bodies=count)
     solved = solution(files[RADIATION], files[EXCITATION], radiation, waves)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,7 +42,7 @@ def of_each(
 
 def box_of(
     path: Path, name: str, restoring: FloatArray, volume: float, weight_density: float
-) -> dict[str, float]:
+) -> dict[str, Any]:
     """Length, breadth and draught of a body's equivalent box, m; `equivalent_box` with the body's name.
 
     Raises FileFormatError: nothing floats on such a waterplane.
@@ -62,8 +63,8 @@ def group_symmetric(bodies: Sequence[GroupBody], added_mass: FloatArray) -> bool
 def require_own_hydrostatics(path: Path, group: HydroGroup, fix: str) -> None:
     """Raise unless a long wave lifts each body with its own C33, as it does whatever lies beside it.
 
-    Files by body that stand in another order, or that hold all bodies together, fail it. Nothing is told where
-    no wave is long enough.
+    Files by body that stand in another order, or that hold all bodies together, fail it. Nothing is told
+    where no wave is long enough.
     """
     lift = long_wave_lift(group)
     if lift is None:

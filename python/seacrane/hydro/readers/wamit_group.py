@@ -62,20 +62,20 @@ def read_wamit_group(
 ) -> HydroGroup:
     """Read the WAMIT results of several bodies at ``path``: a folder, the common stem, or one of the files.
 
-    Needs ``.out``. The numbers are those of ``.1`` and ``.3`` where both are there, else of the listing, whose
-    phases are rounded to degrees; restoring is that of ``.hst``, else of the listing. Zero speed.
+    Needs ``.out``. The numbers are those of ``.1`` and ``.3`` where both are there, else of the listing,
+    whose phases are rounded to degrees; restoring is that of ``.hst``, else of the listing. Zero speed.
 
     Parameters
     ----------
     path : folder, stem or file.
     rho : kg/m3, of a listing that does not tell it.
-    mass_matrices : by body, (6, 6) in SI about its origin; by default the displaced masses with usual radii of
-        gyration.
+    mass_matrices : by body, (6, 6) in SI about its origin; by default the displaced masses with usual radii
+        of gyration.
 
     Returns
     -------
-    HydroGroup : bodies are named as their geometry files, in the order of the listing, each about the origin of
-        its own axes. Lengths, breadths and draughts are those of the equivalent boxes.
+    HydroGroup : bodies are named as their geometry files, in the order of the listing, each about the origin
+        of its own axes. Lengths, breadths and draughts are those of the equivalent boxes.
 
     Warns
     -----
@@ -132,7 +132,8 @@ def _numbers(stem: Path, path: Path, listing: GroupListing) -> _Numbers:
         )
     rows, forces = listed_tables(path, listing.lines)
     warn_caller(
-        f"{path}: wave forces are read from the listing, whose phases are rounded to degrees: each is off by up "
+        f"{path}: wave forces are read from the listing, whose phases are rounded to degrees: each is "
+        "off by up "
         "to 0.9 % of its size. Give the .1 and .3 files beside it",
         RoundedPhaseWarning,
     )

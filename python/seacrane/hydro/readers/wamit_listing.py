@@ -36,7 +36,7 @@ RESTORING = (
 class ListedBody:
     """One body of the listing, in its own axes.
 
-    ``position`` (3,) m and ``heading`` rad of its axes, ``volume`` m3, ``gravity`` (3,) m its centre of gravity
+    ``position`` (3,) m and ``heading`` rad of its axes, ``volume`` m3, ``gravity`` (3,) m its centre of mass
     from its origin, ``restoring`` (6, 6) over rho g.
     """
 
@@ -149,7 +149,8 @@ def _numbers(path: Path, text: str, pattern: str, what: str, name: str) -> list[
 def listed_tables(path: Path, lines: list[str]) -> tuple[Table, Table]:
     """Rows of period, i, j, A, B and of period, heading, i, modulus, phase, real, imaginary.
 
-    Diffraction forces are taken before those by Haskind's relation, which are taken where there are no others.
+    Diffraction forces are taken before those by Haskind's relation, which are taken where there are no
+    others.
     """
     matrices: list[tuple[int, list[float]]] = []
     waves: dict[str, list[tuple[int, list[float]]]] = {"DIFFRACTION": [], "HASKIND": []}

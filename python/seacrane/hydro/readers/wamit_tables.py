@@ -39,7 +39,7 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Radiation:
-    """Contents of a ``.1`` file: periods (n,) in s, rising; added mass and damping (n, 6 k, 6 k) of k bodies."""
+    """Contents of a ``.1`` file: periods (n,) in s, rising; A and B (n, 6 k, 6 k) of k bodies."""
 
     period: FloatArray
     added_mass: FloatArray
