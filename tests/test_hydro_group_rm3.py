@@ -22,11 +22,8 @@ TABLE = {
 }
 
 
-@pytest.fixture(scope="module")
-def codes(shared: Path) -> dict[str, HydroGroup]:
-    folder = shared / "rm3"
-    if not folder.is_dir():
-        pytest.skip(f"no {folder}")
+def three_codes(folder: Path) -> dict[str, HydroGroup]:
+    """Masses and restoring are those of Capytaine's file: the others hold none by body."""
     capytaine = read_capytaine_group(folder / "capytaine" / "rm3_hydrodynamics.nc", rotation_centres=CENTRES)
     of_bodies = dict(zip(("float", "spar"), capytaine.bodies, strict=True))
     masses = {name: body.mass_matrix for name, body in of_bodies.items()}
@@ -36,6 +33,14 @@ def codes(shared: Path) -> dict[str, HydroGroup]:
         "capytaine": capytaine,
         "nemoh": read_nemoh_group(folder / "nemoh3", mass_matrices=masses, restorings=restorings),
     }
+
+
+@pytest.fixture(scope="module")
+def codes(shared: Path) -> dict[str, HydroGroup]:
+    folder = shared / "rm3"
+    if not folder.is_dir():
+        pytest.skip(f"no {folder}")
+    return three_codes(folder)
 
 
 def test_each_file_holds_float_and_spar(codes: dict[str, HydroGroup]) -> None:
