@@ -129,7 +129,9 @@ def nemoh_folder(group: HydroGroup, folder: Path) -> Path:
     (folder / "Results" / "ExcitationForce.tec").write_text("\n".join(waves) + "\n")
     for i, body in enumerate(group.bodies):
         np.savetxt(folder / "Mesh" / f"Kh_{i}.dat", body.restoring, fmt="%.12E")
-        lines = [f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", body.position, strict=True)]
+        lines = [
+            f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", body.position, strict=True)
+        ]
         volume = body.mass_matrix[0, 0] / group.rho
         text = "\n".join([*lines, f"Displacement = {volume:.10E}\n"])
         (folder / "Mesh" / f"Hydrostatics_{i}.dat").write_text(text)

@@ -55,7 +55,8 @@ def test_without_coupling_each_hull_moves_as_alone(hull: HydroDatabase) -> None:
     for name in group:
         alone = motion_response(group[name])
         at_origin = group.motion_rao[:, :, group.place(name)]
-        along = np.exp(1j * np.outer(np.sin(group.heading) * group.bodies[group.names.index(name)].position[1],
+        along = np.exp(1j * np.outer(np.sin(group.heading) *
+        group.bodies[group.names.index(name)].position[1],
                                      group.omega**2 / group.g))  # fmt: skip
         assert at_origin * along[:, :, None] == pytest.approx(alone, rel=1e-9, abs=1e-12)
 
@@ -91,7 +92,7 @@ def test_a_group_is_stored_as_bytes_and_comes_back() -> None:
 
 
 def axisymmetric(force: float) -> HydroDatabase:
-    """A body in deep water that heaves alone, its damping by Haskind's relation from a force of all headings."""
+    """A body in deep water that heaves alone, its damping by Haskind's relation from one force."""
     base = shipped_database().select(every=6)
     heave = np.zeros((6, 6))
     heave[2, 2] = 1.0
@@ -125,7 +126,7 @@ def test_two_heaving_points_couple_by_j0(distance: float) -> None:
 
 
 def test_modes_of_two_masses_on_springs() -> None:
-    """Heave of two hulls with equal and opposite coupling of inertia: (C - w^2 (M -+ a)) = 0 in closed form."""
+    """Heave of two hulls coupled by inertia: C - w^2 (M -+ a) = 0 in closed form."""
     stiffness, inertia, coupled, rate = 4.0e6, 1.0e6, 2.0e5, 3.0e4
     group = two_springs(stiffness, inertia, coupled, rate)
     found = [mode for mode in group.natural_modes()]
@@ -217,7 +218,11 @@ def test_hulls_that_do_not_feel_each_other_break_the_far_field_alone(hull: Hydro
     rows = beside(hull, place=(0.0, 30.0, 0.0)).check()
     assert [row.check for row in rows if row.verdict == "fail"] == ["damping_from_forces_one_two"]
     names = {row.check for row in rows}
-    assert {"symmetry_added_mass_coupling", "damping_from_forces_one_heave", "kramers_kronig_two_roll"} <= names
+    assert {
+        "symmetry_added_mass_coupling",
+        "damping_from_forces_one_heave",
+        "kramers_kronig_two_roll",
+    } <= names
 
 
 def test_check_names_what_is_wrong(hull: HydroDatabase) -> None:
@@ -237,7 +242,7 @@ def test_requirements_are_refused_by_name() -> None:
     group = written_pair()
     group.require(names=["crane", "feeder"], positions={"feeder": (6.0, 38.0, -1.5)}, apart=True)
     draught = group.bodies[1].draught
-    with pytest.raises(SceneError, match="another order: use group.ordered"):
+    with pytest.raises(SceneError, match=r"another order: use group.ordered"):
         group.require(names=["feeder", "crane"])
     with pytest.raises(SceneError, match=r"feeder has its reference point at \(6, 38, -1.5\) m, not at"):
         group.require(positions={"feeder": (6.0, 38.0, 0.0)})
@@ -279,5 +284,5 @@ def test_bad_groups_are_named() -> None:
         replace(group, added_mass=group.added_mass[:, :6, :6])
     with pytest.raises(KeyError, match="no body 'tug'"):
         group["tug"]
-    with pytest.raises(ValueError, match="feeder.*mass matrix is not positive definite"):
+    with pytest.raises(ValueError, match=r"feeder.*mass matrix is not positive definite"):
         replace(group.bodies[1], mass_matrix=-np.eye(6))

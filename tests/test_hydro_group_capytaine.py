@@ -1,4 +1,4 @@
-"""Two hulls by Capytaine: its own motions, waves between far hemispheres, and what a mirror does to a pair."""
+"""Two hulls by Capytaine: its own motions, waves between far hemispheres, a mirrored pair."""
 
 from __future__ import annotations
 
@@ -100,9 +100,7 @@ def turned(tmp_path_factory: pytest.TempPathFactory) -> np.ndarray:
 
 
 @pytest.mark.parametrize("distance", DISTANCES)
-def test_far_hemispheres_couple_as_point_sources(
-    distance: float, turned: np.ndarray, tmp_path: Path
-) -> None:
+def test_far_hemispheres_couple_as_point_sources(distance: float, turned: np.ndarray, tmp_path: Path) -> None:
     """Z12 / B11 = exp(2 i d) H0(k R), with the phase d of the heave force, as reciprocity and Haskind say.
 
     In waves long beside the body d vanishes: B12 / B11 = J0(k R). The coupling falls as R^-1/2, from 0.1 to

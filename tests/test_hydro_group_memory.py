@@ -1,4 +1,4 @@
-"""Joint memory of two hulls: passive over all motions, near the data, and the hulls' own where nothing couples."""
+"""Joint memory of two hulls: passive over all motions, near the data, each hull's own without coupling."""
 
 from __future__ import annotations
 
@@ -7,7 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seacrane.hydro import GroupBody, HydroGroup, MemoryModel, fit_memory, motion_response, passivity_certificate
+from seacrane.hydro import (
+    GroupBody,
+    HydroGroup,
+    MemoryModel,
+    fit_memory,
+    motion_response,
+    passivity_certificate,
+)
 from seacrane.hydro.group.parts import joined_memory
 from seacrane.hydro.memory.oscillators import Oscillators
 
@@ -28,7 +35,7 @@ def known_water(coupling: float) -> Oscillators:
 
 
 def group_in(water: Oscillators) -> HydroGroup:
-    """Two bodies whose sway and heave radiate as the known water says; heave resonates at 0.7 and 0.8 rad/s."""
+    """Two bodies whose sway and heave radiate as the known water says; resonant at 0.7 and 0.8 rad/s."""
     omega = np.linspace(0.15, 2.2, 32)
     at = np.ix_(range(len(omega)), MOVING, MOVING)
     kernel = water.transfer(omega)
@@ -39,7 +46,9 @@ def group_in(water: Oscillators) -> HydroGroup:
     added_mass += infinite
     damping[at] = kernel.real
     force = np.zeros((2, len(omega), 12), dtype=complex)
-    force[:, :, MOVING] = 1e5 * np.exp(-omega)[None, :, None] * np.array([[1j, 1.0, 0.6j, 0.8], [0.5j, 1.0, 1j, 1.0]])[:, None]
+    force[:, :, MOVING] = (
+        1e5 * np.exp(-omega)[None, :, None] * np.array([[1j, 1.0, 0.6j, 0.8], [0.5j, 1.0, 1j, 1.0]])[:, None]
+    )
     bodies = []
     for name, place, resonance in (("one", 0.0, 0.7), ("two", 30.0, 0.8)):
         restoring = np.zeros((6, 6))
@@ -90,7 +99,7 @@ def test_it_is_passive_over_all_motions_together(model: MemoryModel) -> None:
 
 
 def test_motions_are_within_the_limit(group: HydroGroup, model: MemoryModel) -> None:
-    """The limit that the model states, and motions solved with it, independently, at the data's frequencies."""
+    """The limit that the model states, and motions solved with it at the data's frequencies."""
     assert model.motion is not None
     assert model.motion.reached
     assert model.motion.error.seas.shape == (12,)

@@ -103,7 +103,7 @@ def test_a_listing_alone_has_phases_in_degrees(pair: HydroGroup, tmp_path: Path)
 
 
 def test_readers_of_one_body_name_the_reader_of_several(pair: HydroGroup, tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match="crane, feeder.*read_capytaine_group"):
+    with pytest.raises(FileFormatError, match=r"crane, feeder.*read_capytaine_group"):
         read_capytaine(capytaine_file(pair, tmp_path))
     with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
         read_wamit(wamit_files(pair, tmp_path) / "pair")
@@ -139,7 +139,9 @@ def test_hydrostatics_in_another_order_are_named(tmp_path: Path) -> None:
     read_nemoh_group(folder, mass_matrices=masses(unlike))
     for source, target in (("Kh_0", "spare"), ("Kh_1", "Kh_0"), ("spare", "Kh_1")):
         shutil.move(folder / "Mesh" / f"{source}.dat", folder / "Mesh" / f"{target}.dat")
-    with pytest.raises(FileFormatError, match="the restoring of crane has C33 = .* of feeder: they stand in"):
+    with pytest.raises(
+        FileFormatError, match=r"the restoring of crane has C33 = .* of feeder: they stand in"
+    ):
         read_nemoh_group(folder, mass_matrices=masses(unlike))
 
 
@@ -157,7 +159,10 @@ def in_long_waves(group: HydroGroup) -> HydroGroup:
         (lambda d: d.drop_vars("inertia_matrix"), "inertia_matrix is missing; set it for each body"),
         (lambda d: d.assign(added_mass=d.added_mass * np.nan), r"added_mass\[0, 0, 0\] is nan"),
         (lambda d: d.assign_coords(forward_speed=2.0), "forward_speed is 2 m/s"),
-        (lambda d: d.assign(hydrostatic_stiffness=0.0 * d.hydrostatic_stiffness), "body crane: restoring C33"),
+        (
+            lambda d: d.assign(hydrostatic_stiffness=0.0 * d.hydrostatic_stiffness),
+            "body crane: restoring C33",
+        ),
     ],
 )
 def test_damage_is_named(
@@ -217,5 +222,7 @@ def test_shapes_of_bemio(pair: HydroGroup, tmp_path: Path) -> None:
 
 def test_values_of_other_bodies_are_refused(pair: HydroGroup, tmp_path: Path) -> None:
     wrong: dict[str, Any] = {"crane": np.eye(6), "barge": np.eye(6)}
-    with pytest.raises(FileFormatError, match="holds bodies crane, feeder; mass_matrices are given for crane, barge"):
+    with pytest.raises(
+        FileFormatError, match="holds bodies crane, feeder; mass_matrices are given for crane, barge"
+    ):
         read_bemio_group(bemio_file(pair, tmp_path), mass_matrices=wrong)

@@ -33,10 +33,14 @@ def capytaine() -> Iterator[Row]:
         folder = Path(name)
         mine, theirs = pairs.both_motions(folder)
         yield Row(
-            subject="Hydrodynamics", compared="two hulls beside each other: coupled motions from matrices as read",
-            reference="Capytaine's own motions", difference=float(np.abs(mine - theirs).max() / np.abs(theirs).max()),
-            unit="", limit=1e-6, test="test_hydro_group_capytaine.py",
-        )  # fmt: skip
+            subject="Hydrodynamics",
+            compared="two hulls beside each other: coupled motions from matrices as read",
+            reference="Capytaine's own motions",
+            difference=float(np.abs(mine - theirs).max() / np.abs(theirs).max()),
+            unit="",
+            limit=1e-6,
+            test="test_hydro_group_capytaine.py",
+        )
         turned = pairs.turned_twice(folder)[1]
         off = []
         for distance in pairs.DISTANCES:
@@ -44,10 +48,14 @@ def capytaine() -> Iterator[Row]:
             closed = turned * hankel2(0, group.omega[1] ** 2 / group.g * distance)
             off.append(abs(pairs.coupling_of(group)[1] / closed - 1.0))
         yield Row(
-            subject="Hydrodynamics", compared="two hemispheres 0.1 to 3 km apart: coupling in heave, Capytaine's panels",
-            reference="waves of point sources, exp(2 i d) H0(k R)", difference=float(max(off)),
-            unit="", limit=0.03, test="test_hydro_group_capytaine.py",
-        )  # fmt: skip
+            subject="Hydrodynamics",
+            compared="two hemispheres 0.1 to 3 km apart: coupling in heave, Capytaine's panels",
+            reference="waves of point sources, exp(2 i d) H0(k R)",
+            difference=float(max(off)),
+            unit="",
+            limit=0.03,
+            test="test_hydro_group_capytaine.py",
+        )
 
 
 def codes(shared: Path) -> Iterator[Row]:
@@ -60,10 +68,14 @@ def codes(shared: Path) -> Iterator[Row]:
         value = _value(reference, table, entry)
         worst = max(abs(_value(group, table, entry) / value - 1.0) for group in groups.values())
         yield Row(
-            subject="Hydrodynamics", compared=f"{RM3}: {words} at 1 rad/s, Capytaine and NEMOH",
-            reference="WAMIT", difference=worst, unit="", limit=TABLE[table][entry][1],
+            subject="Hydrodynamics",
+            compared=f"{RM3}: {words} at 1 rad/s, Capytaine and NEMOH",
+            reference="WAMIT",
+            difference=worst,
+            unit="",
+            limit=TABLE[table][entry][1],
             test="test_hydro_group_rm3.py",
-        )  # fmt: skip
+        )
 
 
 def _value(group: HydroGroup, table: str, entry: tuple[int, int]) -> float:

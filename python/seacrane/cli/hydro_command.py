@@ -44,7 +44,8 @@ def _of_group(group: HydroGroup, arguments: argparse.Namespace) -> int:
 
     if arguments.out is not None:
         raise SceneError(
-            f"group {group.name!r}: --out draws one hull, and the file holds {', '.join(group.names)}; leave it "
+            f"group {group.name!r}: --out draws one hull, and the file holds {', '.join(group.names)}; "
+            "leave it "
             "out, or draw load_database(path)[name].plot()"
         )
     if arguments.memory is not None:
