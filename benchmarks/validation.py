@@ -37,6 +37,7 @@ from compared import (  # noqa: E402
     reeving,
     roll_and_mooring,
     sea,
+    two_hulls,
 )
 from compared.row import HEAD, Row  # noqa: E402
 
@@ -60,6 +61,7 @@ COMPARISONS = (
     hull.hydrostatics,
     hull.sections,
     files.database,
+    two_hulls.capytaine,
     roll_and_mooring.roll_damping,
     roll_and_mooring.moorings,
     files.wires,
@@ -86,11 +88,11 @@ def rows() -> Iterable[tuple[str, ...]]:
             yield checked(row).cells
     shared = os.environ.get("SEACRANE_SHARED")
     if shared:
-        for of_ships in (real_ships.closures, roll_and_mooring.far_fields):
+        for of_ships in (real_ships.closures, roll_and_mooring.far_fields, two_hulls.codes):
             yield from (checked(row).cells for row in of_ships(Path(shared)))
         return
     old = files.records(RESULTS / "validation.csv")
-    names = tuple(real_ships.FILES)
+    names = (*real_ships.FILES, two_hulls.RM3)
     yield from (tuple(row.values()) for row in old if row["compared"].startswith(names))
 
 

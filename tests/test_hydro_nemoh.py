@@ -42,7 +42,11 @@ DAMAGE: list[tuple[str, Callable[[str], str] | None, str]] = [
     ("results/RadiationCoefficients.tec", lambda text: text.replace("E+0", "E+999", 1), "not all finite"),
     ("results/ExcitationForce.tec", lambda text: text.replace("beta", "wave", 1), "no wave direction in"),
     ("Nemoh.cal", lambda text: text.replace("1025.0", "-1025.0"), "density -1025 kg/m3"),
-    ("Nemoh.cal", lambda text: text.replace("1 ! Number", "2 ! Number"), "2 bodies; one is read"),
+    (
+        "Nemoh.cal",
+        lambda text: text.replace("1 ! Number", "2 ! Number"),
+        "2 bodies with 6 lines of rotations",
+    ),
     ("Nemoh.cal", lambda text: text.replace("9.81", ""), "does not begin with density"),
     ("Nemoh.cal", lambda text: text.replace("-2.0 !", "-1.0 !", 1), "turn about 2 points"),
 ]

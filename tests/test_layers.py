@@ -20,6 +20,7 @@ FLOORS = """
     hydro.memory
     hydro.vessel
     hydro.database
+    hydro.group
     hydro.readers
     hydro.hull
     hydro

@@ -18,7 +18,7 @@ from seacrane.analysis.inverse import reflected_inertia, tuned_gains
 from seacrane.analysis.weight_balance import Balance, balance_by_force
 from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ STROKE_END = 2.0  # m, cases 1 and 2
 def _database(database: str | os.PathLike[str] | HydroDatabase | None) -> HydroDatabase:
     if database is None:
         return shipped_database()
-    return database if isinstance(database, HydroDatabase) else load_database(database)
+    return database if isinstance(database, HydroDatabase) else load_hull(database)
 
 
 @lru_cache(maxsize=4)

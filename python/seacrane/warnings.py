@@ -771,6 +771,20 @@ class AssumedInertiaWarning(SourceWarning):
     """
 
 
+class AssumedReferenceWarning(SourceWarning):
+    """The file does not tell about which points its bodies turn: the origin of the meshes was taken.
+
+    Give the points, as `read_capytaine_group(rotation_centres=...)` takes them.
+    """
+
+
+class RoundedPhaseWarning(SourceWarning):
+    """Wave forces were read from a listing that rounds their phases to degrees.
+
+    Give the files of numbers beside it.
+    """
+
+
 class AssumedSymmetryWarning(SourceWarning):
     """The file does not state its symmetry.
 

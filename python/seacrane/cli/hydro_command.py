@@ -11,20 +11,21 @@ from seacrane.cli.output_folder import output_folder
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase
+    from seacrane.hydro import CheckRow, HydroDatabase, HydroGroup
 
 COLUMNS = ("check", "value", "limit", "verdict")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the verdict table; a failing verdict is a finding about the file, not an error of ours."""
-    from seacrane.hydro import load_database
+    from seacrane.hydro import HydroGroup, load_database
 
     band = None if arguments.band is None else (arguments.band[0], arguments.band[1])
     database = load_database(arguments.path, depth=arguments.depth, trusted_band=band)
+    if isinstance(database, HydroGroup):
+        return _of_group(database, arguments)
     database = _with_memory(database, kind=arguments.memory, asked=band is not None)
-    rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
-    print(to_json(rows) if arguments.json else _as_text(rows))
+    _show(database.check(), as_json=arguments.json)
     if arguments.out is not None:
         from seacrane.hydro.database.figures import SHEETS, save_hydro_figures
 
@@ -34,6 +35,28 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.json:
             print("\n".join(f"saved {picture.image}" for picture in pictures))
     return 0
+
+
+def _of_group(group: HydroGroup, arguments: argparse.Namespace) -> int:
+    """The table of several hulls; their memory, which takes minutes, where it is asked for."""
+    from seacrane.errors import SceneError
+    from seacrane.hydro import fit_memory
+
+    if arguments.out is not None:
+        raise SceneError(
+            f"group {group.name!r}: --out draws one hull, and the file holds {', '.join(group.names)}; "
+            "leave it "
+            "out, or draw load_database(path)[name].plot()"
+        )
+    if arguments.memory is not None:
+        group = dataclasses.replace(group, memory=fit_memory(database=group, kind=arguments.memory))
+    _show(group.check(), as_json=arguments.json)
+    return 0
+
+
+def _show(checked: list[CheckRow], *, as_json: bool) -> None:
+    rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in checked]
+    print(to_json(rows) if as_json else _as_text(rows))
 
 
 def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> HydroDatabase:

@@ -15,7 +15,7 @@ from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.check_keys import SHIPPED
 from seacrane.lift.curve_text import curve_from
@@ -202,7 +202,7 @@ class Caller:
         key = (file, speed, depth)
         if key not in self.read:
             shipped = file in SHIPPED
-            self.read[key] = shipped_database() if shipped else load_database(file, speed=speed, depth=depth)
+            self.read[key] = shipped_database() if shipped else load_hull(file, speed=speed, depth=depth)
         return self.read[key]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:

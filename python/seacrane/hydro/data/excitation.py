@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
@@ -83,12 +84,16 @@ def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
     return full_circle(database)
 
 
-def full_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
-    """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
+def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
+    """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays.
+
+    Of a group forces are (k, n, 6 hulls), with phases as in the group.
+    """
     if not database.port_starboard_symmetric:
         return database.heading.copy(), database.force.copy()
     heading, source, mirrored = both_sides(database.heading)
-    parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
+    sides = np.tile(PORT_STARBOARD, database.force.shape[-1] // 6)
+    parity = np.where(mirrored[:, None], sides, 1.0)
     return heading, database.force[source] * parity[:, None, :]
 
 

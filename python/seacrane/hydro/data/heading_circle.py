@@ -40,9 +40,10 @@ def largest_gap(circle: FloatArray) -> float:
 
 
 def keeps_sides_apart(added_mass: FloatArray) -> bool:
-    """Whether motions that a port-starboard symmetric hull keeps apart are apart in (n, 6, 6), to 2 %."""
+    """Whether motions that port-starboard symmetric hulls keep apart are apart in (n, 6 k, 6 k), to 2 %."""
     peak = np.sqrt(np.abs(np.diagonal(added_mass, axis1=1, axis2=2)).max(axis=0))
     scale = np.outer(peak, peak)
-    mixed = np.outer(PORT_STARBOARD, PORT_STARBOARD) < 0.0
+    sides = np.tile(PORT_STARBOARD, len(peak) // 6)
+    mixed = np.outer(sides, sides) < 0.0
     largest = np.abs(added_mass).max(axis=0)
     return bool(np.all(largest[mixed] <= SYMMETRY_TOLERANCE * scale[mixed]))

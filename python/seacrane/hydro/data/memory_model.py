@@ -23,9 +23,10 @@ class MemoryBlock:
     """One model ``x' = A x + B v``, ``mu = C x + D v``; the load on the vessel is ``-mu``.
 
     ``v`` holds the velocities (m/s, rad/s) of the motions ``inputs``, ``mu`` the loads (N, N m) along the
-    motions ``outputs``, both counted from 0 (surge) to 5 (yaw). States are scaled to the size of the output;
-    ``state_scale`` (k,) is the largest amplitude each state takes when the inputs oscillate with 0.1 m/s
-    (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for absolute tolerances.
+    motions ``outputs``, both counted from 0 (surge) to 5 (yaw), and on over the hulls of a group. States are
+    scaled to the size of the output; ``state_scale`` (k,) is the largest amplitude each state takes when the
+    inputs oscillate with 0.1 m/s (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for
+    absolute tolerances.
     """
 
     cause: str
@@ -52,8 +53,8 @@ class MemoryBlock:
                 raise ValueError(f"memory block {self.cause!r}: {name} holds a value that is not finite")
             array.setflags(write=False)
             object.__setattr__(self, name, array)
-        if np.any(np.concatenate([self.outputs, self.inputs]) // 6 != 0):
-            raise ValueError(f"memory block {self.cause!r}: outputs and inputs count motions from 0 to 5")
+        if np.any(np.concatenate([self.outputs, self.inputs]) < 0):
+            raise ValueError(f"memory block {self.cause!r}: outputs and inputs count motions from 0")
 
     @property
     @one_thread
@@ -108,10 +109,10 @@ class MotionError:
 
     Attributes
     ----------
-    seas : ndarray, shape (6,)
+    seas : ndarray, shape (6,), or (6 k,) of a group of k hulls
         Standard deviation of the difference of each motion over that of the motion, at the heading where this
         is largest; the worst heading and the worst sea of Tp 5 to 18 s.
-    peaks : ndarray, shape (6,)
+    peaks : ndarray, of the same shape
         Complex difference of heave, roll and pitch over their value, at the largest of the band; zero for the
         others.
     """
@@ -122,15 +123,15 @@ class MotionError:
     def __post_init__(self) -> None:
         for name in ("seas", "peaks"):
             array = np.array(getattr(self, name), dtype=float)
-            if array.shape != (6,) or not np.all(array >= 0.0):
-                raise ValueError(f"motion error: {name} must be six numbers of zero or more")
+            if not array.size or array.shape != (6 * (array.size // 6),) or not np.all(array >= 0.0):
+                raise ValueError(f"motion error: {name} must be six numbers of zero or more for each hull")
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
     @property
     def worst(self) -> float:
         """What a limit is compared with: the largest of `seas` and of a fifth of `peaks`."""
-        return self.of(range(6))
+        return self.of(range(len(self.seas)))
 
     def of(self, motions: Iterable[int]) -> float:
         """The memory model of some motions."""
@@ -177,11 +178,13 @@ class MotionFit:
 class MemoryModel:
     """Radiation memory (and that of additional causes) as state-space blocks.
 
+    Matrices are (6, 6), or (6 k, 6 k) of a group of k hulls.
+
     Attributes
     ----------
     blocks : the models; their loads add up.
-    added_mass : (6, 6) infinite-frequency added mass that belongs to the radiation blocks.
-    additional_added_mass, additional_stiffness : (6, 6) instantaneous parts of the additional causes.
+    added_mass : infinite-frequency added mass that belongs to the radiation blocks.
+    additional_added_mass, additional_stiffness : instantaneous parts of the additional causes.
     band : (low, high) rad/s over which the fits were judged.
     r2 : the R2 asked for.
     rows : quality of each fit.
@@ -202,13 +205,24 @@ class MemoryModel:
     __repr__ = brief
 
     def __post_init__(self) -> None:
+        size = 6 * max(1, len(self.added_mass) // 6)
         for entry in fields(self):
             if entry.name in ("added_mass", "additional_added_mass", "additional_stiffness"):
                 array = np.array(getattr(self, entry.name), dtype=float)
-                if array.shape != (6, 6) or not np.all(np.isfinite(array)):
-                    raise ValueError(f"memory model: {entry.name} must be a finite (6, 6) matrix")
+                if array.shape != (size, size) or not np.all(np.isfinite(array)):
+                    raise ValueError(f"memory model: {entry.name} must be a finite ({size}, {size}) matrix")
                 array.setflags(write=False)
                 object.__setattr__(self, entry.name, array)
+        for block in self.blocks:
+            if max(block.outputs.max(initial=0), block.inputs.max(initial=0)) >= size:
+                raise ValueError(
+                    f"memory block {block.cause!r}: outputs and inputs count motions from 0 to {size - 1}"
+                )
+
+    @property
+    def motions(self) -> int:
+        """Six, or six for each hull of a group."""
+        return len(self.added_mass)
 
     @property
     def states(self) -> int:
@@ -217,23 +231,24 @@ class MemoryModel:
 
     @one_thread
     def transfer(self, omega: ArrayLike, *, cause: str = RADIATION) -> ComplexArray:
-        """Retardation function ``K(i omega)`` of one cause at ``omega`` (n,), as (n, 6, 6) complex."""
+        """Retardation function ``K(i omega)`` of one cause at ``omega`` (n,), as (n, m, m) complex, of
+        m motions."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
-        total = np.zeros((len(w), 6, 6), dtype=complex)
+        total = np.zeros((len(w), self.motions, self.motions), dtype=complex)
         for block in self.blocks:
             if block.cause == cause:
                 total[:, block.outputs[:, None], block.inputs] += block.transfer(w)
         return total
 
     def impulse_response(self, time: ArrayLike, *, cause: str = RADIATION) -> FloatArray:
-        """Retardation function ``K(t) = C exp(A t) B`` of one cause at ``time`` (n,) in s, as (n, 6, 6).
+        """Retardation function ``K(t) = C exp(A t) B`` of one cause at ``time`` (n,) in s, as (n, m, m).
 
         What passes through D without delay is left out: it is an impulse at zero.
         """
         from scipy.linalg import expm
 
         t = np.atleast_1d(np.asarray(time, dtype=float))
-        total = np.zeros((len(t), 6, 6))
+        total = np.zeros((len(t), self.motions, self.motions))
         for block in self.blocks:
             if block.cause == cause and len(block.A):
                 with one_thread:
@@ -242,15 +257,15 @@ class MemoryModel:
         return total
 
     def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Fitted radiation added mass and damping, each (n, 6, 6), at positive frequencies ``omega`` (n,)."""
+        """Fitted radiation added mass and damping, each (n, m, m), at positive ``omega`` (n,)."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         kernel = self.transfer(w)
         return self.added_mass + kernel.imag / w[:, None, None], kernel.real
 
     def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Fitted added mass and damping (n, 6, 6) of all other causes, stiffness counted as added mass."""
+        """Fitted added mass and damping (n, m, m) of all other causes, stiffness counted as added mass."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
-        kernel = np.zeros((len(w), 6, 6), dtype=complex)
+        kernel = np.zeros((len(w), self.motions, self.motions), dtype=complex)
         for cause in {block.cause for block in self.blocks} - {RADIATION}:
             kernel += self.transfer(w[:, 0, 0], cause=cause)
         added_mass = self.additional_added_mass + kernel.imag / w - self.additional_stiffness / w**2

@@ -7,15 +7,18 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.encounter import at_encounter, encounter_frequency, inside_table
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
 def motion_response(
-    database: HydroData, *, added_mass: FloatArray | None = None, damping: FloatArray | None = None
+    database: Hydrodynamics, *, added_mass: FloatArray | None = None, damping: FloatArray | None = None
 ) -> ComplexArray:
     """Motions (m, n, 6) per metre of wave amplitude, at the database's headings and wave frequencies.
+
+    Of a `HydroGroup` of k hulls (m, n, 6 k): all together, as the water couples them.
 
     Solves ``(-w^2 (M + A + A_add) + i w (B + B_add + B_lin + B_roll) + C + C_add) X = F``, the roll damping
     being the linear plus the linearised one where the source tabulates them. ``added_mass`` and ``damping``
@@ -27,12 +30,12 @@ def motion_response(
     that nothing is known, the motions are NaN.
     """
     dynamic, known = _dynamic_stiffness(database, added_mass, damping)
-    dynamic[~known] = np.eye(6)
+    dynamic[~known] = np.eye(dynamic.shape[-1])
     motions = np.linalg.solve(dynamic, database.force[..., None])[..., 0]
     return np.asarray(np.where(known[:, :, None], motions, np.nan))
 
 
-def force_of_motion(database: HydroData, motion: ComplexArray) -> ComplexArray:
+def force_of_motion(database: Hydrodynamics, motion: ComplexArray) -> ComplexArray:
     """The wave forces (m, n, 6) that make these motions (m, n, 6): what `motion_response` solves, backwards.
 
     NaN where the frequency of encounter lies outside the database's.
@@ -43,7 +46,7 @@ def force_of_motion(database: HydroData, motion: ComplexArray) -> ComplexArray:
 
 
 def _dynamic_stiffness(
-    database: HydroData, added_mass: FloatArray | None, damping: FloatArray | None
+    database: Hydrodynamics, added_mass: FloatArray | None, damping: FloatArray | None
 ) -> tuple[ComplexArray, NDArray[np.bool_]]:
     """(m, n, 6, 6), and where it is known (m, n); arguments as of `motion_response`."""
     if added_mass is None or damping is None:
@@ -61,7 +64,7 @@ def _dynamic_stiffness(
     shape = (len(database.heading), len(database.omega))
     known = np.ones(shape, dtype=bool)
     w = np.broadcast_to(database.omega, shape)
-    if database.speed != 0.0:
+    if isinstance(database, HydroData) and database.speed != 0.0:
         w = encounter_frequency(database)
         known = inside_table(database.omega, w)
         inertia, damping, stiffness = (

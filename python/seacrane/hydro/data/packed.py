@@ -15,6 +15,7 @@ import numpy as np
 
 from seacrane.errors import SceneError
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
 from seacrane.hydro.data.memory_model import (
     FitRow,
@@ -29,8 +30,8 @@ KIND, ARRAY = "$kind", "$array"
 STORED = {"f": "<f8", "c": "<c16", "i": "<i8"}  # types of arrays, by the kind that NumPy calls them
 NOT_PACKED = (ValueError, TypeError, LookupError, AttributeError, RecursionError, SceneError)
 PARTS: tuple[type, ...] = (
-    AdditionalMatrices, RollDamping, DriftCoefficients, MemoryModel, MemoryBlock, FitRow, Passivity,
-    MotionFit, MotionError,
+    AdditionalMatrices, RollDamping, GroupBody, DriftCoefficients, MemoryModel, MemoryBlock, FitRow,
+    Passivity, MotionFit, MotionError,
 )  # fmt: skip
 
 

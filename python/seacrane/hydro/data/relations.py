@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.excitation import full_circle
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
 
 FloatArray = NDArray[np.float64]
@@ -18,7 +19,7 @@ TAIL_REACH, TAIL_POINTS = 30.0, 400
 LARGEST_PHASE_STEP = 2.0  # rad between headings: splines through every second or third heading err by 2 %
 
 
-def damping_from_forces(database: HydroData) -> FloatArray | None:
+def damping_from_forces(database: Hydrodynamics) -> FloatArray | None:
     """Radiation damping (n, 6, 6) from the exciting forces, or None where the headings do not close.
 
     Energy radiated to all directions, with Haskind's relation in deep water (Newman 1977, Marine
@@ -31,24 +32,34 @@ def damping_from_forces(database: HydroData) -> FloatArray | None:
         return None
     beta = np.arange(HEADINGS) * 2.0 * np.pi / HEADINGS
     weights = spline_weights(circle, beta, period=2.0 * np.pi)
-    x = (weights @ force.reshape(len(circle), -1)).reshape(HEADINGS, len(database.omega), 6)
+    x = (weights @ force.reshape(len(circle), -1)).reshape(HEADINGS, *force.shape[1:])
     product = np.einsum("hnj,hnk->njk", x, x.conj()).real * 2.0 * np.pi / HEADINGS
     factor = database.omega**3 / (4.0 * np.pi * database.rho * database.g**3)
     return np.asarray(factor[:, None, None] * product)
 
 
-def resolved_by_headings(database: HydroData) -> NDArray[np.bool_]:
+def resolved_by_headings(database: Hydrodynamics) -> NDArray[np.bool_]:
     """Frequencies (n,) whose force pattern the headings resolve, in deep water.
 
     The force from an end of the ship turns by up to ``k L / 2`` radians of phase per radian of heading.
     """
     circle, _ = full_circle(database)
     gap = np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max()
-    phase = gap * database.omega**2 / database.g * database.length / 2.0
+    phase = gap * database.omega**2 / database.g * _span(database) / 2.0
     return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
-def infinite_added_mass_from_damping(database: HydroData) -> FloatArray:
+def _span(database: Hydrodynamics) -> float:
+    """Length over all of what the waves meet, m."""
+    if isinstance(database, HydroData):
+        return database.length
+    ends = [
+        np.hypot(*body.position[:2]) + 0.5 * np.hypot(body.length, body.breadth) for body in database.bodies
+    ]
+    return float(2.0 * max(ends))
+
+
+def infinite_added_mass_from_damping(database: Hydrodynamics) -> FloatArray:
     """Infinite-frequency added mass (6, 6) that the damping implies, averaged over the trusted band.
 
     Kramers-Kronig (Ogilvie 1964) with the pole subtracted:
@@ -62,12 +73,12 @@ def infinite_added_mass_from_damping(database: HydroData) -> FloatArray:
     return np.asarray(np.mean(estimates, axis=0))
 
 
-def _dispersion_integral(database: HydroData, index: int) -> FloatArray:
+def _dispersion_integral(database: Hydrodynamics, index: int) -> FloatArray:
     """``2 / pi`` times the integral above at one of the database's frequencies, (6, 6)."""
     w, end = float(database.omega[index]), float(database.omega[-1])
     fine = np.linspace(0.0, end, FINE_POINTS)
     knots = np.concatenate([[0.0], database.omega])
-    table = np.concatenate([np.zeros((1, 6, 6)), database.damping])
+    table = np.concatenate([np.zeros_like(database.damping[:1]), database.damping])
     at = database.damping[index]
     right = np.clip(np.searchsorted(knots, fine), 1, len(knots) - 1)
     part = ((fine - knots[right - 1]) / (knots[right] - knots[right - 1]))[:, None, None]
@@ -82,7 +93,7 @@ def _dispersion_integral(database: HydroData, index: int) -> FloatArray:
     return np.asarray(2.0 / np.pi * (body + table[-1] * tail))
 
 
-def retardation_from_damping(database: HydroData, time: FloatArray) -> FloatArray:
+def retardation_from_damping(database: Hydrodynamics, time: FloatArray) -> FloatArray:
     """Retardation functions (t, 6, 6) at ``time`` (t,) in s, from the damping alone.
 
     ``K(t) = 2 / pi integral_0^inf B(w) cos(w t) dw`` (Ogilvie 1964), exact for the damping joined by straight
@@ -96,7 +107,7 @@ def retardation_from_damping(database: HydroData, time: FloatArray) -> FloatArra
     omega = np.concatenate([[0.0], database.omega[:kept], tail])
     fall = ((end / tail) ** TAIL_EXPONENT)[:, None, None]
     last = database.damping[kept - 1]
-    damping = np.concatenate([np.zeros((1, 6, 6)), database.damping[:kept], last * fall])
+    damping = np.concatenate([np.zeros_like(database.damping[:1]), database.damping[:kept], last * fall])
     slope = np.diff(damping, axis=0) / np.diff(omega)[:, None, None]
     late = np.asarray(time, dtype=float) * end > 1e-6
     t = np.where(late, time, 1.0)[:, None]

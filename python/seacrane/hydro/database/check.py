@@ -58,8 +58,8 @@ def check_database(database: HydroData) -> list[CheckRow]:
     is zero.
     """
     rows = [
-        _info("mass_t", database.mass_matrix[0, 0] / 1e3),
-        _info("GM_of_C44_and_mass_m", metacentric_height(database)),
+        info("mass_t", database.mass_matrix[0, 0] / 1e3),
+        info("GM_of_C44_and_mass_m", metacentric_height(database)),
         *_closure_rows(database),
         *_matrix_rows(database),
         *_natural_period_rows(database),
@@ -78,26 +78,24 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     rows = []
     for row in model.rows:
         suffix = f"{row.output + 1}{row.input + 1}" + ("" if row.cause == RADIATION else "_additional")
-        rows.append(_at_least(f"memory_r2_added_mass_{suffix}", row.r2_added_mass, model.r2))
-        rows.append(_at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
+        rows.append(at_least(f"memory_r2_added_mass_{suffix}", row.r2_added_mass, model.r2))
+        rows.append(at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
     slowest = min((row.slowest_decay for row in model.rows), default=np.inf)
-    rows.append(_info("memory_states", float(model.states)))
+    rows.append(info("memory_states", float(model.states)))
     if model.motion is not None:
-        rows.append(_at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
-        rows.append(_info("memory_motion_error_of_convolution", model.motion.floor))
-    rows.append(_at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
+        rows.append(at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
+        rows.append(info("memory_motion_error_of_convolution", model.motion.floor))
+    rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
+    rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
+    rows.append(at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
+    rows.append(at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
     rows.append(
-        _info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0))
-    )
-    rows.append(_at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
-    rows.append(_at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
-    rows.append(
-        _at_most("vessel_with_memory_growth_per_s", largest_growth_rate(database, model), GROWTH_LIMIT)
+        at_most("vessel_with_memory_growth_per_s", largest_growth_rate(database, model), GROWTH_LIMIT)
     )
     known = database.infinite_frequency_added_mass
     if known is not None:
         rows.append(
-            _info(
+            info(
                 "memory_infinite_added_mass_against_database",
                 _against_range(database, model.added_mass - known),
             )
@@ -124,7 +122,7 @@ def _closure_rows(database: HydroData) -> list[CheckRow]:
     error = np.where(inside[:, :, None], np.abs(solved - given), 0.0).max(axis=(0, 1))
     errors = np.where(largest > 0.0, error / np.where(largest > 0.0, largest, 1.0), 0.0)
     limits = database.motion_rao_limit.tolist()
-    return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
+    return [at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
 
 
 def _least_motions(database: HydroData, given: ComplexArray) -> FloatArray:
@@ -151,23 +149,28 @@ def _matrix_rows(database: HydroData) -> list[CheckRow]:
     inside = in_trusted_band(database)
     added_mass, damping = database.added_mass[inside], database.damping[inside]
     for name, matrix in (("added_mass", added_mass), ("damping", damping)):
-        scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=1, axis2=2)).max(axis=0))
-        product = np.outer(scale, scale)
-        skew = np.abs(matrix - matrix.swapaxes(1, 2)).max(axis=0)
-        asymmetry = np.where(product > 0.0, skew / np.where(product > 0.0, product, 1.0), 0.0).max()
+        asymmetry = skewness(matrix).max()
         label = f"symmetry_{name}"
-        rows.append(_info(label, asymmetry) if moving else _at_most(label, float(asymmetry), SYMMETRY_LIMIT))
-    label, smallest = "damping_smallest_eigenvalue", _smallest_damping(damping)
-    rows.append(_info(label, smallest) if moving else _at_least(label, smallest, DAMPING_LIMIT))
-    rows.append(_info("surge_terms_missing", float(_surge_is_missing(database))))
+        rows.append(info(label, asymmetry) if moving else at_most(label, float(asymmetry), SYMMETRY_LIMIT))
+    label, smallest = "damping_smallest_eigenvalue", smallest_damping(damping)
+    rows.append(info(label, smallest) if moving else at_least(label, smallest, DAMPING_LIMIT))
+    rows.append(info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows
+
+
+def skewness(matrices: FloatArray) -> FloatArray:
+    """Largest ``X_jk - X_kj`` (m, m) over the frequencies, by the largest diagonals of both motions."""
+    scale = np.sqrt(np.abs(np.diagonal(matrices, axis1=1, axis2=2)).max(axis=0))
+    product = np.outer(scale, scale)
+    skew = np.abs(matrices - matrices.swapaxes(1, 2)).max(axis=0)
+    return np.asarray(np.where(product > 0.0, skew / np.where(product > 0.0, product, 1.0), 0.0))
 
 
 def _surge_is_missing(database: HydroData) -> bool:
     return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
 
 
-def _smallest_damping(damping: FloatArray) -> float:
+def smallest_damping(damping: FloatArray) -> float:
     """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
     peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
     active = peak > 0.0
@@ -182,7 +185,7 @@ def _natural_period_rows(database: HydroData) -> list[CheckRow]:
     for name in ("heave", "roll", "pitch"):
         omega = natural_frequency(database, MOTIONS.index(name))
         if omega is not None:
-            rows.append(_info(f"natural_period_{name}_s", 2.0 * np.pi / omega))
+            rows.append(info(f"natural_period_{name}_s", 2.0 * np.pi / omega))
     return rows
 
 
@@ -198,7 +201,7 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
             if peak > 0.0 and np.any(inside):
                 error = np.abs(radiated - database.damping)[inside, i, i].max() / peak
                 label = f"damping_from_forces_{name}"
-                rows.append(_info(label, error) if strip else _at_most(label, error, FORCE_DAMPING_LIMIT))
+                rows.append(info(label, error) if strip else at_most(label, error, FORCE_DAMPING_LIMIT))
     if database.infinite_frequency_added_mass is not None:
         estimate = infinite_added_mass_from_damping(database)
         difference = estimate - database.infinite_frequency_added_mass
@@ -206,7 +209,7 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
             span = float(np.ptp(database.added_mass[:, i, i]))
             if span > 0.0:
                 rows.append(
-                    _at_most(
+                    at_most(
                         f"kramers_kronig_{name}", float(abs(difference[i, i]) / span), KRAMERS_KRONIG_LIMIT
                     )
                 )
@@ -216,7 +219,7 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
 def memory_motion_rows(database: HydroData, model: MemoryModel | RetardationModel) -> list[CheckRow]:
     """Motions with the memory's matrices against those with the data, within the trusted band."""
     errors = memory_motion_errors(database, model)
-    return [_info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
+    return [info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
 
 
 def _against_range(database: HydroData, difference: FloatArray) -> float:
@@ -225,16 +228,16 @@ def _against_range(database: HydroData, difference: FloatArray) -> float:
     return float(np.max(np.abs(np.diag(difference)) / np.where(span > 0.0, span, np.inf)))
 
 
-def _at_most(check: str, value: float, limit: float) -> CheckRow:
+def at_most(check: str, value: float, limit: float) -> CheckRow:
     return CheckRow(
         check=check, value=float(value), limit=limit, verdict="pass" if value <= limit else "fail"
     )
 
 
-def _at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
+def at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
     good = value > limit if strict else value >= limit
     return CheckRow(check=check, value=float(value), limit=limit, verdict="pass" if good else "fail")
 
 
-def _info(check: str, value: float) -> CheckRow:
+def info(check: str, value: float) -> CheckRow:
     return CheckRow(check=check, value=float(value), limit=None, verdict="info")

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
+from seacrane.hydro.data.hydro_data import AdditionalMatrices
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import (
     RADIATION,
     FitRow,
@@ -19,6 +20,7 @@ from seacrane.hydro.data.memory_model import (
 )
 from seacrane.hydro.memory.entries import dissipation_limit, memory_entries
 from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_order, r_squared
+from seacrane.hydro.memory.joined_oscillators import Parts, joined, with_more
 from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.motion_judge import MotionJudge, motion_judge
 from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem, fit_to_motions
@@ -42,7 +44,7 @@ ADDITIONAL_ORDERS = range(2, 11)
 
 
 def fit_by_motion(
-    *, database: HydroData, band: tuple[float, float], known: FloatArray | None, limit: float
+    *, database: Hydrodynamics, band: tuple[float, float], known: FloatArray | None, limit: float
 ) -> MemoryModel:
     """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
 
@@ -60,12 +62,13 @@ def fit_by_motion(
     infinite = _constant(database, judge)
     for group in motion_groups(kept):
         fit = _Group(judge, grid, band, group, known)
-        block, inner = fit.lowest_order(SHARE * limit)
+        model = fit.lowest_order(SHARE * limit, _by_hull(judge, grid, band, group, known, SHARE * limit))
+        block, inner = fit.block(model), fit.infinite(model)
         blocks.append(block)
         infinite[np.ix_(group, group)] = inner
     if known is not None:
         infinite = known
-    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    mass, stiffness = np.zeros_like(infinite), np.zeros_like(infinite)
     for part in database.additional:
         more, inertia, spring = _additional(database, part, judge, grid, band, 0.5 * limit)
         blocks += more
@@ -84,7 +87,7 @@ def fit_by_motion(
 
 
 def felt_pairs(
-    database: HydroData, judge: MotionJudge, limit: float
+    database: Hydrodynamics, judge: MotionJudge, limit: float
 ) -> tuple[Pairs, tuple[tuple[int, int], ...]]:
     """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, undamped, or felt by no motion.
 
@@ -111,27 +114,54 @@ def felt_pairs(
 def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
     """Change of impedance (n, 6, 6) if pairs had no damping and a constant added mass."""
     w = judge.omega
-    out = np.zeros((len(w), 6, 6), dtype=complex)
+    out = np.zeros(judge.damping.shape, dtype=complex)
     for j, k in pairs:
         variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
         out[:, j, k] = out[:, k, j] = w**2 * variation - 1j * w * judge.damping[:, j, k]
     return out
 
 
-def _constant(database: HydroData, judge: MotionJudge) -> FloatArray:
+def _constant(database: Hydrodynamics, judge: MotionJudge) -> FloatArray:
     """Added mass (6, 6) of entries without memory: its mean over the band, zero where symmetry says so."""
     mean = judge.added_mass.mean(axis=0)
     if database.port_starboard_symmetric:
-        mean = np.where(np.add.outer(np.arange(6), np.arange(6)) % 2, 0.0, mean)
+        motion = np.arange(len(mean))
+        mean = np.where(np.add.outer(motion, motion) % 2, 0.0, mean)
     return np.asarray(mean)
 
 
-def _grid(database: HydroData, judge: MotionJudge, band: tuple[float, float]) -> FloatArray:
+def _grid(database: Hydrodynamics, judge: MotionJudge, band: tuple[float, float]) -> FloatArray:
     """Frequencies of the fit: the database's, and some about each resonance."""
     low, high = band
     below = database.omega[database.omega < BEYOND_BAND * high]
     about = judge.about_peaks[(judge.about_peaks > low) & (judge.about_peaks < high)]
     return np.unique(np.concatenate([below, about]))
+
+
+def _by_hull(
+    judge: MotionJudge,
+    omega: FloatArray,
+    band: tuple[float, float],
+    group: list[int],
+    known: FloatArray | None,
+    limit: float,
+) -> Parts:
+    """Models of the motions that a hull alone keeps apart, where a group has motions of several hulls.
+
+    Surge, heave and pitch of each hull, and sway, roll and yaw: a few masses each, found quickly.
+    """
+    hulls = sorted({motion // 6 for motion in group})
+    if len(hulls) < 2:
+        return []
+    sets = [[m for m in group if m // 6 == hull and m % 2 == side] for hull in hulls for side in (0, 1)]
+    return [
+        (
+            [group.index(m) for m in motions],
+            _Group(judge, omega, band, motions, known).lowest_order(limit, []),
+        )
+        for motions in sets
+        if motions
+    ]
 
 
 class _Group:
@@ -161,23 +191,26 @@ class _Group:
         pair = np.triu_indices(len(group))
         self.data = MotionData(group=data, lever=judge.lever(omega, group) * self.product[pair])
 
-    def lowest_order(self, limit: float) -> tuple[MemoryBlock, FloatArray]:
-        """Block and infinite-frequency added mass (m, m) of the fewest masses that keep the limit."""
+    def lowest_order(self, limit: float, parts: Parts) -> Oscillators:
+        """Model of the fewest masses that keeps the limit, beginning with those of ``parts`` together."""
         best: tuple[float, Oscillators] | None = None
         model: Oscillators | None = None
         idle = 0
         for _ in range(max(MOST_MASSES, 2 * len(self.group)) + 1):
-            model = fit_to_motions(self.data, model)
+            if parts:
+                model = joined(self.data, parts) if model is None else with_more(self.data, model)
+            else:
+                model = fit_to_motions(self.data, model)
             error = self._error(model).of(self.group)
             idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1
             if best is None or error < best[0]:
                 best = (error, model)
-            if error <= limit or idle == PATIENCE:
+            if error <= limit or idle == (1 if parts else PATIENCE):
                 break
         assert best is not None
-        return self._block(best[1]), self._infinite(best[1])
+        return best[1]
 
-    def _infinite(self, model: Oscillators) -> FloatArray:
+    def infinite(self, model: Oscillators) -> FloatArray:
         inner = MotionProblem(self.data, len(model.w)).infinite(model)
         return np.asarray(inner * self.product)
 
@@ -185,12 +218,12 @@ class _Group:
         judge, w = self.judge, self.judge.omega[:, None, None]
         square = np.ix_(range(len(judge.omega)), self.group, self.group)
         misfit = model.transfer(judge.omega) * self.product - judge.damping[square]
-        inertia = self._infinite(model) - judge.added_mass[square]
-        out = np.zeros((len(judge.omega), 6, 6), dtype=complex)
+        inertia = self.infinite(model) - judge.added_mass[square]
+        out = np.zeros(judge.damping.shape, dtype=complex)
         out[square] = 1j * w * misfit - w**2 * inertia
         return judge.error(out)
 
-    def _block(self, model: Oscillators) -> MemoryBlock:
+    def block(self, model: Oscillators) -> MemoryBlock:
         """Block in SI units; its states carry the root of an energy, ``|x|^2 / 2`` in joule."""
         a, b, _ = model.state_space()
         b = b * self.scale
@@ -203,12 +236,12 @@ class _Group:
             B=b,
             C=b.T.copy(),
             D=np.zeros((len(motions), len(motions))),
-            state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions]),
+            state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions % 6]),
         )
 
 
 def _additional(
-    database: HydroData,
+    database: Hydrodynamics,
     part: AdditionalMatrices,
     judge: MotionJudge,
     omega: FloatArray,
@@ -224,7 +257,7 @@ def _additional(
     at_judge = [CubicSpline(database.omega, table)(judge.omega) for table in (a, b)]
     blocks: list[MemoryBlock] = []
     fits: dict[tuple[int, int], RationalFit] = {}
-    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    mass, stiffness = np.zeros_like(a[0]), np.zeros_like(a[0])
     for j, k in memory_entries(a, b, database.omega):
         lever = judge.lever(omega, [j]) if j == k else judge.lever(omega, [j, k])[:, :, 1:2]
         data = IdentificationData(
@@ -266,7 +299,7 @@ def _lowest_additional(
         start = [parameters]
         kernel = np.polyval(fit.numerator, 1j * w) / np.polyval(fit.denominator, 1j * w)
         model = 1j * w * kernel - w**2 * fit.added_mass_infinite + fit.static_stiffness
-        out = np.zeros((len(w), 6, 6), dtype=complex)
+        out = np.zeros(judge.damping.shape, dtype=complex)
         out[:, j, k] = out[:, k, j] = model - (1j * w * table[1][:, j, k] - w**2 * table[0][:, j, k])
         error = judge.error(out).worst
         if best is not None and abs(fit.added_mass_infinite) > MOST_INERTIA * inertia:
@@ -280,7 +313,7 @@ def _lowest_additional(
 
 
 def _judged(
-    database: HydroData,
+    database: Hydrodynamics,
     model: MemoryModel,
     judge: MotionJudge,
     pairs: Pairs,
@@ -299,7 +332,7 @@ def _judged(
     return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
 
 
-def _rows(database: HydroData, model: MemoryModel, pairs: Pairs, accepted: bool) -> Iterator[FitRow]:
+def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, accepted: bool) -> Iterator[FitRow]:
     low, high = model.band
     inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
     tables = {RADIATION: (database.added_mass, database.damping)}

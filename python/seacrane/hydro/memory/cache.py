@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
@@ -59,7 +59,7 @@ def shipped_folder() -> Path:
     return Path(str(files("seacrane") / "data" / "memory"))
 
 
-def kept_fit(database: HydroData, settings: FitSettings) -> MemoryModel | None:
+def kept_fit(database: Hydrodynamics, settings: FitSettings) -> MemoryModel | None:
     """The model that this fit gave before, or None."""
     name = digest(database, settings)
     if name in _of_process:
@@ -75,14 +75,14 @@ def kept_fit(database: HydroData, settings: FitSettings) -> MemoryModel | None:
     return None
 
 
-def keep_fit(database: HydroData, settings: FitSettings, model: MemoryModel) -> None:
+def keep_fit(database: Hydrodynamics, settings: FitSettings, model: MemoryModel) -> None:
     """Keep a model for the next time; a folder that cannot be written is passed over."""
     name = digest(database, settings)
     _of_process[name] = model
     keep_file(cache_folder(), f"{name}{SUFFIX}", packed(model))
 
 
-def digest(database: HydroData, settings: FitSettings) -> str:
+def digest(database: Hydrodynamics, settings: FitSettings) -> str:
     """The digest of everything that a fit depends on, as hexadecimal text."""
     parts = hashlib.sha256(json.dumps([VERSION, asdict(settings)]).encode())
     for name in USED:

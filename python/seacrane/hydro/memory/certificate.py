@@ -120,7 +120,8 @@ def is_energy_form(block: MemoryBlock) -> bool:
 def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """A, B, C, D of all blocks over the motions they touch, each motion and state scaled to order one."""
     count = sum(len(block.A) for block in blocks)
-    a, b, c, d = np.zeros((count, count)), np.zeros((count, 6)), np.zeros((6, count)), np.zeros((6, 6))
+    m = 1 + max(int(max(block.outputs.max(), block.inputs.max())) for block in blocks)
+    a, b, c, d = np.zeros((count, count)), np.zeros((count, m)), np.zeros((m, count)), np.zeros((m, m))
     start = 0
     for block in blocks:
         rows = slice(start, start + len(block.A))

@@ -25,8 +25,9 @@ def memory_entries(
     """
     variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
     diagonal = np.sqrt(np.diag(variation))
-    for offset in range(6):  # diagonals first: they bound the damping of the others
-        for j in range(6 - offset):
+    motions = len(diagonal)
+    for offset in range(motions):  # diagonals first: they bound the damping of the others
+        for j in range(motions - offset):
             k = j + offset
             if symmetric and offset % 2:
                 continue

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.encounter import require_zero_speed
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
 from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.by_motion import fit_by_motion
@@ -35,7 +36,7 @@ R2 = 0.99
 @one_thread
 def fit_memory(
     *,
-    database: HydroData,
+    database: Hydrodynamics,
     band: tuple[float, float] | None = None,
     r2: float | None = None,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
@@ -46,7 +47,8 @@ def fit_memory(
 
     Parameters
     ----------
-    database : added mass and damping, made symmetric here.
+    database : added mass and damping, made symmetric here; of a `HydroGroup`, the memory of all its motions
+        together, of kind "by-motion".
     band : (low, high) in rad/s over which the fit is judged; default: the database's trusted band, else all
         of it.
     r2 : of kinds "per-pair" and "passive": coefficient of determination that added mass *and* damping of
@@ -85,7 +87,14 @@ def fit_memory(
     stiffness and a model of their own, in which the retardation function need not vanish at zero frequency,
     always of the per-pair kind.
     """
-    require_zero_speed(database)
+    if isinstance(database, HydroData):
+        require_zero_speed(database)
+    elif kind != BY_MOTION:
+        raise ValueError(
+            f"group {database.name!r}: memory of kind {kind!r} is of one hull; use kind='by-motion', "
+            "which keeps "
+            "all motions together passive"
+        )
     target = _target(kind, r2=r2, limit=limit)
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
@@ -116,7 +125,7 @@ def fit_memory(
     model = kept_fit(database, settings)
     if model is None:
         symmetric = None if known is None else 0.5 * (known + known.T)
-        if kind == BY_MOTION:
+        if not isinstance(database, HydroData) or kind == BY_MOTION:
             model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=target)
         else:
             model = _fit_to_data(database, known, settings.band, trusted, target, kind)
@@ -176,7 +185,7 @@ def _fit_to_data(
     return model
 
 
-def enough_frequencies(database: HydroData) -> bool:
+def enough_frequencies(database: Hydrodynamics) -> bool:
     """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
     inside = in_trusted_band(database)
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)

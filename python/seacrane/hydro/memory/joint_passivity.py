@@ -15,7 +15,7 @@ def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[
     radiation = [block for block in blocks if block.cause == RADIATION]
 
     def smallest(omega: FloatArray) -> tuple[float, float]:
-        total = np.zeros((len(omega), 6, 6))
+        total = np.zeros((len(omega), *damping.shape[1:]))
         for block in radiation:
             total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
         lowest = scaled_damping(total, damping)
@@ -28,7 +28,7 @@ def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[
 
 
 def scaled_damping(damping: FloatArray, data: FloatArray) -> FloatArray:
-    """Smallest eigenvalues (n,) of ``damping`` (n, 6, 6), scaled by the largest diagonals of ``data``."""
+    """Smallest eigenvalues (n,) of ``damping`` (n, m, m), scaled by the largest diagonals of ``data``."""
     peak = np.sqrt(np.maximum(np.diagonal(data, axis1=1, axis2=2).max(axis=0), 1e-300))
     active = peak > 1e-6 * peak.max()
     scaled = (0.5 * (damping + damping.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]

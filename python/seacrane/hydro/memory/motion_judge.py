@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
 from seacrane.hydro.memory.retardation import RetardationModel
 
@@ -24,7 +24,7 @@ FAINT = 1e-4  # share of the largest motion below which a motion is not there
 
 
 class MotionJudge:
-    """The motions of one database, with its springs and viscous damping, and the seas that weigh them.
+    """The motions of a database or a group, with springs and viscous damping, and the seas that weigh them.
 
     Attributes
     ----------
@@ -32,10 +32,12 @@ class MotionJudge:
     added_mass, damping : (n, 6, 6) radiation, made symmetric.
     motion : (m, n, 6) per metre of wave amplitude.
     moves : (6,) bool, what is more than noise. variance : (seas, 6) of each motion at its largest heading.
+
+    Of a group of k hulls 6 stands for 6 k.
     about_peaks : frequencies about each resonance, rad/s.
     """
 
-    def __init__(self, database: HydroData, band: tuple[float, float]) -> None:
+    def __init__(self, database: Hydrodynamics, band: tuple[float, float]) -> None:
         self.table = _Table(database)
         coarse = np.linspace(*band, 4 * GRID)
         peaks = _Solved(self.table, coarse).peak_frequencies()
@@ -48,7 +50,8 @@ class MotionJudge:
         self.weights = _sea_energies(self.omega)
         variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
         size = np.abs(self.motion).max(axis=(0, 1))
-        self.moves = size > FAINT * np.where(np.arange(6) < 3, size[:3].max(), size[3:].max())
+        rotation = np.arange(len(size)) % 6 > 2
+        self.moves = size > FAINT * np.where(rotation, size[rotation].max(), size[~rotation].max())
         self.variance = np.maximum(variance, 1e-300)
 
     def error(self, difference: ComplexArray) -> MotionError:
@@ -58,8 +61,8 @@ class MotionJudge:
         variance = np.einsum("sn,mni->smi", self.weights, apart**2)
         share = np.sqrt(variance.max(axis=1) / self.variance)
         seas = np.where(self.moves, share, 0.0).max(axis=0)
-        peaks = np.zeros(6)
-        for i in RESONANT:
+        peaks = np.zeros(len(self.moves))
+        for i in resonant_motions(len(peaks)):
             if self.moves[i]:
                 heading, at = np.unravel_index(int(np.abs(self.motion[..., i]).argmax()), apart.shape[:2])
                 peaks[i] = apart[heading, at, i] / np.abs(self.motion[heading, at, i])
@@ -99,15 +102,20 @@ class MotionJudge:
 
 
 @lru_cache(maxsize=8)
-def motion_judge(database: HydroData, band: tuple[float, float]) -> MotionJudge:
+def motion_judge(database: Hydrodynamics, band: tuple[float, float]) -> MotionJudge:
     """One for each database and band of a process."""
     return MotionJudge(database, band)
+
+
+def resonant_motions(count: int) -> list[int]:
+    """Heave, roll and pitch of each hull, of ``count`` motions."""
+    return [i for i in range(count) if i % 6 in RESONANT]
 
 
 class _Table:
     """Splines of a database over the frequency."""
 
-    def __init__(self, database: HydroData) -> None:
+    def __init__(self, database: Hydrodynamics) -> None:
         from scipy.interpolate import CubicSpline
 
         def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
@@ -120,7 +128,7 @@ class _Table:
         self.added_mass = spline(symmetric(database.added_mass))
         self.damping = spline(symmetric(database.damping))
         w = database.omega[:, None, None]
-        nothing = np.zeros((len(database.omega), 6, 6), dtype=complex)
+        nothing = np.zeros(database.added_mass.shape, dtype=complex)
         self.additional = spline(
             sum(
                 (
@@ -145,9 +153,10 @@ class _Solved:
         self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
         self.additional, self.force = table.additional(omega), table.force(omega)
         self.memory = -(w**2) * self.added_mass + 1j * w * self.damping + self.additional
-        self.static = sum((part.restoring[0] for part in database.additional), np.zeros((6, 6)))
-        heavy = np.zeros(6)
-        heavy[[0, 1, 5]] = (database.mass_matrix + self.added_mass[-1])[[0, 1, 5], [0, 1, 5]]
+        nothing = np.zeros(database.mass_matrix.shape)
+        self.static = sum((part.restoring[0] for part in database.additional), nothing)
+        held = np.isin(np.arange(len(nothing)) % 6, (0, 1, 5))
+        heavy = np.where(held, np.diag(database.mass_matrix + self.added_mass[-1]), 0.0)
         spring = 2.0 * np.pi / SPRING_PERIOD
         still = -(w**2) * database.mass_matrix + 1j * w * database.linear_damping + database.restoring
         still = still + np.diag(heavy) * (spring**2 + 2j * w * SPRING_DAMPING * spring)
@@ -164,7 +173,7 @@ class _Solved:
     def peak_frequencies(self) -> list[tuple[float, float]]:
         """Frequency and half width over it of the resonances of heave, roll and pitch."""
         found = []
-        for i in RESONANT:
+        for i in resonant_motions(len(self.static)):
             size = np.abs(self.receptance[:, i, i])
             at = int(size.argmax())
             if not 0 < at < len(size) - 1:

@@ -19,6 +19,7 @@ from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+Places = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 DATA_WEIGHT = 0.05  # of the misfit of A and B, beside that of the motions: keeps what no motion feels sane
 PLACES = 6  # tried for each new mass
@@ -75,13 +76,16 @@ def _one_more(data: GroupData, lower: Oscillators) -> list[Oscillators]:
 class MotionProblem(Problem):
     """Least squares of the misfit of the motions, and a little of that of B and A, over log w, L and b.
 
-    The infinite-frequency added mass enters both linearly and is eliminated from them together.
+    The infinite-frequency added mass enters both linearly and is eliminated from them together. ``damped``
+    are the entries of L that are searched, all of the lower triangle where it is None.
     """
 
     floor = FLOOR
 
-    def __init__(self, data: MotionData, masses: int) -> None:
+    def __init__(self, data: MotionData, masses: int, damped: Places | None = None) -> None:
         super().__init__(data.group, masses)
+        if damped is not None:
+            self.lower = damped
         w = data.group.omega[:, None]
         self.weigh = self._weights(data.lever)
         self.target = data.group.damping[:, self.j, self.k] + 1j * w * (

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
+from seacrane.hydro.data.hydro_data import AdditionalMatrices
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
@@ -84,7 +85,7 @@ class RetardationModel:
 
 @one_thread
 def retardation_functions(
-    *, database: HydroData, step: float | None = None, duration: float | None = None
+    *, database: Hydrodynamics, step: float | None = None, duration: float | None = None
 ) -> RetardationModel:
     """Retardation functions ``K(tau) = 2 / pi integral_0^inf B(omega) cos(omega tau) domega`` of a database.
 
@@ -128,7 +129,7 @@ def retardation_functions(
             f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
         )
     added_mass, damping = _symmetric(database.added_mass), _symmetric(database.damping)
-    active = np.zeros((6, 6), dtype=bool)
+    active = np.zeros(added_mass.shape[1:], dtype=bool)
     for j, k in memory_entries(added_mass, damping, database.omega):
         active[j, k] = active[k, j] = True
     damping = damping * active
@@ -140,7 +141,7 @@ def retardation_functions(
     estimates = added_mass - response.imag / database.omega[:, None, None]
     infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
     misfit = estimates - infinite
-    additional, mass, stiffness = np.zeros_like(radiation), np.zeros((6, 6)), np.zeros((6, 6))
+    additional, mass, stiffness = np.zeros_like(radiation), np.zeros_like(infinite), np.zeros_like(infinite)
     for part in database.additional:
         more = _additional(database, part, tau[:samples], inside)
         additional, mass, stiffness = additional + more[0], mass + more[1], stiffness + more[2]
@@ -252,7 +253,7 @@ def _tapered(kernel: FloatArray) -> FloatArray:
 
 
 def _additional(
-    database: HydroData, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
+    database: Hydrodynamics, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     damping, added_mass = _symmetric(part.damping), _symmetric(part.added_mass)
@@ -260,9 +261,9 @@ def _additional(
     omega = database.omega[inside]
     transfer = transform(kernel, float(tau[1]), omega)
     rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
-    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    mass, stiffness = np.zeros(rest.shape[1:]), np.zeros(rest.shape[1:])
     columns = np.stack([omega**2, -np.ones_like(omega)], axis=1)
-    for j, k in np.ndindex(6, 6):
+    for j, k in np.ndindex(*mass.shape):
         strength = np.abs(damping[inside, j, k])
         weight = strength / strength.max() if strength.any() else np.ones_like(omega)
         target = rest[:, j, k] * weight

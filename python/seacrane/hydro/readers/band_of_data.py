@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.group.group import HydroGroup
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import RoughDataWarning
 
@@ -40,6 +41,34 @@ def with_band_of_data(database: HydroDatabase) -> HydroDatabase:
         RoughDataWarning,
     )
     return replace(database, trusted_band=(low, high))
+
+
+def with_band_of_group(group: HydroGroup) -> HydroGroup:
+    """`with_band_of_data` of a group: the band ends below the first jump of any of its hulls.
+
+    Warns
+    -----
+    RoughDataWarning : its matrices jump; a resonance of the water between hulls is one where the frequencies
+        are too far apart to show its shape.
+    """
+    found = {name: first_rough_value(hull) for name, hull in group.hulls.items()}
+    rough = {name: each for name, each in found.items() if each is not None and each[0] >= 2}
+    if group.trusted_band is not None or not rough:
+        return group
+    name = min(rough, key=lambda each: rough[each][0])
+    at, entry = rough[name]
+    low, high = float(group.omega[0]), float(group.omega[at - 1])
+    warn_caller(
+        f"group {group.name!r}: its files do not say how far their panels can be trusted, and {entry} of "
+        f"{name} "
+        f"jumps at {group.omega[at]:.4g} rad/s, as of waves too short for the panels, of an irregular "
+        "frequency, or of a resonance of the water between the hulls that the frequencies do not "
+        "resolve. The "
+        f"trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one give "
+        "load_database(path, trusted_band=(low, high)) in rad/s; group.check() tells the causes apart",
+        RoughDataWarning,
+    )
+    return replace(group, trusted_band=(low, high))
 
 
 def first_rough_value(database: HydroData) -> tuple[int, str] | None:

@@ -8,10 +8,12 @@ waterline above its centre of gravity.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +29,7 @@ from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
 
 FloatArray = NDArray[np.float64]
+Read = TypeVar("Read")
 
 HDF5 = (".h5", ".hdf5")
 PARAMETERS = "simulation_parameters"
@@ -57,18 +60,29 @@ def read_bemio(path: str | PathLike[str], *, mass_matrix: ArrayLike | None = Non
         the entry.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a BEMIO file")
+    return with_band_of_data(from_bemio(source, lambda file: _convert(source, file, mass_matrix)))
+
+
+def from_bemio(path: Path, convert: Callable[[Any], Read]) -> Read:
+    """What ``convert`` makes of the file; any damage is a FileFormatError."""
+    if not path.is_file():
+        raise FileFormatError(f"{path}: no such file; give the path of a BEMIO file")
     try:
-        with open_hdf5(source) as file:
-            found = _convert(source, file, mass_matrix)
+        with open_hdf5(path) as file:
+            return convert(file)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{source}: cannot be read as a BEMIO file ({str(error)[:200]}); write it again"
+            f"{path}: cannot be read as a BEMIO file ({str(error)[:200]}); write it again"
         ) from error
-    return with_band_of_data(found)
+
+
+def bodies_in(file: Any) -> list[str]:
+    """``body1`` on, as far as there are."""
+    return sorted(
+        (name for name in file if re.fullmatch(r"body\d{1,3}", name)), key=lambda name: int(name[4:])
+    )
 
 
 def is_bemio(path: Path) -> bool:
@@ -83,31 +97,33 @@ def is_bemio(path: Path) -> bool:
 
 
 def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatabase:
-    bodies = sorted(name for name in file if name.startswith("body"))
+    bodies = bodies_in(file)
     if len(bodies) != 1:
-        raise FileFormatError(f"{path}: holds {', '.join(bodies)[:200] or 'no body'}; one body is read")
-    body = bodies[0]
-    if f"{PARAMETERS}/scaled" in file and _number(path, file, f"{PARAMETERS}/scaled") != 0.0:
-        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
-    rho, g, depth = (_number(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
-    if not (rho > 0.0 and g > 0.0 and depth > 0.0):
         raise FileFormatError(
-            f"{path}: rho is {rho:g} kg/m3, g {g:g} m/s2, water_depth {depth:g} m; all must be positive"
+            f"{path}: holds {', '.join(bodies)[:200] or 'no body'}; one body is read, several by "
+            "load_database "
+            "and read_bemio_group"
         )
-    omega = np.ravel(_array(path, file, f"{PARAMETERS}/w"))
+    body = bodies[0]
+    rho, g, depth = water_in(path, file)
+    omega = np.ravel(values_of(path, file, f"{PARAMETERS}/w"))
     order = np.argsort(omega)
-    direction, places = rising_directions(np.radians(np.ravel(_array(path, file, f"{PARAMETERS}/wave_dir"))))
-    n, m = len(omega), len(np.ravel(_array(path, file, f"{PARAMETERS}/wave_dir")))
+    direction, places = rising_directions(
+        np.radians(np.ravel(values_of(path, file, f"{PARAMETERS}/wave_dir")))
+    )
+    n, m = len(omega), len(np.ravel(values_of(path, file, f"{PARAMETERS}/wave_dir")))
     of = f"{body}/hydro_coeffs"
-    added_mass = rho * _array(path, file, f"{of}/added_mass/all", (6, 6, n)).transpose(2, 0, 1)[order]
-    damping = rho * (_array(path, file, f"{of}/radiation_damping/all", (6, 6, n)) * omega).transpose(2, 0, 1)
-    infinite = rho * _array(path, file, f"{of}/added_mass/inf_freq", (6, 6))
-    restoring = rho * g * _array(path, file, f"{of}/linear_restoring_stiffness", (6, 6))
-    parts = (_array(path, file, f"{of}/excitation/{part}", (6, m, n)) for part in ("re", "im"))
+    added_mass = rho * values_of(path, file, f"{of}/added_mass/all", (6, 6, n)).transpose(2, 0, 1)[order]
+    damping = rho * (values_of(path, file, f"{of}/radiation_damping/all", (6, 6, n)) * omega).transpose(
+        2, 0, 1
+    )
+    infinite = rho * values_of(path, file, f"{of}/added_mass/inf_freq", (6, 6))
+    restoring = rho * g * values_of(path, file, f"{of}/linear_restoring_stiffness", (6, 6))
+    parts = (values_of(path, file, f"{of}/excitation/{part}", (6, m, n)) for part in ("re", "im"))
     real, imaginary = parts
     force = rho * g * (real + 1j * imaginary).transpose(1, 2, 0)[places][:, order]
-    centre = np.ravel(_array(path, file, f"{body}/properties/cg"))[:3]
-    mass = rho * _number(path, file, f"{body}/properties/disp_vol")
+    centre = np.ravel(values_of(path, file, f"{body}/properties/cg"))[:3]
+    mass = rho * number_of(path, file, f"{body}/properties/disp_vol")
     box = equivalent_box(restoring, mass / rho, rho * g)
     if mass_matrix is None:
         mass_matrix = usual_mass_matrix(
@@ -143,19 +159,31 @@ def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatab
     )
 
 
-def _array(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> FloatArray:
+def water_in(path: Path, file: Any) -> tuple[float, float, float]:
+    """Density, gravity and depth of an unscaled file."""
+    if f"{PARAMETERS}/scaled" in file and number_of(path, file, f"{PARAMETERS}/scaled") != 0.0:
+        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
+    rho, g, depth = (number_of(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
+    if not (rho > 0.0 and g > 0.0 and depth > 0.0):
+        raise FileFormatError(
+            f"{path}: rho is {rho:g} kg/m3, g {g:g} m/s2, water_depth {depth:g} m; all must be positive"
+        )
+    return rho, g, depth
+
+
+def values_of(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> FloatArray:
     """An entry's numbers; of a shape."""
     if name not in file:
         raise FileFormatError(f"{path}: {name} is missing; write the whole BEMIO file")
     values = np.asarray(file[name][()], dtype=float)
     if shape is not None and values.shape != shape:
         raise FileFormatError(
-            f"{path}: {name} has shape {values.shape}; {shape} is needed, of one body with six motions"
+            f"{path}: {name} has shape {values.shape}; {shape} is needed, of six motions for each body"
         )
     return values
 
 
-def _number(path: Path, file: Any, name: str) -> float:
+def number_of(path: Path, file: Any, name: str) -> float:
     values = np.ravel(_infinite(path, file, name))
     if values.size != 1:
         raise FileFormatError(f"{path}: {name} has {values.size} values; one is needed")
@@ -168,7 +196,7 @@ def _infinite(path: Path, file: Any, name: str) -> FloatArray:
         if file[name][()].strip().lower() in DEEP:
             return np.array(np.inf)
         raise FileFormatError(f"{path}: {name} is {file[name][()][:40]!r}; a number is needed")
-    return _array(path, file, name)
+    return values_of(path, file, name)
 
 
 def _can_open(path: Path) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+Read = TypeVar("Read")
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")
@@ -87,24 +88,39 @@ def read_capytaine(
     FileFormatError : the file is missing, damaged or no Capytaine dataset; the message names the variable.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
+    found = from_dataset(
+        source, lambda dataset: _convert(source, of_depth(source, dataset, depth), mass_matrix, restoring)
+    )
+    return with_band_of_data(found)
+
+
+def from_dataset(path: Path, convert: Callable[[xarray.Dataset], Read]) -> Read:
+    """What ``convert`` makes of the file's dataset; any damage is a FileFormatError."""
+    if not path.is_file():
+        raise FileFormatError(f"{path}: no such file; give the path of a Capytaine NetCDF file")
     import xarray
 
     try:
-        with open_netcdf(source), xarray.open_dataset(source) as opened:
+        with open_netcdf(path), xarray.open_dataset(path) as opened:
             dataset = opened.load()
-        found = _convert(source, _of_depth(source, dataset, depth), mass_matrix, restoring)
+        return convert(dataset)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
+            f"{path}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
         ) from error
-    return with_band_of_data(found)
 
 
-def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
+def bodies_of(dataset: xarray.Dataset) -> list[str]:
+    """Names of the bodies that ``influenced_dof`` names, in its order; "" where it names none."""
+    if MATRIX[0] not in dataset.coords:
+        return [""]
+    labels = [str(label).rpartition("__")[0] for label in np.ravel(dataset[MATRIX[0]].values)]
+    return list(dict.fromkeys(labels))
+
+
+def of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
     """The results in one water depth: the one there is, or the one asked for."""
     if "water_depth" not in dataset.coords:
         there = np.array([np.inf])
@@ -137,28 +153,16 @@ def is_capytaine(path: Path) -> bool:
 def _convert(
     path: Path, dataset: xarray.Dataset, mass_matrix: ArrayLike | None, restoring: ArrayLike | None
 ) -> HydroDatabase:
-    rho, g = _number(path, dataset, "rho"), _number(path, dataset, "g")
-    if not (rho > 0.0 and g > 0.0):
-        raise FileFormatError(f"{path}: rho is {rho:g} kg/m3 and g {g:g} m/s2; positive ones are needed")
-    depth = _number(path, dataset, "water_depth", default=np.inf)
-    speed = _number(path, dataset, "forward_speed", default=0.0)
-    if speed != 0.0:
-        raise FileFormatError(f"{path}: forward_speed is {speed:g} m/s; only results of zero speed are read")
-    dataset = _over_omega(path, dataset, g, depth)
-    dataset = _single(
-        path, _by_motion(path, dataset, given=mass_matrix is not None and restoring is not None)
-    )
-    omega = _omega(path, dataset)
-    finite = (omega > 0.0) & np.isfinite(omega)
-    rows = np.flatnonzero(finite)[np.argsort(omega[finite])]
-    if rows.size == 0:
-        raise FileFormatError(f"{path}: omega holds no finite positive frequency; solve for some")
-    added_mass = _real(path, dataset, "added_mass", ("omega", *MATRIX))
-    damping = _real(path, dataset, "radiation_damping", ("omega", *MATRIX))
+    rho, g, depth = water_of(path, dataset)
+    dataset = over_omega(path, dataset, g, depth)
+    dataset = single(path, _by_motion(path, dataset, given=mass_matrix is not None and restoring is not None))
+    omega, rows = frequencies(path, dataset)
+    added_mass = real_values(path, dataset, "added_mass", ("omega", *MATRIX))
+    damping = real_values(path, dataset, "radiation_damping", ("omega", *MATRIX))
     mass = _matrix(path, dataset, "inertia_matrix", "mass_matrix", mass_matrix)
     stiffness = _matrix(path, dataset, "hydrostatic_stiffness", "restoring", restoring)
-    direction, order = _directions(path, dataset)
-    force = _force(path, dataset)[order][:, rows]
+    direction, order = directions(path, dataset)
+    force = wave_force(path, dataset)[order][:, rows]
     centre = _rotation_centre(dataset)
     box = equivalent_box(stiffness, float(mass[0, 0]) / rho, rho * g)
     version = str(dataset.attrs.get("capytaine_version", "of unknown version"))
@@ -169,8 +173,8 @@ def _convert(
         heading=direction,
         added_mass=added_mass[rows],
         damping=damping[rows],
-        infinite_frequency_added_mass=_limit(added_mass, np.isinf(omega)),
-        zero_frequency_added_mass=_limit(added_mass, omega == 0.0),
+        infinite_frequency_added_mass=limit_of(added_mass, np.isinf(omega)),
+        zero_frequency_added_mass=limit_of(added_mass, omega == 0.0),
         restoring=stiffness,
         mass_matrix=mass,
         force=force * phase_at(centre, omega[rows], direction, g, depth),
@@ -189,6 +193,18 @@ def _convert(
     )
 
 
+def water_of(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
+    """Density, gravity and depth of results of zero speed."""
+    rho, g = _number(path, dataset, "rho"), _number(path, dataset, "g")
+    if not (rho > 0.0 and g > 0.0):
+        raise FileFormatError(f"{path}: rho is {rho:g} kg/m3 and g {g:g} m/s2; positive ones are needed")
+    depth = _number(path, dataset, "water_depth", default=np.inf)
+    speed = _number(path, dataset, "forward_speed", default=0.0)
+    if speed != 0.0:
+        raise FileFormatError(f"{path}: forward_speed is {speed:g} m/s; only results of zero speed are read")
+    return rho, g, depth
+
+
 def _number(path: Path, dataset: xarray.Dataset, name: str, default: float | None = None) -> float:
     """A scalar coordinate, or one of a single value."""
     if name not in dataset.variables:
@@ -201,9 +217,9 @@ def _number(path: Path, dataset: xarray.Dataset, name: str, default: float | Non
     return float(values[0])
 
 
-def _single(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
+def single(path: Path, dataset: xarray.Dataset, *, bodies: bool = False) -> xarray.Dataset:
     """Without the dimensions of one value that a parametric study leaves."""
-    known = ("omega", "wave_direction", *MATRIX, "complex", "space_coordinate", "xyz")
+    known = ("omega", "wave_direction", *MATRIX, "complex", "space_coordinate", "xyz", *["body"] * bodies)
     for name in [str(name) for name in dataset.dims if name not in known]:
         used = any(name in dataset[key].dims for key in ("added_mass", "radiation_damping") if key in dataset)
         if used and dataset.sizes[name] > 1:
@@ -228,7 +244,9 @@ def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Da
         bodies = {label.rpartition("__")[0] for label in labels}
         if len(bodies) > 1:
             raise FileFormatError(
-                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); one is read"
+                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); "
+                "load_database and "
+                "read_capytaine_group read them"
             )
         plain = [label.rpartition("__")[2] for label in labels]
         if not set(plain) <= set(MOTION_NAMES) or len(set(plain)) < len(plain) or "Heave" not in plain:
@@ -256,7 +274,7 @@ def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Da
     return dataset.reindex(every, fill_value=0.0) if missing else dataset.sel(every)
 
 
-def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
+def over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
     """The dataset over omega (rad/s), whichever measure of frequency it was solved for."""
     if "omega" in dataset.dims:
         return dataset
@@ -273,17 +291,21 @@ def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> 
     return plain.rename({measure: "omega"}).assign_coords(omega=omega)
 
 
-def _omega(path: Path, dataset: xarray.Dataset) -> FloatArray:
-    """Frequencies in rad/s."""
+def frequencies(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Frequencies in rad/s as they are, and the places of those that are positive and finite, rising."""
     omega = np.asarray(dataset["omega"].values, dtype=float)
     if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
         raise FileFormatError(
             f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
         )
-    return omega
+    finite = (omega > 0.0) & np.isfinite(omega)
+    rows = np.flatnonzero(finite)[np.argsort(omega[finite])]
+    if rows.size == 0:
+        raise FileFormatError(f"{path}: omega holds no finite positive frequency; solve for some")
+    return omega, rows
 
 
-def _real(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
+def real_values(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
     """A variable's values with its dimensions in the given order."""
     return np.asarray(_variable(path, dataset, name, dimensions).values, dtype=float)
 
@@ -311,10 +333,10 @@ def _matrix(
             f"{path}: {name} is missing; set body.{name} before solving (compute_rigid_body_inertia, "
             f"compute_hydrostatic_stiffness), or pass {argument} to read_capytaine"
         )
-    return _real(path, dataset, name, MATRIX)
+    return real_values(path, dataset, name, MATRIX)
 
 
-def _directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
+def directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
     """As `rising_directions`, of the file."""
     if "wave_direction" not in dataset.coords:
         raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
@@ -324,7 +346,7 @@ def _directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArra
     return rising_directions(raw)
 
 
-def _force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
+def wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
     """Wave excitation (m, n, 6) with our time factor; NaN at the limits 0 and infinity."""
     parts = ("Froude_Krylov_force", "diffraction_force")
     names = parts if all(name in dataset for name in parts) else ("excitation_force",)
@@ -357,7 +379,7 @@ def _rotation_centre(dataset: xarray.Dataset) -> FloatArray:
     return np.asarray(np.ravel(dataset["rotation_center"].values), dtype=float)
 
 
-def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
+def limit_of(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     """The matrix at a limiting frequency, if it is there."""
     found = matrices[where]
     return found[0] if len(found) and np.all(np.isfinite(found)) else None

@@ -9,19 +9,21 @@ from typing import Protocol
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.group.group import HydroGroup
 
+Loaded = HydroDatabase | HydroGroup
 SAME_SPEED = 1e-9  # m/s
 
 
 class ReadAtSpeed(Protocol):
-    """Reads the database of a speed in m/s at a path; None: the reader's own choice."""
+    """Reads the database or group of a speed in m/s at a path; None: the reader's own choice."""
 
-    def __call__(self, path: Path, *, speed: float | None) -> HydroDatabase: ...
+    def __call__(self, path: Path, *, speed: float | None) -> Loaded: ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class Format:
-    """One kind of files.
+    """One kind of files, of one hull or of several.
 
     Attributes
     ----------
@@ -38,13 +40,13 @@ class Format:
     can_open: Callable[[Path], bool]
     read: ReadAtSpeed
     speeds: Callable[[Path], tuple[float, ...]]
-    at_depth: Callable[[Path, float], HydroDatabase] | None = None
+    at_depth: Callable[[Path, float], Loaded] | None = None
 
 
-def of_one_speed(read: Callable[[Path], HydroDatabase]) -> ReadAtSpeed:
+def of_one_speed(read: Callable[[Path], Loaded]) -> ReadAtSpeed:
     """A reader of files that hold one speed, which is the only one that may be asked for."""
 
-    def checked(path: Path, *, speed: float | None) -> HydroDatabase:
+    def checked(path: Path, *, speed: float | None) -> Loaded:
         database = read(path)
         if speed is not None and abs(database.speed - speed) > SAME_SPEED:
             raise FileFormatError(f"{path}: of {database.speed:g} m/s, not of speed {speed:g} m/s")

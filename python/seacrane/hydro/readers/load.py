@@ -13,11 +13,26 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
-from seacrane.hydro.readers.format import Format, of_one_speed
+from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers import (
+    bemio,
+    bemio_group,
+    capytaine,
+    capytaine_group,
+    nemoh,
+    nemoh_group,
+    orcaflex,
+    seacrane_netcdf,
+    veres,
+    wamit,
+    wamit_group,
+)
+from seacrane.hydro.readers.format import Format, Loaded, of_one_speed
 from seacrane.warnings import RoughDataWarning
 
-FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
+OF_SEVERAL = tuple(kind.FORMAT for kind in (capytaine_group, wamit_group, bemio_group, nemoh_group))
+OF_ONE = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
+FORMATS = (*OF_SEVERAL, *OF_ONE)
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 
@@ -28,8 +43,8 @@ def load_database(
     speed: float | None = None,
     depth: float | None = None,
     trusted_band: tuple[float, float] | None = None,
-) -> HydroDatabase:
-    """Read a hydrodynamic database of any supported kind.
+) -> HydroDatabase | HydroGroup:
+    """Read a hydrodynamic database of any supported kind: of several hulls in one water, a `HydroGroup`.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
     the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim), NEMOH (a folder).
@@ -52,7 +67,8 @@ def load_database(
     Warns
     -----
     RoughDataWarning : matrices that jump, in files that do not tell their panels.
-    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions.
+    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions; of a
+        group, those of a hull.
     """
     found, source = _format_of(Path(path))
     if trusted_band is None:
@@ -61,13 +77,36 @@ def load_database(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RoughDataWarning)
             database = _trusted(_read(found, source, speed, depth), trusted_band)
-    warn_of_data(database)
-    warn_of_long_waves(database)
+    for hull in database.hulls.values() if isinstance(database, HydroGroup) else [database]:
+        warn_of_data(hull)
+        warn_of_long_waves(hull)
     return database
 
 
-def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> HydroDatabase:
-    """The database of a speed and a depth, where they are asked for."""
+def load_hull(
+    path: str | PathLike[str],
+    *,
+    speed: float | None = None,
+    depth: float | None = None,
+    trusted_band: tuple[float, float] | None = None,
+) -> HydroDatabase:
+    """`load_database` of one hull.
+
+    Raises
+    ------
+    FileFormatError : as `load_database`, and of several hulls.
+    """
+    found = load_database(path, speed=speed, depth=depth, trusted_band=trusted_band)
+    if isinstance(found, HydroGroup):
+        raise FileFormatError(
+            f"{path}: holds bodies {', '.join(found.names)[:200]}, and one hull is needed; take "
+            f"load_database(path)[{found.names[0]!r}], or all by Scene.add_vessels"
+        )
+    return found
+
+
+def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> Loaded:
+    """What is of a speed and a depth, where they are asked for."""
     if depth is None or found.at_depth is None:
         database = found.read(path, speed=speed)
     else:
@@ -81,7 +120,7 @@ def _read(found: Format, path: Path, speed: float | None, depth: float | None) -
     return database
 
 
-def _trusted(database: HydroDatabase, band: tuple[float, float]) -> HydroDatabase:
+def _trusted(database: Loaded, band: tuple[float, float]) -> Loaded:
     """With the band asked for; a memory fitted over another one is dropped."""
     low, high = (float(value) for value in band)
     if not np.any((database.omega >= low) & (database.omega <= high)):
@@ -117,8 +156,8 @@ def _format_of(path: Path) -> tuple[Format, Path]:
 def _format_of_folder(folder: Path) -> tuple[Format, Path]:
     """The format of a folder that is a set of files, or that holds one file of a known kind."""
     sets = [one for one in FORMATS if one.can_open(folder)]
-    if len(sets) > 1:
-        names = " and ".join(one.name for one in sets)
+    if len({one.name for one in sets}) > 1:
+        names = " and ".join(dict.fromkeys(one.name for one in sets))
         raise FileFormatError(f"{folder}: the folder holds {names} files; name one of them")
     if sets:
         return sets[0], folder
@@ -132,4 +171,4 @@ def _format_of_folder(folder: Path) -> tuple[Format, Path]:
 
 
 def _supported() -> str:
-    return "supported: " + ", ".join(one.files for one in FORMATS)
+    return "supported: " + ", ".join(one.files for one in OF_ONE)

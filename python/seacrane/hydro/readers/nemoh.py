@@ -70,13 +70,17 @@ def read_nemoh(
     ------
     FileFormatError : a file is missing, truncated or damaged; the message names it and the line.
     """
-    folder = _project(Path(path))
-    files = {name: _found(folder, name) for name in (RADIATION, EXCITATION, STIFFNESS, HYDROSTATICS)}
-    if (control := _sought(folder, CONTROL)) is not None:
-        water = _read_control(control)
+    folder = project_of(Path(path))
+    files = {name: found_file(folder, name) for name in (RADIATION, EXCITATION, STIFFNESS, HYDROSTATICS)}
+    if (control := sought(folder, CONTROL)) is not None:
+        water, _ = read_control(control)
+        if len(water.centres) != 1:
+            raise FileFormatError(
+                f"{control}: {len(water.centres)} bodies; load_database and read_nemoh_group read them"
+            )
     else:
         centre = np.asarray(rotation_centre, dtype=float)
-        water = _Water(float(rho), float(g), float(depth), centre, (0.0, 0.0))
+        water = Water(float(rho), float(g), float(depth), centre[None], (0.0, 0.0))
         warn_caller(
             f"{folder}: has no {CONTROL}; {rho:g} kg/m3, {g:g} m/s2, depth {depth:g} m and rotations about "
             f"{tuple(centre.tolist())} m are taken",
@@ -93,39 +97,30 @@ def read_nemoh(
 
 
 @dataclass(frozen=True, eq=False)
-class _Water:
-    """``Nemoh.cal``: kg/m3, m/s2, m, and m from the origin of the mesh."""
+class Water:
+    """``Nemoh.cal``: kg/m3, m/s2, m, and m from the origin of the mesh; ``centres`` (k, 3) of rotation."""
 
     rho: float
     g: float
     depth: float
-    rotation_centre: FloatArray
+    centres: FloatArray
     phase_origin: tuple[float, float]
 
 
 def _convert(
-    folder: Path, files: dict[str, Path], water: _Water, mass_matrix: ArrayLike | None
+    folder: Path, files: dict[str, Path], water: Water, mass_matrix: ArrayLike | None
 ) -> HydroDatabase:
-    radiation = _blocks(files[RADIATION])
+    radiation = blocks(files[RADIATION])
     if len(radiation) != MOTIONS:
         raise FileFormatError(
             f"{files[RADIATION]}: {len(radiation)} degrees of freedom; the six of one body are needed"
         )
-    omega, order = _frequencies(files[RADIATION], radiation)
-    values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
-    added_mass, damping = values[:, :, 1::2].transpose(1, 2, 0), values[:, :, 2::2].transpose(1, 2, 0)
-    waves = _blocks(files[EXCITATION])
-    if not np.array_equal(_frequencies(files[EXCITATION], waves)[0], omega):
-        raise FileFormatError(
-            f"{files[EXCITATION]}: other frequencies than {RADIATION}; use files of one run"
-        )
-    direction, places = rising_directions(np.array([_direction(files[EXCITATION], each) for each in waves]))
-    wave = np.array([block.rows[order] for block in waves])[places]
-    force = wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2])
-    gravity, volume = _read_hydrostatics(files[HYDROSTATICS])
-    restoring = _matrix(files[STIFFNESS])
+    solved = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]))
+    omega, direction, added_mass = solved.omega, solved.direction, solved.added_mass
+    gravity, volume = read_hydrostatics(files[HYDROSTATICS])
+    restoring = read_stiffness(files[STIFFNESS])
     box = equivalent_box(restoring, volume, water.rho * water.g)
-    centre = water.rotation_centre
+    centre = water.centres[0]
     if mass_matrix is None:
         mass_matrix = usual_mass_matrix(
             folder, "NEMOH's results hold no mass matrix, pass mass_matrix to read_nemoh",
@@ -137,10 +132,10 @@ def _convert(
         omega=omega,
         heading=direction,
         added_mass=added_mass,
-        damping=damping,
+        damping=solved.damping,
         restoring=restoring,
         mass_matrix=np.asarray(mass_matrix, dtype=float),
-        force=force * phase_at(from_phases, omega, direction, water.g, water.depth),
+        force=solved.force * phase_at(from_phases, omega, direction, water.g, water.depth),
         rho=water.rho,
         g=water.g,
         depth=water.depth,
@@ -157,6 +152,34 @@ def _convert(
 
 
 @dataclass(frozen=True, eq=False)
+class Solution:
+    """Matrices (n, 6 k, 6 k) of k bodies, forces (m, n, 6 k) with the phases of the file, rad/s, rad."""
+
+    omega: FloatArray
+    direction: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    force: NDArray[np.complex128]
+
+
+def solution(matrices: Path, forces: Path, radiation: list[_Block], waves: list[_Block]) -> Solution:
+    """What the blocks of both files hold, frequencies and directions rising."""
+    omega, order = _frequencies(matrices, radiation)
+    values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
+    if not np.array_equal(_frequencies(forces, waves)[0], omega):
+        raise FileFormatError(f"{forces}: other frequencies than {RADIATION}; use files of one run")
+    direction, places = rising_directions(np.array([_direction(forces, each) for each in waves]))
+    wave = np.array([block.rows[order] for block in waves])[places]
+    return Solution(
+        omega=omega,
+        direction=direction,
+        added_mass=values[:, :, 1::2].transpose(1, 2, 0),
+        damping=values[:, :, 2::2].transpose(1, 2, 0),
+        force=wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
 class _Block:
     """Rows of numbers below a line of text."""
 
@@ -165,31 +188,34 @@ class _Block:
     rows: FloatArray
 
 
-def _blocks(path: Path) -> list[_Block]:
+def blocks(path: Path, *, bodies: int = 1) -> list[_Block]:
     """The blocks of a Tecplot file; lines of text without rows below them are its head."""
-    blocks: list[_Block] = []
+    found: list[_Block] = []
+    motions = MOTIONS * bodies
     title, start, rows = "", 0, list[list[float]]()
 
     def close() -> None:
         if rows:
-            blocks.append(_Block(title, start, np.array(rows)))
+            found.append(_Block(title, start, np.array(rows)))
 
-    for number, line in enumerate(_lines(path), start=1):
+    for number, line in enumerate(text_lines(path), start=1):
         words = line.split()
         if words and re.fullmatch(NUMBER, words[0]):
-            rows.append(_numbers(path, number, words))
-            if len(rows[-1]) != 1 + 2 * MOTIONS:
+            rows.append(numbers_in(path, number, words))
+            if len(rows[-1]) != 1 + 2 * motions:
+                many = "six" if bodies == 1 else motions
                 raise FileFormatError(
-                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of six motions "
+                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of {many} "
+                    "motions "
                     "are needed: the file is truncated, or of another body"
                 )
         elif words:
             close()
             title, start, rows = line.strip(), number, []
     close()
-    if not blocks:
+    if not found:
         raise FileFormatError(f"{path}: no numbers; the file is empty or truncated")
-    return blocks
+    return found
 
 
 def _frequencies(path: Path, blocks: list[_Block]) -> tuple[FloatArray, NDArray[np.intp]]:
@@ -213,38 +239,38 @@ def _direction(path: Path, block: _Block) -> float:
             f"{path}, line {block.line}: no wave direction in {block.title[:60]!r}; 'angle = ...' is needed"
         )
     value, unit = found[-1]
-    angle = _numbers(path, block.line, [value])[0]
+    angle = numbers_in(path, block.line, [value])[0]
     return float(np.radians(angle)) if unit else angle
 
 
-def _read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
+def read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
     """Centre of gravity (3,) in m, and displaced volume in m3."""
-    text = "\n".join(_lines(path))
+    text = "\n".join(text_lines(path))
     gravity = re.findall(rf"[XYZ]G\s*=\s*({NUMBER})", text)
     volume = re.search(rf"Displacement\s*=\s*({NUMBER})", text)
     if len(gravity) != 3 or volume is None:
         raise FileFormatError(f"{path}: no centre of gravity or no Displacement; the file is truncated")
-    size = _numbers(path, 1, [volume.group(1)])[0]
+    size = numbers_in(path, 1, [volume.group(1)])[0]
     if not size > 0.0:
         raise FileFormatError(f"{path}: Displacement is {size:g} m3; give a positive one")
-    return np.array(_numbers(path, 1, gravity)), size
+    return np.array(numbers_in(path, 1, gravity)), size
 
 
-def _matrix(path: Path) -> FloatArray:
+def read_stiffness(path: Path) -> FloatArray:
     """The restoring matrix (6, 6)."""
-    lines = [(number, line.split()) for number, line in enumerate(_lines(path), start=1) if line.strip()]
-    rows = [_numbers(path, number, words) for number, words in lines]
+    lines = [(number, line.split()) for number, line in enumerate(text_lines(path), start=1) if line.strip()]
+    rows = [numbers_in(path, number, words) for number, words in lines]
     if len(rows) != MOTIONS or any(len(row) != MOTIONS for row in rows):
         raise FileFormatError(f"{path}: is no matrix of six rows and columns; it is truncated or damaged")
     return np.array(rows)
 
 
-def _read_control(path: Path) -> _Water:
-    """Water and body of ``Nemoh.cal``: values stand before the exclamation marks."""
-    lines = enumerate(_lines(path), start=1)
+def read_control(path: Path) -> tuple[Water, list[str]]:
+    """Water and bodies of ``Nemoh.cal``, and their mesh files: values stand before exclamation marks."""
+    lines = enumerate(text_lines(path), start=1)
     rows = [(n, line.split("!")[0].split()) for n, line in lines if not line.lstrip().startswith("---")]
     numbers = [
-        _numbers(path, line, [word for word in row if re.fullmatch(NUMBER, word)]) for line, row in rows
+        numbers_in(path, line, [word for word in row if re.fullmatch(NUMBER, word)]) for line, row in rows
     ]
     if len(numbers) < 5 or [len(row) for row in numbers[:5]] != [1, 1, 1, 2, 1]:
         raise FileFormatError(
@@ -257,16 +283,27 @@ def _read_control(path: Path) -> _Water:
             f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2, depth {depth:g} m; give positive ones (a "
             "depth of 0 is deep water)"
         )
-    if bodies != 1.0:
-        raise FileFormatError(f"{path}: {bodies:g} bodies; one is read")
     turns = [row for row in numbers[5:] if len(row) == 7 and row[0] == 2.0]
-    centres = {tuple(row[4:]) for row in turns[:3]}  # of the motions, before the forces
-    if len(centres) != 1:
-        raise FileFormatError(f"{path}: its rotations turn about {len(centres)} points; one is needed")
-    return _Water(rho, g, depth or np.inf, np.array(centres.pop()), (origin[0], origin[1]))
+    if bodies == 1.0:
+        turns = turns[:3]
+    if not turns or bodies < 1.0 or (bodies > 1.0 and len(turns) != 6 * bodies):
+        raise FileFormatError(
+            f"{path}: {bodies:g} bodies with {len(turns)} lines of rotations; each has three motions and "
+            "three "
+            "moments about a point"
+        )
+    centres = []
+    for i in range(int(bodies)):
+        points = {tuple(row[4:]) for row in turns[6 * i : 6 * i + 3]}  # of the motions, before the forces
+        if len(points) != 1:
+            whose = "its rotations" if bodies == 1.0 else f"rotations of body {i + 1}"
+            raise FileFormatError(f"{path}: {whose} turn about {len(points)} points; one is needed")
+        centres.append(points.pop())
+    water = Water(rho, g, depth or np.inf, np.array(centres), (origin[0], origin[1]))
+    return water, [row[0] for _, row in rows if len(row) == 1 and row[0].lower().endswith(".dat")]
 
 
-def _numbers(path: Path, line: int, words: list[str]) -> list[float]:
+def numbers_in(path: Path, line: int, words: list[str]) -> list[float]:
     try:
         values = [float(word.upper().replace("D", "E")) for word in words]
     except ValueError:
@@ -276,7 +313,7 @@ def _numbers(path: Path, line: int, words: list[str]) -> list[float]:
     return values
 
 
-def _lines(path: Path) -> list[str]:
+def text_lines(path: Path) -> list[str]:
     try:
         return read_whole(path).decode("latin-1").splitlines()
     except OSError as error:
@@ -285,35 +322,35 @@ def _lines(path: Path) -> list[str]:
         ) from error
 
 
-def _project(path: Path) -> Path:
+def project_of(path: Path) -> Path:
     """The folder that holds everything, from itself, a folder in it, or a file."""
     folder = path if path.is_dir() else path.parent
     return folder.parent if folder.name in INNER else folder
 
 
-def _sought(folder: Path, name: str) -> Path | None:
+def sought(folder: Path, name: str) -> Path | None:
     places = [folder, *(folder / inner for inner in INNER)]
     return next((place / name for place in places if (place / name).is_file()), None)
 
 
-def _found(folder: Path, name: str) -> Path:
-    file = _sought(folder, name)
+def found_file(folder: Path, name: str) -> Path:
+    file = sought(folder, name)
     if file is None:
         needed = ", ".join((RADIATION, EXCITATION, STIFFNESS, HYDROSTATICS))
         raise FileFormatError(f"{folder / name}: no such file, nor in results or mesh; NEMOH needs {needed}")
     return file
 
 
-def _can_open(path: Path) -> bool:
+def can_open_nemoh(path: Path) -> bool:
     return path.name in (RADIATION, EXCITATION, CONTROL) or (
-        path.is_dir() and _sought(_project(path), RADIATION) is not None
+        path.is_dir() and sought(project_of(path), RADIATION) is not None
     )
 
 
 FORMAT = Format(
     name="NEMOH",
     files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
-    can_open=_can_open,
+    can_open=can_open_nemoh,
     read=of_one_speed(read_nemoh),
     speeds=zero_speed,
 )

@@ -97,7 +97,7 @@ def read_wamit(
         the file and, where there is one, the line.
     """
     stem = find_wamit_stem(Path(path))
-    files = {suffix: _sibling(stem, suffix) for suffix in SUFFIXES}
+    files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
     for suffix in NEEDED:
         if files[suffix] is None:
             raise FileFormatError(
@@ -124,7 +124,7 @@ def find_wamit_stem(path: Path) -> Path:
                 f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
             )
         return stems[0]
-    if _sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
+    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
         return path.with_suffix("")
     return path
 
@@ -134,10 +134,10 @@ def is_wamit(path: Path) -> bool:
     if path.is_dir():
         return any(file.suffix == ".1" for file in path.iterdir())
     stem = find_wamit_stem(path)
-    return any(_sibling(stem, suffix) is not None for suffix in (".1", ".3", ".hst"))
+    return any(sibling(stem, suffix) is not None for suffix in (".1", ".3", ".hst"))
 
 
-def _sibling(stem: Path, suffix: str) -> Path | None:
+def sibling(stem: Path, suffix: str) -> Path | None:
     """File of the set with that suffix, in either case."""
     for name in (stem.name + suffix, stem.name + suffix.upper()):
         if (stem.parent / name).is_file():
@@ -211,7 +211,7 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
     control = None if files[".frc"] is None else read_force_control(files[".frc"])
     if files[".out"] is not None:
         _check_periods(listing, radiation.period, _there(files, ".1"))
-    period, heading_deg = _common(stem, radiation, force, motion)
+    period, heading_deg = common_periods(stem, radiation, force, motion)
     rho = _density(stem, listing, control, given.rho)
     length_scale, g = listing.length_scale, listing.g
     power = 3 + np.add.outer(ROTATIONS, ROTATIONS)
@@ -221,8 +221,8 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
     body = _Body(listing, rho, restoring, box, control, given.mass)
     omega = (2.0 * np.pi / period)[::-1]
     rows = np.searchsorted(radiation.period, period)[::-1]
-    direction, order = _directions(force.path, heading_deg)
-    wave = _Picker(period, heading_deg, order)
+    direction, order = wamit_directions(force.path, heading_deg)
+    wave = WavePicker(period, heading_deg, order)
     limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
     infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
     stiffness = None if control is None else control.stiffness
@@ -263,7 +263,7 @@ def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> Drift
     if path is None:
         return None
     found = read_mean_drift(path)
-    direction, order = _directions(path, found.heading_deg)
+    direction, order = wamit_directions(path, found.heading_deg)
     scale = rho * listing.g * listing.length_scale ** (1 + ROTATIONS)
     return DriftCoefficients(
         heading=direction,
@@ -288,7 +288,7 @@ def _check_periods(listing: Listing, period: FloatArray, path: Path) -> None:
             )
 
 
-def _common(
+def common_periods(
     stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
 ) -> tuple[FloatArray, FloatArray]:
     """Periods and headings that all files hold, with a warning where one holds more."""
@@ -311,7 +311,7 @@ def _common(
     return shared[0], shared[1]
 
 
-def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def wamit_directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
     wrapped = np.round(np.mod(heading_deg, 360.0), 6) % 360.0
     degrees, order = np.unique(wrapped, return_index=True)
@@ -322,7 +322,7 @@ def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArra
 
 
 @dataclass(frozen=True, eq=False)
-class _Picker:
+class WavePicker:
     """The common headings and periods out of a table, directions and frequencies rising."""
 
     period: FloatArray
@@ -336,19 +336,23 @@ class _Picker:
 
 
 def _density(stem: Path, listing: Listing, control: ForceControl | None, asked: float | None) -> float:
-    given = asked if control is None or control.rho is None else control.rho
-    if given is None and listing.rho is None:
+    return water_density(stem, listing.rho, asked if control is None or control.rho is None else control.rho)
+
+
+def water_density(stem: Path, listed: float | None, given: float | None) -> float:
+    """kg/m3 of the listing or as given; where both tell it, they have to agree."""
+    if given is None and listed is None:
         warn_caller(
             f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
             "stiffness and force is proportional to it",
             AssumedDensityWarning,
         )
         return USUAL_DENSITY
-    if given is not None and listing.rho is not None and abs(given - listing.rho) > 1e-4 * given:
+    if given is not None and listed is not None and abs(given - listed) > 1e-4 * given:
         raise FileFormatError(
-            f"{stem}: density {given:g} kg/m3 in .frc but {listing.rho:g} in .out; use files of one run"
+            f"{stem}: density {given:g} kg/m3 in .frc but {listed:g} in .out; use files of one run"
         )
-    return float(given if given is not None else listing.rho or USUAL_DENSITY)
+    return float(given if given is not None else listed or USUAL_DENSITY)
 
 
 def _mass_matrix(stem: Path, body: _Body) -> FloatArray:

@@ -70,7 +70,7 @@ def read_listing(path: Path) -> Listing:
 
     Raises FileFormatError: something needed is missing, or the body is placed away from the origin.
     """
-    lines = _lines(path)
+    lines = listing_lines(path)
     text = "\n".join(lines)
 
     def find(pattern: str, what: str) -> list[float]:
@@ -105,7 +105,7 @@ def read_listing(path: Path) -> Listing:
         title=_title(lines),
         g=g,
         length_scale=length_scale,
-        depth=_depth(path, text, len(lines)),
+        depth=water_depth(path, text, len(lines)),
         rho=density[0] if density and density[0] > 1.0 else None,
         volume=float(np.mean(volumes)),
         center_of_buoyancy=np.array(buoyancy),
@@ -150,7 +150,7 @@ def read_force_control(path: Path) -> ForceControl:
 
 def check_period_output(path: Path) -> None:
     """Raise if a ``.cfg`` file makes the numeric files list something else than periods."""
-    for number, line in enumerate(_lines(path), start=1):
+    for number, line in enumerate(listing_lines(path), start=1):
         match = re.match(r"\s*(IPEROUT|IPERIO)\s*=\s*(-?\d+)", line, re.IGNORECASE)
         if match and match.group(2) != "1":
             raise FileFormatError(
@@ -164,7 +164,7 @@ class _ListDirected:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._lines = _lines(path)
+        self._lines = listing_lines(path)
         self._next = 0
 
     def error(self, message: str) -> FileFormatError:
@@ -220,7 +220,7 @@ class _ListDirected:
         return value
 
 
-def _lines(path: Path) -> list[str]:
+def listing_lines(path: Path) -> list[str]:
     try:
         return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
     except OSError as error:
@@ -241,7 +241,7 @@ def _number(path: Path, text: str, match: re.Match[str], group: int) -> float:
         raise FileFormatError(f"{path}, line {line}: {word[:40]!r} is not a finite number") from None
 
 
-def _depth(path: Path, text: str, last: int) -> float:
+def water_depth(path: Path, text: str, last: int) -> float:
     match = re.search(r"Water depth:\s+(\S+)", text)
     if match is None:
         raise FileFormatError(f"{path}, line {last}: the file ends without the water depth; it is truncated")

@@ -39,7 +39,7 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Radiation:
-    """Contents of a ``.1`` file: periods (n,) in s, rising; added mass and damping (n, 6, 6)."""
+    """Contents of a ``.1`` file: periods (n,) in s, rising; A and B (n, 6 k, 6 k) of k bodies."""
 
     period: FloatArray
     added_mass: FloatArray
@@ -51,7 +51,7 @@ class Radiation:
 @dataclass(frozen=True, eq=False)
 class WaveTable:
     """Contents of a ``.3`` or ``.4`` file: periods (n,) in s and headings (m,) in degrees, both rising, and
-    values (m, n, 6)."""
+    values (m, n, 6 k)."""
 
     path: Path
     period: FloatArray
@@ -59,9 +59,14 @@ class WaveTable:
     values: ComplexArray
 
 
-def read_radiation(path: Path) -> Radiation:
+def read_radiation(path: Path, *, bodies: int = 1) -> Radiation:
     """Read added mass and damping: rows of period, i, j, A, and B where the period is positive."""
-    table = read_table(path, (4, 5))
+    return radiation_of(read_table(path, (4, 5)), bodies=bodies)
+
+
+def radiation_of(table: Table, *, bodies: int) -> Radiation:
+    """Added mass and damping of such rows."""
+    size = 6 * bodies
     period = table.values[:, 0]
     unknown = np.flatnonzero((period < 0.0) & (period != ZERO_FREQUENCY_PERIOD))
     if unknown.size:
@@ -72,12 +77,12 @@ def read_radiation(path: Path) -> Radiation:
     bare = np.flatnonzero((period > 0.0) & np.isnan(table.values[:, 4]))
     if bare.size:
         raise table.error(int(bare[0]), "no damping: period, i, j, A, B are expected; the file is truncated")
-    motions = 6 * motion_of(table, 1) + motion_of(table, 2)
+    motions = size * motion_of(table, 1, bodies) + motion_of(table, 2, bodies)
     periods, place = np.unique(period, return_inverse=True)
-    check_complete(table, place, motions, len(periods), 36, "entry i j")
-    both = np.zeros((2, len(periods), 36))
+    check_complete(table, place, motions, len(periods), size**2, "entry i j")
+    both = np.zeros((2, len(periods), size**2))
     both[:, place, motions] = np.nan_to_num(table.values[:, 3:5].T)
-    added_mass, damping = both.reshape(2, len(periods), 6, 6)
+    added_mass, damping = both.reshape(2, len(periods), size, size)
     special = (ZERO_FREQUENCY_PERIOD, INFINITE_FREQUENCY_PERIOD)
     limits = [added_mass[np.flatnonzero(periods == limit)] for limit in special]
     finite = periods > 0.0
@@ -89,16 +94,21 @@ def read_radiation(path: Path) -> Radiation:
     return Radiation(periods[finite], added_mass[finite], damping[finite], zero, infinite)
 
 
-def read_waves(path: Path) -> WaveTable:
+def read_waves(path: Path, *, bodies: int = 1) -> WaveTable:
     """Read exciting forces or motions: rows of period, heading, i, modulus, phase (deg), real, imaginary."""
-    table = read_table(path, (7,))
+    return waves_of(read_table(path, (7,)), bodies=bodies)
+
+
+def waves_of(table: Table, *, bodies: int) -> WaveTable:
+    """Forces or motions of such rows."""
+    size = 6 * bodies
     rows = np.flatnonzero(table.values[:, 0] > 0.0)
     if rows.size == 0:
         raise table.error(
             len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
         )
     table = table.only(rows)
-    motion = motion_of(table, 2)
+    motion = motion_of(table, 2, bodies)
     value = _checked_complex(table, motion)
     periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
     headings, in_heading = np.unique(table.values[:, 1], return_inverse=True)
@@ -109,22 +119,26 @@ def read_waves(path: Path) -> WaveTable:
             len(rows) - 1,
             f"{n} periods and {m} headings, but only {len(rows)} rows; the file is truncated or damaged",
         )
-    check_complete(table, in_period * m + in_heading, motion, n * m, 6, "motion")
-    values = np.zeros((m, n, 6), dtype=complex)
+    check_complete(table, in_period * m + in_heading, motion, n * m, size, "motion")
+    values = np.zeros((m, n, size), dtype=complex)
     values[in_heading, in_period, motion] = value
-    return WaveTable(path, periods, headings, values)
+    return WaveTable(table.path, periods, headings, values)
 
 
-def read_restoring(path: Path) -> FloatArray:
-    """Read the restoring matrix (6, 6): rows of i, j, C."""
+def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
+    """Read the restoring matrix (6 k, 6 k): rows of i, j, C; of several bodies entries may be left out."""
+    size = 6 * bodies
     table = read_table(path, (3,))
-    motions = 6 * motion_of(table, 0) + motion_of(table, 1)
-    if len(motions) < 36:
-        raise table.error(len(motions) - 1, f"{len(motions)} of 36 entries end here; the file is truncated")
-    check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, 36, "entry i j")
-    restoring = np.zeros(36)
+    motions = size * motion_of(table, 0, bodies) + motion_of(table, 1, bodies)
+    if len(motions) < 36 * bodies:
+        raise table.error(
+            len(motions) - 1,
+            f"{len(motions)} of {36 * bodies} entries end here; the file is truncated",
+        )
+    check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, size**2, "entry i j")
+    restoring = np.zeros(size**2)
     restoring[motions] = table.values[:, 2]
-    return restoring.reshape(6, 6)
+    return restoring.reshape(size, size)
 
 
 def read_table(path: Path, widths: tuple[int, ...]) -> Table:
@@ -172,15 +186,13 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def motion_of(table: Table, column: int) -> IntArray:
-    """Motion indices 0 to 5 from a column that counts from 1."""
+def motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
+    """Motion indices 0 to 6 k - 1 from a column that counts from 1."""
     values = table.values[:, column]
-    bad = np.flatnonzero(~np.isin(values, np.arange(1.0, 7.0)))
+    bad = np.flatnonzero(~np.isin(values, np.arange(1.0, 6.0 * bodies + 1.0)))
     if bad.size:
-        raise table.error(
-            int(bad[0]),
-            f"motion {values[bad[0]]:g} is not one of 1 to 6; only one rigid body is read",
-        )
+        held = "only one rigid body is read" if bodies == 1 else f"{bodies} rigid bodies are read"
+        raise table.error(int(bad[0]), f"motion {values[bad[0]]:g} is not one of 1 to {6 * bodies}; {held}")
     return values.astype(np.int64) - 1
 
 
@@ -193,7 +205,7 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     modulus, phase_deg, real, imaginary = table.values[:, 3:7].T
     value = real + 1j * imaginary
     error = np.abs(value - modulus * np.exp(1j * np.radians(phase_deg)))
-    largest = np.zeros(6)
+    largest = np.zeros(int(motion.max(initial=0)) + 1)
     np.maximum.at(largest, motion, np.abs(value))
     bad = np.flatnonzero(error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * largest[motion])
     if bad.size:

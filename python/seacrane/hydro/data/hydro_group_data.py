@@ -1,0 +1,168 @@
+"""`HydroGroupData`: the linear hydrodynamics of several hulls in one water as plain values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping, check_increasing
+from seacrane.hydro.data.memory_model import MemoryModel
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HydroGroupData:
+    """Linear hydrodynamics of k hulls that feel each other's waves; immutable, every array read-only.
+
+    Motion ``6 i + j`` is motion j (surge to yaw) of body i, about its own reference point and in its own
+    axes, turned with its heading. ``exp(+i omega t)``; ``heading`` is the direction that waves travel to,
+    from the group's x axis towards its y axis; they have zero phase at the group's origin. SI, radians.
+    Valid while the hulls keep their places and headings to each other, at zero speed.
+
+    Attributes
+    ----------
+    bodies : of each hull, what is its own (`GroupBody`).
+    omega : (n,) frequencies in rad/s, increasing and positive.
+    heading : (m,) in rad, increasing, within [0, 2 pi).
+    added_mass, damping : (n, 6 k, 6 k) radiation: block (i, j) is the load on body i for motions of body j.
+    infinite_frequency_added_mass, zero_frequency_added_mass : (6 k, 6 k), or None when not known.
+    force : (m, n, 6 k) complex wave excitation per metre of amplitude, with the shielding of all hulls.
+    rho, g, depth : kg/m3, m/s2, m (inf: deep), one for all.
+    trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
+    port_starboard_symmetric : whether headings may be mirrored: every hull lies on the group's x axis.
+    lid_damping : share of omega / g of a damping lid in the gap that the source computed with; None when it
+        does not say.
+    memory : fitted radiation memory of all motions, or None.
+    name, origin, source : text.
+    """
+
+    name: str
+    bodies: tuple[GroupBody, ...]
+    omega: FloatArray
+    heading: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    force: ComplexArray
+    source: str
+    origin: str = "origin of the meshes, on the still waterline"
+    rho: float = 1025.0
+    g: float = 9.81
+    depth: float = float("inf")
+    infinite_frequency_added_mass: FloatArray | None = None
+    zero_frequency_added_mass: FloatArray | None = None
+    trusted_band: tuple[float, float] | None = None
+    port_starboard_symmetric: bool = False
+    lid_damping: float | None = None
+    memory: MemoryModel | None = None
+
+    speed: ClassVar[float] = 0.0
+    roll_damping: ClassVar[RollDamping | None] = None
+    additional: ClassVar[tuple[AdditionalMatrices, ...]] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "bodies", tuple(self.bodies))
+        if len(self.bodies) < 2 or len(set(self.names)) < len(self.bodies):
+            raise ValueError(
+                f"group {self.name!r}: bodies are named {', '.join(self.names) or 'nothing'}; give two or "
+                "more, each with a name of its own"
+            )
+        n, m, k = np.size(self.omega), np.size(self.heading), 6 * len(self.bodies)
+        shapes = {
+            "omega": (n,),
+            "heading": (m,),
+            "added_mass": (n, k, k),
+            "damping": (n, k, k),
+            "infinite_frequency_added_mass": (k, k),
+            "zero_frequency_added_mass": (k, k),
+            "force": (m, n, k),
+        }
+        for name, shape in shapes.items():
+            if getattr(self, name) is not None:
+                self._freeze(name, shape)
+        check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
+        check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
+        for name in ("rho", "g", "depth"):
+            if not float(getattr(self, name)) > 0.0:
+                raise ValueError(f"group {self.name!r}: {name} is {getattr(self, name)}; give a positive one")
+        if self.trusted_band is not None and not 0.0 <= self.trusted_band[0] < self.trusted_band[1]:
+            raise ValueError(
+                f"group {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s"
+            )
+        if self.memory is not None and self.memory.added_mass.shape != (k, k):
+            raise ValueError(
+                f"group {self.name!r}: its memory has {len(self.memory.added_mass)} motions, the group {k}; "
+                "fit one with fit_memory(database=group)"
+            )
+
+    def _freeze(self, name: str, shape: tuple[int, ...]) -> None:
+        array = np.array(getattr(self, name), dtype=complex if name == "force" else float)
+        if array.shape != shape:
+            raise ValueError(
+                f"group {self.name!r}: {name} has shape {array.shape}; {shape} is needed for bodies "
+                f"{', '.join(self.names)}"
+            )
+        if not np.all(np.isfinite(array)):
+            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+            raise ValueError(
+                f"group {self.name!r}: {name}{list(where)} is {array[where]}; give finite numbers"
+            )
+        array.setflags(write=False)
+        object.__setattr__(self, name, array)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bodies, in the order of the motions."""
+        return tuple(body.name for body in self.bodies)
+
+    @cached_property
+    def mass_matrix(self) -> FloatArray:
+        """(6 k, 6 k), block by block."""
+        return self._blocks("mass_matrix")
+
+    @cached_property
+    def restoring(self) -> FloatArray:
+        """(6 k, 6 k), block by block: water at rest couples no hulls."""
+        return self._blocks("restoring")
+
+    @cached_property
+    def linear_damping(self) -> FloatArray:
+        """(6 k, 6 k) beside radiation, block by block."""
+        return self._blocks("linear_damping")
+
+    @cached_property
+    def quadratic_damping(self) -> FloatArray:
+        """(6 k,) coefficients of v |v| beside radiation."""
+        return _frozen(np.concatenate([body.quadratic_damping for body in self.bodies]))
+
+    def _blocks(self, name: str) -> FloatArray:
+        out = np.zeros((6 * len(self.bodies),) * 2)
+        for i, body in enumerate(self.bodies):
+            out[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = getattr(body, name)
+        return _frozen(out)
+
+    def place(self, name: str) -> slice:
+        """Where the six motions of a body stand among all.
+
+        Raises
+        ------
+        KeyError : no body of that name.
+        """
+        if name not in self.names:
+            raise KeyError(f"group {self.name!r} has no body {name!r}; it has {', '.join(self.names)}")
+        start = 6 * self.names.index(name)
+        return slice(start, start + 6)
+
+
+Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
+
+
+def _frozen(array: FloatArray) -> FloatArray:
+    array.setflags(write=False)
+    return array

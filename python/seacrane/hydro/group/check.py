@@ -1,0 +1,153 @@
+"""Self-check of a group: symmetry, damping, far field, dispersion over all motions; the water in the gaps."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.relations import (
+    damping_from_forces,
+    infinite_added_mass_from_damping,
+    resolved_by_headings,
+)
+from seacrane.hydro.data.trusted_band import in_trusted_band
+from seacrane.hydro.database.check import (
+    DAMPING_LIMIT,
+    FORCE_DAMPING_LIMIT,
+    KRAMERS_KRONIG_LIMIT,
+    PASSIVITY_LIMIT,
+    SYMMETRY_LIMIT,
+    CheckRow,
+    at_least,
+    at_most,
+    info,
+    skewness,
+    smallest_damping,
+)
+from seacrane.hydro.group.gap import clearance, gaps, spikes
+from seacrane.hydro.group.long_wave import long_wave_lift
+from seacrane.inputs.frames import MOTIONS
+
+FloatArray = NDArray[np.float64]
+
+COUPLING_LIMIT = 0.1  # thin plates and narrow gaps: codes differ by 25 % on coupling
+LIFT_LIMIT = 0.1
+
+
+def check_group(group: HydroGroupData) -> list[CheckRow]:
+    """All checks that the group's content allows; docs/hull-hydrodynamics.md says what each value means."""
+    return [
+        *_matrix_rows(group),
+        *_far_field_rows(group),
+        *_dispersion_rows(group),
+        *_lift_rows(group),
+        *_gap_rows(group),
+        *_memory_rows(group),
+    ]
+
+
+def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Symmetry of the hulls' own blocks and of what couples them, and damping that takes energy from all."""
+    own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6))).astype(bool)
+    inside = in_trusted_band(group)
+    rows = []
+    for name, matrix in (("added_mass", group.added_mass), ("damping", group.damping)):
+        skew = skewness(matrix[inside])
+        rows.append(at_most(f"symmetry_{name}", float(skew[own].max()), SYMMETRY_LIMIT))
+        rows.append(at_most(f"symmetry_{name}_coupling", float(skew[~own].max()), COUPLING_LIMIT))
+    rows.append(
+        at_least("damping_smallest_eigenvalue", smallest_damping(group.damping[inside]), DAMPING_LIMIT)
+    )
+    return rows
+
+
+def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Damping (own and coupled) against the waves that the exciting forces say are radiated."""
+    radiated = damping_from_forces(group)
+    inside = in_trusted_band(group) & resolved_by_headings(group)
+    if radiated is None or not np.any(inside):
+        return []
+    peak = np.sqrt(np.abs(np.diagonal(group.damping, axis1=1, axis2=2)).max(axis=0))
+    error = np.abs(radiated - 0.5 * (group.damping + group.damping.swapaxes(1, 2)))[inside].max(axis=0)
+    share = error / np.maximum(np.outer(peak, peak), 1e-300)
+    rows = [
+        at_most(f"damping_from_forces_{label}", float(share[i, i]), FORCE_DAMPING_LIMIT)
+        for i, label in enumerate(_labels(group))
+        if peak[i] > 0.0
+    ]
+    for (i, a), (j, b) in combinations(enumerate(group.names), 2):
+        block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+        rows.append(at_most(f"damping_from_forces_{a}_{b}", float(block.max()), FORCE_DAMPING_LIMIT))
+    return rows
+
+
+def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Infinite-frequency added mass against what the damping implies, by the range of the motions' own."""
+    if group.infinite_frequency_added_mass is None:
+        return []
+    known = group.infinite_frequency_added_mass
+    difference = np.abs(infinite_added_mass_from_damping(group) - known)
+    span = np.ptp(np.diagonal(group.added_mass, axis1=1, axis2=2), axis=0)
+    share = difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300)
+    rows = [
+        at_most(f"kramers_kronig_{label}", float(share[i, i]), KRAMERS_KRONIG_LIMIT)
+        for i, label in enumerate(_labels(group))
+        if span[i] > 0.0
+    ]
+    for (i, a), (j, b) in combinations(enumerate(group.names), 2):
+        block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+        rows.append(at_most(f"kramers_kronig_{a}_{b}", float(block.max()), KRAMERS_KRONIG_LIMIT))
+    return rows
+
+
+def _lift_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Each hull's C33 against the force of a long wave on it: hydrostatics of another hull fail it."""
+    lift = long_wave_lift(group)
+    if lift is None:
+        return []
+    return [
+        at_most(f"c33_against_long_wave_{body.name}", abs(body.restoring[2, 2] / force - 1.0), LIFT_LIMIT)
+        for body, force in zip(group.bodies, lift, strict=True)
+    ]
+
+
+def _gap_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Widths of the gaps, their piston modes, and what explains each narrow peak of the damping.
+
+    An irregular frequency within the trusted band is an error of the source; a resonance of a gap is water,
+    too high without a damping lid.
+    """
+    rows = [
+        info(f"clearance_{a.name}_{b.name}_m", clearance(a, b)[0]) for a, b in combinations(group.bodies, 2)
+    ]
+    rows += [info(f"gap_{gap.first}_{gap.second}_piston_rad_s", gap.piston) for gap in gaps(group)]
+    inside = in_trusted_band(group, np.array([spike.omega for spike in spikes(group)]))
+    for spike, within in zip(spikes(group), inside, strict=True):
+        label = f"{spike.cause}_frequency{'_' if spike.of else ''}{spike.of}_rad_s"
+        if spike.cause == "irregular" and within:
+            rows.append(CheckRow(check=label, value=spike.omega, limit=None, verdict="fail"))
+        else:
+            rows.append(info(label, spike.omega))
+    if group.lid_damping is not None:
+        rows.append(info("lid_damping", group.lid_damping))
+    return rows
+
+
+def _memory_rows(group: HydroGroupData) -> list[CheckRow]:
+    model = group.memory
+    if model is None:
+        return []
+    rows = [info("memory_states", float(model.states))]
+    if model.motion is not None:
+        rows.append(at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
+        rows.append(info("memory_motion_error_of_convolution", model.motion.floor))
+    rows.append(at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
+    rows.append(at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
+    return rows
+
+
+def _labels(group: HydroGroupData) -> list[str]:
+    return [f"{name}_{motion}" for name in group.names for motion in MOTIONS]

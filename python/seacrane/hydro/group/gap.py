@@ -1,0 +1,175 @@
+"""The water between two hulls: how wide it is, and where it resonates; and what only looks like it.
+
+Piston mode of the water in a gap of width b between hulls of draught d, with H = 1.5 times the overall width
+(Molin 2001, J. Fluid Mech. 430, 27-50, for a moon pool; quoted, not read)::
+
+    w^2 = g / (d + b / pi (3 / 2 + ln(H / 2 b)))
+
+Longer modes of the gap lie above it, up to the first wave across it, ``w^2 = pi g / b``. Irregular
+frequencies are no resonance of the water outside: they are those of the water *inside* a hull that is zero
+on its sides, ``w^2 = g k coth(k T)``, ``k^2 = (i pi / L)^2 + (j pi / B)^2`` for a box. They stay where they
+are with another gap.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.data.hydro_group_data import HydroGroupData
+
+FloatArray = NDArray[np.float64]
+
+OVERALL = 1.5  # H by the overall width
+NEAR = 0.08  # of a frequency: by as much do boxes and coarse panels miss one
+BESIDE = 0.07  # of a frequency: where a narrow peak is over
+STANDS_OUT = 1.5  # times the damping there
+LEAST = 0.02  # of an entry's largest value
+SAME = 0.04  # of a frequency: peaks of several motions at one resonance
+FIRST_MODES = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gap:
+    """The water between two hulls: ``width`` m, and ``piston`` rad/s by Molin's formula."""
+
+    first: str
+    second: str
+    width: float
+    piston: float
+    across: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spike:
+    """A frequency, rad/s, at which the damping has a narrow peak, and what explains it: "gap", "irregular"
+    or "unexplained".
+
+    ``of`` names the gap ("a-b") or the hull, ``expected`` (rad/s) is the formula's frequency; nan: none.
+    """
+
+    omega: float
+    cause: str
+    of: str
+    expected: float
+
+
+def piston_frequency(*, draught: float, gap: float, width: float, g: float = 9.81) -> float:
+    """Angular frequency (rad/s) of the piston mode of the water between two hulls.
+
+    Parameters
+    ----------
+    draught, gap, width : m, of the hulls, between them, and over both.
+    g : m/s2.
+
+    Raises
+    ------
+    ValueError : a length that is not positive, or a gap as wide as the whole.
+    """
+    if not (draught > 0.0 and 0.0 < gap < width and g > 0.0):
+        raise ValueError(
+            f"piston frequency: draught {draught:g} m, gap {gap:g} m, width over both {width:g} m; give "
+            "positive "
+            "ones, the width the largest"
+        )
+    length = draught + gap / np.pi * (1.5 + np.log(OVERALL * width / (2.0 * gap)))
+    return float(np.sqrt(g / length))
+
+
+def corners(body: GroupBody) -> FloatArray:
+    """Corners (4, 2) of the body's box, m, in the group's axes."""
+    c, s = np.cos(body.heading), np.sin(body.heading)
+    half = 0.5 * np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]]) * (body.length, body.breadth)
+    return np.asarray(half @ np.array([[c, s], [-s, c]]) + body.position[:2])
+
+
+def clearance(first: GroupBody, second: GroupBody) -> tuple[float, float]:
+    """Width of the water between two boxes, and over all across it, m; the width is negative where they
+    overlap.
+
+    The widest strip between them that is parallel to a side of one of the boxes (separating axes).
+    """
+    best = (-np.inf, np.inf)
+    a, b = corners(first), corners(second)
+    for angle in (first.heading, first.heading + np.pi / 2, second.heading, second.heading + np.pi / 2):
+        axis = np.array([np.cos(angle), np.sin(angle)])
+        p, q = a @ axis, b @ axis
+        width = max(p.min(), q.min()) - min(p.max(), q.max())
+        best = max(best, (float(width), float(max(p.max(), q.max()) - min(p.min(), q.min()))))
+    return best
+
+
+def gaps(group: HydroGroupData) -> list[Gap]:
+    """The gaps narrower than the hulls beside them; hulls around each other have none here."""
+    found = []
+    for a, b in combinations(group.bodies, 2):
+        width, overall = clearance(a, b)
+        if 0.0 < width < min(a.breadth, b.breadth):
+            draught = 0.5 * (a.draught + b.draught)
+            piston = piston_frequency(draught=draught, gap=width, width=overall, g=group.g)
+            across = float(np.sqrt(np.pi * group.g / width))
+            found.append(Gap(first=a.name, second=b.name, width=width, piston=piston, across=across))
+    return found
+
+
+def irregular_frequencies(body: GroupBody, g: float) -> FloatArray:
+    """First irregular frequencies (rad/s), rising, of the body's box."""
+    found = []
+    for i, j in product(range(1, 1 + FIRST_MODES), repeat=2):
+        k = np.pi * np.hypot(i / body.length, j / body.breadth)
+        found.append(np.sqrt(g * k / np.tanh(k * body.draught)))
+    return np.sort(np.array(found))
+
+
+def spikes(group: HydroGroupData) -> list[Spike]:
+    """Narrow peaks of the hulls' own damping, each with the nearest explanation.
+
+    Narrow is a peak that is half as high again as the damping 7 % of its frequency away on either side; the
+    damping of a hull by itself has none.
+    """
+    return [_explained(group, omega) for omega in _peaks(group)]
+
+
+def _peaks(group: HydroGroupData) -> list[float]:
+    """Frequencies of the peaks, those next to each other once, at the one that stands out most."""
+    own = np.diagonal(group.damping, axis1=1, axis2=2)
+    size = np.maximum(own.max(axis=0), 1e-300)
+    beside = np.maximum(*(_at(group.omega, own, group.omega * (1.0 + away)) for away in (-BESIDE, BESIDE)))
+    height = own / np.maximum(beside, LEAST * size)
+    top = np.zeros(own.shape, dtype=bool)
+    top[1:-1] = (own[1:-1] >= own[:-2]) & (own[1:-1] > own[2:]) & (own[1:-1] > LEAST * size)
+    most = np.where(top & (height > STANDS_OUT), height, 0.0).max(axis=1)
+    found: list[int] = []
+    for i in np.argsort(-most, kind="stable"):
+        if most[i] > 0.0 and all(abs(group.omega[i] / group.omega[k] - 1.0) > SAME for k in found):
+            found.append(int(i))
+    return [float(group.omega[i]) for i in sorted(found)]
+
+
+def _at(omega: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
+    """Columns of ``values`` at other frequencies, by straight lines."""
+    return np.array([np.interp(where, omega, column) for column in values.T]).T
+
+
+def _explained(group: HydroGroupData, omega: float) -> Spike:
+    """The nearest irregular frequency or piston mode, within what boxes miss; else a longer mode of a gap."""
+    known = [
+        (abs(expected / omega - 1.0), "irregular", body.name, float(expected))
+        for body in group.bodies
+        for expected in irregular_frequencies(body, group.g)
+    ]
+    between = gaps(group)
+    known += [
+        (abs(gap.piston / omega - 1.0), "gap", f"{gap.first}-{gap.second}", gap.piston) for gap in between
+    ]
+    off, cause, of, expected = min(known)
+    if off <= NEAR:
+        return Spike(omega=omega, cause=cause, of=of, expected=expected)
+    for gap in between:
+        if gap.piston < omega < gap.across:
+            return Spike(omega=omega, cause="gap", of=f"{gap.first}-{gap.second}", expected=float("nan"))
+    return Spike(omega=omega, cause="unexplained", of="", expected=float("nan"))

@@ -1,0 +1,178 @@
+"""`HydroGroup`: several hulls in one water, with all that is done to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.motion import motion_response
+from seacrane.hydro.data.packed import digest_of
+from seacrane.hydro.database.check import CheckRow
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.group.check import check_group
+from seacrane.hydro.group.gap import Gap, gaps
+from seacrane.hydro.group.lid import group_with_lid
+from seacrane.hydro.group.modes import GroupMode, natural_modes_of
+from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
+from seacrane.hydro.group.require import require_apart, require_group
+
+ComplexArray = NDArray[np.complex128]
+
+
+class HydroGroup(HydroGroupData):
+    __doc__ = HydroGroupData.__doc__
+
+    @staticmethod
+    def from_databases(
+        *,
+        databases: Mapping[str, HydroData],
+        positions: Mapping[str, ArrayLike],
+        headings: Mapping[str, float] | None = None,
+        name: str = "group",
+    ) -> HydroGroup:
+        """Hulls beside each other that do not feel each other: no coupling, and forces as if alone.
+
+        Parameters
+        ----------
+        databases : of each hull alone, by name, with the same frequencies, in one water.
+        positions : (3,) m, the reference point of each from the group's origin on the still waterline.
+        headings : rad, of the x axis of each, 0 where not given.
+        name : of the group.
+
+        Raises
+        ------
+        ValueError : other names in the two, another water or other frequencies, a forward speed, additional
+            matrices or tabulated roll damping.
+        SceneError : boxes of hulls that overlap, or headings of the waves that would have to be interpolated
+            over more than 45 degrees.
+        """
+        group = group_of_databases(HydroGroup, databases, positions, headings or {}, name)
+        require_apart(group)
+        return group
+
+    def __getitem__(self, name: str) -> HydroDatabase:
+        """One hull while the others are held at rest beside it: its own blocks, forces with shielding.
+
+        It is not the hull alone: the others reflect its waves, and shield it. Waves have zero phase at its
+        reference point, headings count from its own x axis.
+        """
+        return hull_of(self, name)
+
+    @property
+    def hulls(self) -> Mapping[str, HydroDatabase]:
+        """`group[name]` of every body, by name."""
+        return {name: self[name] for name in self.names}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+    def ordered(self, names: Sequence[str]) -> HydroGroup:
+        """The same group with its bodies in another order; a memory moves along.
+
+        Raises
+        ------
+        ValueError : not each body once.
+        """
+        return ordered_group(self, names)
+
+    def without_coupling(self) -> HydroGroup:
+        """The group whose hulls do not feel each other's motions: no blocks beside the diagonal, no memory.
+
+        Forces stay as they are, with the shielding.
+        """
+        return uncoupled_group(self)
+
+    @cached_property
+    def motion_rao(self) -> ComplexArray:
+        """Motions (m, n, 6 k) per metre of wave amplitude, all hulls together; read-only.
+
+        ``(-w^2 (M + A) + i w (B + B_lin) + C) X = F`` (`motion_response`), phases from the group's origin.
+        Quadratic damping is left out, and there is no mooring.
+        """
+        motions = motion_response(self)
+        motions.setflags(write=False)
+        return motions
+
+    def natural_modes(self) -> tuple[GroupMode, ...]:
+        """Modes of all hulls together without damping, within the frequencies, by rising frequency.
+
+        A mode that water in a gap makes is among them. Motions that nothing restores have none.
+        """
+        return natural_modes_of(self)
+
+    def gaps(self) -> list[Gap]:
+        """The gaps between hulls that are narrower than these, with the piston mode of their water by Molin.
+
+        Main dimensions are those of the bodies' boxes. A hull within another's ring has no gap here.
+        """
+        return gaps(self)
+
+    def with_lid_damping(self, damping: float) -> HydroGroup:
+        """The group with a damping lid on the water between its hulls, put in where the source had none.
+
+        Potential theory makes the water in a gap rise two to five times too high. How much a lid should damp
+        it no theory tells: compare answers of two values.
+
+        Parameters
+        ----------
+        damping : of the lid, as a share of the frequency: ``(1 - i damping) w^2 phi = g d(phi)/dz``. Values
+            of 0.01 to 0.03 are in use.
+
+        Returns
+        -------
+        HydroGroup : the poles of the gap's modes, found in matrices and forces, have ``damping`` times their
+            frequency more; without a memory, as that is of the data before.
+
+        Raises
+        ------
+        ValueError : no peak is one of a gap, the source has a lid already, or the frequencies are too far
+            apart to show the resonance.
+        SceneError : ``damping`` is not positive.
+        """
+        return group_with_lid(self, damping)
+
+    def check(self) -> list[CheckRow]:
+        """Self-check over all motions; see `check_group`."""
+        return check_group(self)
+
+    def require(
+        self,
+        *,
+        names: Sequence[str] | None = None,
+        positions: Mapping[str, ArrayLike] | None = None,
+        draughts: Mapping[str, float] | None = None,
+        apart: bool = False,
+    ) -> None:
+        """Raise unless the group is what its user takes it for.
+
+        Parameters
+        ----------
+        names : of the bodies, in this order.
+        positions : (3,) m, by name: the reference points, to 0.01 m.
+        draughts : m, by name, to 2 %.
+        apart : whether boxes of hulls may not overlap; a hull within the ring of another has one that does.
+
+        Raises
+        ------
+        SceneError : names the body, both values and the fix.
+        """
+        require_group(self, names=names, positions=positions, draughts=draughts, apart=apart)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of all that it holds: equal for groups that say the same."""
+        return digest_of(self)
+
+    def __repr__(self) -> str:
+        return (
+            f"<HydroGroup {self.name!r}: {', '.join(self.names)}, {self.omega.size} frequencies "
+            f"{self.omega[0]:.4g} to {self.omega[-1]:.4g} rad/s, {self.heading.size} headings>"
+        )

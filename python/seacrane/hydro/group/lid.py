@@ -1,0 +1,185 @@
+"""A damping lid on the water between hulls, put into results that were computed without one.
+
+A lid adds a damping ``e w`` to the free surface: ``(w^2 - i e w^2) phi = g d(phi)/dz`` (Chen 2005, quoted),
+so that a mode of the gap of frequency w0 and damping r, which moves as an oscillator, has ``r + e w0``
+instead. In matrices and forces each mode is one pole::
+
+    -w^2 A + i w B = smooth - w^2 S q(w),   F = smooth + f q(w),   q(w) = 1 / (w0^2 - w^2 + i w r)
+
+with S real and positive. The poles are found in the data, and q is replaced by that with the lid: exact for
+what is such a pole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.group.gap import spikes
+from seacrane.inputs.checked import positive_of
+from seacrane.one_thread import one_thread
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Group = TypeVar("Group", bound=HydroGroupData)
+
+WINDOW = 0.2  # of the outermost frequencies, to each side
+DEGREE = 3  # of what is smooth, and one more for each pole
+START = 0.03  # damping of a pole by its frequency, at which the search begins
+WORST = 0.15  # of what varies in the window, that poles and smooth part may leave
+
+
+@dataclass(frozen=True, eq=False)
+class _Poles:
+    """Frequencies and dampings (p,), rad/s and 1/s, residues (p, 6 k, 6 k), (p, m, 6 k), share left over."""
+
+    omega: FloatArray
+    rate: FloatArray
+    matrices: FloatArray
+    forces: ComplexArray
+    left: float
+
+
+@one_thread
+def group_with_lid(group: Group, damping: float) -> Group:
+    """`HydroGroup.with_lid_damping`."""
+    damping = positive_of(f"group {group.name!r}: lid damping", damping, "")
+    if group.lid_damping:
+        raise ValueError(
+            f"group {group.name!r}: its source has a lid of damping {group.lid_damping:g} already; "
+            "compute it "
+            "without one"
+        )
+    places = [spike.omega for spike in spikes(group) if spike.cause == "gap"]
+    if not places:
+        raise ValueError(
+            f"group {group.name!r}: no narrow peak of the damping is one of a gap, so that a lid has "
+            "nothing to damp; "
+            "see group.gaps() and group.check()"
+        )
+    poles = _found(group, places)
+    if poles.left > WORST:
+        raise ValueError(
+            f"group {group.name!r}: the resonance of the gap at {places[0]:.4g} rad/s is no sum of poles "
+            "in these data: "
+            f"{poles.left:.2g} of it is left over; compute with a finer step of frequencies and finer "
+            "panels there"
+        )
+    w = group.omega
+    dynamic = -(w[:, None, None] ** 2) * group.added_mass + 1j * w[:, None, None] * group.damping
+    force = group.force.copy()
+    for omega, rate, matrix, of_waves in zip(
+        poles.omega, poles.rate, poles.matrices, poles.forces, strict=True
+    ):
+        change = _pole(w, omega, rate + damping * omega) - _pole(w, omega, rate)
+        dynamic = dynamic - (w**2 * change)[:, None, None] * matrix
+        force = force + change[None, :, None] * of_waves[:, None, :]
+    return replace(
+        group,
+        added_mass=-dynamic.real / w[:, None, None] ** 2,
+        damping=dynamic.imag / w[:, None, None],
+        force=force,
+        lid_damping=damping,
+        memory=None,
+        source=f"{group.source}; gap with a lid of damping {damping:g}",
+    )
+
+
+def _pole(w: FloatArray, omega: float, rate: float) -> ComplexArray:
+    return np.asarray(1.0 / (omega**2 - w**2 + 1j * w * rate))
+
+
+def _found(group: HydroGroupData, places: list[float]) -> _Poles:
+    """Poles near the peaks, by least squares of the symmetric matrices within a window about them all."""
+    inside = _window(group, places)
+    w = group.omega[inside]
+    rows, columns = np.triu_indices(6 * len(group.bodies))
+    a, b = (0.5 * (x + x.swapaxes(1, 2))[inside] for x in (group.added_mass, group.damping))
+    scale = np.sqrt(np.maximum(np.diagonal(b, axis1=1, axis2=2).max(axis=0), 1e-300))
+    product = np.outer(scale, scale)
+    dynamic = (-(w[:, None, None] ** 2) * a + 1j * w[:, None, None] * b) / product
+    data: ComplexArray = np.asarray(dynamic[:, rows, columns], dtype=complex)
+    omega, rate = _searched(w, data, np.array(places))
+    fitted, residues = _of_real_poles(w, omega, rate, data)
+    matrices = np.zeros((len(places), len(scale), len(scale)))
+    matrices[:, rows, columns] = matrices[:, columns, rows] = residues
+    values, vectors = np.linalg.eigh(matrices)
+    positive = np.einsum("pij,pj,pkj->pik", vectors, np.maximum(values, 0.0), vectors)
+    varies = np.linalg.norm(data - data.mean(axis=0))
+    return _Poles(
+        omega=omega,
+        rate=rate,
+        matrices=np.asarray(positive * product),
+        forces=_of_forces(group, inside, omega, rate),
+        left=float(np.linalg.norm(data - fitted) / varies),
+    )
+
+
+def _window(group: HydroGroupData, places: list[float]) -> NDArray[np.intp]:
+    """Frequencies about the peaks, or a ValueError where they are too few to tell the poles."""
+    low, high = (1.0 - WINDOW) * min(places), (1.0 + WINDOW) * max(places)
+    inside = np.flatnonzero((group.omega >= low) & (group.omega <= high))
+    needed = 3 * (DEGREE + 2 * len(places))
+    if len(inside) < needed:
+        raise ValueError(
+            f"group {group.name!r}: {len(inside)} frequencies lie about the resonances of the gap, {low:.3g} "
+            f"to {high:.3g} rad/s, and {needed} are needed to tell their poles; compute with a finer step"
+        )
+    return inside
+
+
+def _searched(w: FloatArray, data: ComplexArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Frequencies and dampings (p,) of the poles that fit best, the former within 5 % of the peaks."""
+    from scipy.optimize import least_squares
+
+    count, size = len(places), np.abs(data - data.mean(axis=0)).max()
+
+    def told(parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return parameters[:count] * places, np.exp(parameters[count:]) * places
+
+    def misfit(parameters: FloatArray) -> FloatArray:
+        left = (data - _of_real_poles(w, *told(parameters), data)[0]).ravel() / size
+        return np.concatenate([left.real, left.imag])
+
+    start = np.concatenate([np.ones(count), np.full(count, np.log(START))])
+    margin = np.concatenate([np.full(count, 0.05), np.full(count, 4.0)])
+    found = least_squares(misfit, start, bounds=(start - margin, start + margin), xtol=1e-12, ftol=1e-12)
+    return told(np.asarray(found.x))
+
+
+def _of_forces(
+    group: HydroGroupData, inside: NDArray[np.intp], omega: FloatArray, rate: FloatArray
+) -> ComplexArray:
+    """Residues (p, m, 6 k) of the forces at known poles."""
+    w = group.omega[inside]
+    waves = group.force[:, inside].transpose(1, 0, 2).reshape(len(inside), -1)
+    poles = [_pole(w, o, r) for o, r in zip(omega, rate, strict=True)]
+    columns = np.concatenate([_smooth(w, len(omega)), poles]).T
+    residues = np.linalg.lstsq(columns, waves, rcond=None)[0][-len(omega) :]
+    return np.asarray(residues.reshape(len(omega), *group.force.shape[::2]), dtype=complex)
+
+
+def _smooth(w: FloatArray, count: int) -> ComplexArray:
+    """Powers (DEGREE + count + 1, n) of the frequency within its window."""
+    x = 2.0 * (w - w[0]) / (w[-1] - w[0]) - 1.0
+    return np.asarray(x ** np.arange(DEGREE + count + 1)[:, None], dtype=complex)
+
+
+def _of_real_poles(
+    w: FloatArray, omega: FloatArray, rate: FloatArray, data: ComplexArray
+) -> tuple[ComplexArray, FloatArray]:
+    """Best fit (n, entries) by a smooth part and by poles with real coefficients (p, entries)."""
+    smooth = _smooth(w, len(omega)).real
+    poles = np.array([-(w**2) * _pole(w, o, r) for o, r in zip(omega, rate, strict=True)])
+    nothing = np.zeros_like(smooth)
+    real = np.concatenate([smooth, nothing, poles.real])
+    imaginary = np.concatenate([nothing, smooth, poles.imag])
+    columns = np.concatenate([real, imaginary], axis=1).T
+    target = np.concatenate([data.real, data.imag])
+    values = np.linalg.lstsq(columns, target, rcond=None)[0]
+    fitted = columns @ values
+    return np.asarray(fitted[: len(w)] + 1j * fitted[len(w) :]), values[-len(omega) :]

@@ -1,0 +1,205 @@
+"""Reader of NEMOH's results of several bodies; files, axes and phases as in `read_nemoh`.
+
+Hydrostatics are a file for each body, ``KH_0.dat`` and ``Hydrostatics_0.dat`` on, in the order of
+``Nemoh.cal``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path, PureWindowsPath
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers.band_of_data import with_band_of_group
+from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
+from seacrane.hydro.readers.nemoh import (
+    CONTROL,
+    EXCITATION,
+    INNER,
+    RADIATION,
+    Water,
+    blocks,
+    can_open_nemoh,
+    found_file,
+    project_of,
+    read_control,
+    read_hydrostatics,
+    read_stiffness,
+    solution,
+    sought,
+)
+from seacrane.hydro.readers.of_bodies import box_of, group_symmetric, of_each, require_own_hydrostatics
+from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
+from seacrane.hydro.readers.wave_directions import phase_at
+
+FloatArray = NDArray[np.float64]
+Given = Mapping[str, ArrayLike]
+
+
+def read_nemoh_group(
+    path: str | PathLike[str],
+    *,
+    mass_matrices: Given | None = None,
+    restorings: Given | None = None,
+) -> HydroGroup:
+    """Read a folder of NEMOH's results of several bodies.
+
+    Parameters
+    ----------
+    path : the folder, or a file in it, with ``Nemoh.cal``, which tells the water, the bodies and the points
+        that they turn about.
+    mass_matrices : by body, (6, 6) in SI about that point; by default the displaced masses at the centres of
+        gravity with usual radii of gyration.
+    restorings : by body, (6, 6) in SI, in the place of ``KH_0.dat`` on.
+
+    Returns
+    -------
+    HydroGroup : its origin is that of the meshes. Bodies are named as their mesh files, in the order of
+        ``Nemoh.cal``. Lengths, breadths and draughts are those of the equivalent boxes.
+
+    Warns
+    -----
+    AssumedInertiaWarning : no ``mass_matrices``.
+
+    Raises
+    ------
+    FileFormatError : a file is missing, truncated or damaged, or the hydrostatics of a body are not its own;
+        the message names the file and the body.
+    """
+    folder = project_of(Path(path))
+    files = {name: found_file(folder, name) for name in (RADIATION, EXCITATION, CONTROL)}
+    water, meshes = read_control(files[CONTROL])
+    names = _names(len(water.centres), meshes)
+    try:
+        found = _convert(folder, files, water, names, mass_matrices, restorings)
+    except FileFormatError:
+        raise
+    except ValueError as error:
+        raise FileFormatError(f"{folder}: {error}") from error
+    require_own_hydrostatics(folder, found, "restorings={name: (6, 6)} and mass_matrices")
+    return with_band_of_group(found)
+
+
+def _names(count: int, meshes: list[str]) -> list[str]:
+    """Names of the mesh files, each once; numbers where that is not so."""
+    stems = [PureWindowsPath(mesh).stem for mesh in meshes]
+    alone = len(stems) == count and len(set(stems)) == count
+    return stems if alone else [f"body{i}" for i in range(1, count + 1)]
+
+
+def _convert(
+    folder: Path,
+    files: dict[str, Path],
+    water: Water,
+    names: list[str],
+    masses: Given | None,
+    restorings: Given | None,
+) -> HydroGroup:
+    count = len(names)
+    radiation = blocks(files[RADIATION], bodies=count)
+    if len(radiation) != 6 * count:
+        raise FileFormatError(
+            f"{files[RADIATION]}: {len(radiation)} degrees of freedom; six of each of {', '.join(names)} "
+            "are needed"
+        )
+    waves = blocks(files[EXCITATION], bodies=count)
+    solved = solution(files[RADIATION], files[EXCITATION], radiation, waves)
+    stiffness = None if restorings is None else of_each(folder, "restorings", names, restorings, (6, 6))
+    inertia = None if masses is None else of_each(folder, "mass_matrices", names, masses, (6, 6))
+    bodies = [
+        _body(
+            folder,
+            water,
+            (i, name),
+            None if stiffness is None else stiffness[i],
+            None if inertia is None else inertia[i],
+        )
+        for i, name in enumerate(names)
+    ]
+    origin = np.array([-water.phase_origin[0], -water.phase_origin[1]])
+    at_mesh = phase_at(origin, solved.omega, solved.direction, water.g, water.depth)
+    return HydroGroup(
+        name=folder.resolve().name,
+        bodies=tuple(bodies),
+        omega=solved.omega,
+        heading=solved.direction,
+        added_mass=solved.added_mass,
+        damping=solved.damping,
+        force=solved.force * at_mesh,
+        rho=water.rho,
+        g=water.g,
+        depth=water.depth,
+        port_starboard_symmetric=group_symmetric(bodies, solved.added_mass),
+        origin="origin of the meshes of NEMOH, on the still waterline",
+        source=f"NEMOH results in folder {folder.resolve().name}",
+    )
+
+
+def _body(
+    folder: Path,
+    water: Water,
+    which: tuple[int, str],
+    restoring: FloatArray | None,
+    mass: FloatArray | None,
+) -> GroupBody:
+    index, name = which
+    if restoring is None:
+        restoring = read_stiffness(_of_body(folder, f"KH_{index}.dat", name))
+    centre = water.centres[index]
+    if mass is None:
+        gravity, volume = read_hydrostatics(_of_body(folder, f"Hydrostatics_{index}.dat", name))
+        box = box_of(folder, name, restoring, volume, water.rho * water.g)
+        mass = usual_mass_matrix(
+            folder,
+            f"NEMOH's results hold no mass matrix of {name}, give read_nemoh_group(mass_matrices=...)",
+            mass=water.rho * volume,
+            centre=gravity - centre,
+            length=box["length"],
+            breadth=box["breadth"],
+        )
+    else:
+        box = box_of(folder, name, restoring, float(mass[0, 0]) / water.rho, water.rho * water.g)
+    return GroupBody(
+        name=name,
+        position=centre,
+        mass_matrix=mass,
+        restoring=restoring,
+        **box,
+    )
+
+
+def _of_body(folder: Path, name: str, body: str) -> Path:
+    """A file of one body, in either case, in the folder or in those of results and meshes."""
+    for place in (folder, *(folder / inner for inner in INNER)):
+        if place.is_dir():
+            for file in sorted(place.iterdir()):
+                if file.name.lower() == name.lower() and file.is_file():
+                    return file
+    raise FileFormatError(
+        f"{folder / name}: no such file, nor in results or mesh; it tells {body}'s hydrostatics"
+    )
+
+
+def _can_open(path: Path) -> bool:
+    if not can_open_nemoh(path):
+        return False
+    control = sought(project_of(path), CONTROL)
+    try:
+        return control is not None and len(read_control(control)[0].centres) > 1
+    except FileFormatError:
+        return False
+
+
+FORMAT = Format(
+    name="NEMOH",
+    files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
+    can_open=_can_open,
+    read=of_one_speed(read_nemoh_group),
+    speeds=zero_speed,
+)

@@ -1,0 +1,95 @@
+"""RM3, a float around a spar with a plate, by WAMIT, Capytaine and NEMOH: how far they differ."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro import HydroGroup, load_database, read_capytaine_group, read_nemoh_group, read_wamit_group
+
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.SourceWarning")
+
+CENTRES = {"rm3_float": (0.0, 0.0, -0.72), "rm3_spar": (0.0, 0.0, -21.29)}
+OMEGA = 1.0  # rad/s
+# Heave of the float (2) and of the spar (8): WAMIT's value, and how far the others may be.
+TABLE = {
+    "added_mass": {(2, 2): (1.200e6, 0.005), (8, 2): (-3.07e4, 0.25), (8, 8): (8.851e6, 0.27)},
+    "damping": {(2, 2): (6.488e5, 0.012), (8, 2): (-2.270e5, 0.29)},
+}
+
+
+def three_codes(folder: Path) -> dict[str, HydroGroup]:
+    """Masses and restoring are those of Capytaine's file: the others hold none by body."""
+    capytaine = read_capytaine_group(folder / "capytaine" / "rm3_hydrodynamics.nc", rotation_centres=CENTRES)
+    of_bodies = dict(zip(("float", "spar"), capytaine.bodies, strict=True))
+    masses = {name: body.mass_matrix for name, body in of_bodies.items()}
+    restorings = {name: body.restoring for name, body in of_bodies.items()}
+    return {
+        "wamit": read_wamit_group(folder / "wamit", rho=1000.0, mass_matrices=masses),
+        "capytaine": capytaine,
+        "nemoh": read_nemoh_group(folder / "nemoh3", mass_matrices=masses, restorings=restorings),
+    }
+
+
+@pytest.fixture(scope="module")
+def codes(shared: Path) -> dict[str, HydroGroup]:
+    folder = shared / "rm3"
+    if not folder.is_dir():
+        pytest.skip(f"no {folder}")
+    return three_codes(folder)
+
+
+def test_each_file_holds_float_and_spar(codes: dict[str, HydroGroup]) -> None:
+    for group in codes.values():
+        assert [name.removeprefix("rm3_") for name in group.names] == ["float", "spar"]
+        assert [body.position[2] for body in group.bodies] == [-0.72, -21.29]
+        assert len(group.omega) == 260
+        assert group.depth == np.inf
+        assert group.port_starboard_symmetric
+
+
+@pytest.mark.parametrize("table", TABLE)
+def test_wamit_reads_as_its_listing_says(table: str, codes: dict[str, HydroGroup]) -> None:
+    group = codes["wamit"]
+    at = int(np.abs(group.omega - OMEGA).argmin())
+    for entry, (value, _) in TABLE[table].items():
+        assert getattr(group, table)[at][entry] == pytest.approx(value, rel=2e-3)
+
+
+@pytest.mark.parametrize("code", ["capytaine", "nemoh"])
+@pytest.mark.parametrize("table", TABLE)
+def test_codes_agree_as_far_as_they_do(table: str, code: str, codes: dict[str, HydroGroup]) -> None:
+    """The bounds are those of the codes; a wrong index, scale or sign is beyond them."""
+    group = codes[code]
+    at = int(np.abs(group.omega - OMEGA).argmin())
+    for entry, (value, limit) in TABLE[table].items():
+        assert getattr(group, table)[at][entry] == pytest.approx(value, rel=limit)
+
+
+def test_sources_and_potentials_err_by_each_others_transpose(codes: dict[str, HydroGroup]) -> None:
+    """A15 of WAMIT (potentials) is A51 of Capytaine (sources), and the mean of both is one number to 3 %."""
+    at = {name: int(np.abs(group.omega - OMEGA).argmin()) for name, group in codes.items()}
+    wamit, capytaine = (codes[name].added_mass[at[name]] for name in ("wamit", "capytaine"))
+    assert wamit[0, 4] == pytest.approx(capytaine[4, 0], rel=0.04)
+    assert wamit[4, 0] == pytest.approx(capytaine[0, 4], rel=0.01)
+    assert abs(wamit[0, 4] / wamit[4, 0] - 1.0) > 0.3
+    means = [0.5 * (matrix[0, 4] + matrix[4, 0]) for matrix in (wamit, capytaine)]
+    assert means[0] == pytest.approx(means[1], rel=0.03)
+
+
+def test_heave_forces_of_both_bodies_agree(codes: dict[str, HydroGroup]) -> None:
+    forces = {
+        name: group.force[0, int(np.abs(group.omega - OMEGA).argmin())] for name, group in codes.items()
+    }
+    for name in ("capytaine", "nemoh"):
+        assert forces[name][2] == pytest.approx(forces["wamit"][2], rel=0.02)
+        assert np.angle(forces[name][8] / forces["wamit"][8]) == pytest.approx(0.0, abs=np.radians(1.5))
+
+
+def test_hydrostatics_of_both_bodies_together_are_refused(shared: Path, codes: dict[str, HydroGroup]) -> None:
+    """The folder's own KH files hold float and spar together, as C55 below zero tells."""
+    with pytest.raises(FileFormatError, match=r"body float: restoring C33 .* C55"):
+        load_database(shared / "rm3" / "nemoh3")
