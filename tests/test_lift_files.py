@@ -481,6 +481,7 @@ LEFT_OUT = {
     "add_function_force": "a C function is no data",
     "add_load": "its kinds have tables of their own",
     "add_drift": "drift of [sea]",
+    "add_vessels": "its group of hulls is read in a script",
     "use_actual_position": "phase of [sea]",
     "use_slow_position": "phase of [sea]",
 }

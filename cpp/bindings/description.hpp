@@ -125,12 +125,15 @@ V from_python(const std::string& what, const py::handle& given) {
   } else if constexpr (std::is_same_v<V, Frame>) {
     if (py::isinstance<Frame>(given)) return given.cast<V>();
     throw SceneError(what + " is " + py::repr(given).cast<std::string>() + "; a frame is a seacrane.Frame");
-  } else if constexpr (std::is_same_v<V, decltype(VesselDescription::memory)>) {
+  } else if constexpr (std::is_same_v<V, decltype(VesselDescription::memory)> ||
+                       std::is_same_v<V, std::vector<StateSpaceBlock>>) {
     try {
       return given.cast<V>();
     } catch (const py::cast_error&) {
+      const bool blocks = std::is_same_v<V, std::vector<StateSpaceBlock>>;
       throw SceneError(what + " is " + py::repr(given).cast<std::string>() +
-                       "; give a list of seacrane.StateSpaceBlock or seacrane.RetardationFunctions");
+                       "; give a list of seacrane.StateSpaceBlock" +
+                       (blocks ? "" : " or seacrane.RetardationFunctions"));
     }
   } else {
     return checked("shaped_of")(what, given, py::tuple(py::cast(TypeOf<V>::shape()))).template cast<V>();

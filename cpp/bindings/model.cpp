@@ -27,7 +27,8 @@ std::shared_ptr<Model> compile_scene(
     std::string name, double gravity, const std::string& orientation, double baumgarte, double length_scale,
     std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
     std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
-    std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
+    std::vector<VesselDescription> vessels, std::vector<HydroGroupDescription> groups,
+    std::vector<WaveLoadDescription> wave_loads,
     const std::vector<std::tuple<std::string, std::string, std::string>>& coordinates,
     std::vector<PointDescription> points, bool merge, std::shared_ptr<SeaField> sea) {
   SceneDescription scene;
@@ -51,6 +52,7 @@ std::shared_ptr<Model> compile_scene(
     }
   }
   scene.vessels = std::move(vessels);
+  scene.groups = std::move(groups);
   scene.wave_loads = std::move(wave_loads);
   for (const auto& [name, joint, coordinate] : coordinates) {
     scene.coordinates.push_back({{joint, coordinate}, name});
@@ -92,6 +94,7 @@ py::dict tree_of(const Model& model) {
   }
   out["driven"] = driven;
   out["loop_rows"] = tree.loop_rows;
+  out["refused"] = tree.refused;
   out["loop_trees"] = SparseLoops::trees_of(model.stepped(), tree);
   return out;
 }
@@ -183,6 +186,10 @@ class Evaluator {
       mass.block<6, 6>(6 * b, 6 * b) = terms.mass_matrix(b);
       load.segment<6>(6 * b) = terms.loads()[static_cast<std::size_t>(b)];
       acceleration.segment<6>(6 * b) = system_.accelerations()[static_cast<std::size_t>(b)];
+    }
+    for (const MassCoupling& c : terms.couplings()) {
+      mass.block<6, 6>(6 * c.first, 6 * c.second) = c.mass;
+      mass.block<6, 6>(6 * c.second, 6 * c.first) = c.mass.transpose();
     }
     for (std::size_t e = 0; e < model_->elements.size(); ++e) {
       const ElementModel& el = model_->elements[e];
@@ -440,8 +447,8 @@ void bind_model(py::module_& m) {
           "compiling it again gives. Raises SceneError.");
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
-        py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),
-        py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
+        py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("groups"),
+        py::arg("wave_loads"), py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
         py::arg("sea") = py::none(),
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);

@@ -263,6 +263,68 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
       {"waves", body, exact, std::make_shared<const WaveTable>(exact), nullptr, nullptr, nullptr});
 }
 
+/// Makes the vessels of a scene a group: masses between them, and one passive memory of all motions in place of
+/// their own.
+inline void make_group(SceneDescription& scene, std::uint64_t seed) {
+  Random random(seed);
+  HydroGroupDescription group;
+  group.name = "group";
+  for (VesselDescription& v : scene.vessels) {
+    group.vessels.push_back(v.name);
+    v.memory = std::vector<StateSpaceBlock>{};
+  }
+  const auto n = static_cast<Eigen::Index>(6 * group.vessels.size());
+  const auto fill = [&](Eigen::Index rows, Eigen::Index columns) {
+    MatXd out(rows, columns);
+    for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = random.number();
+    return out;
+  };
+  const MatXd some = fill(n, n);
+  group.added_mass = some + some.transpose();
+  for (Eigen::Index i = 0; i < n; i += 6) group.added_mass.block<6, 6>(i, i).setZero();
+  for (const double omega : {1.0, 2.0}) {
+    StateSpaceBlock memory;
+    for (int i = 0; i < static_cast<int>(n); ++i) {
+      memory.inputs.push_back(i);
+      memory.outputs.push_back(i);
+    }
+    memory.a = (MatXd(2, 2) << -0.4, omega, -omega, -0.4).finished();
+    memory.b = fill(2, n);
+    memory.c = memory.b.transpose();
+    memory.d = MatXd::Zero(n, n);
+    group.memory.push_back(memory);
+  }
+  scene.groups = {group};
+}
+
+/// A slider-crank on a hull, and a barge beside it at another heading, with a spring between them.
+inline SceneDescription two_hulls(bool grouped = true) {
+  SceneDescription scene = slider_crank("hull");
+  make_vessel(scene, "hull");
+  scene.bodies.push_back(body_at("barge", 40.0, {0.5, 4.0, 0.1}));
+  scene.bodies.back().quaternion = {std::cos(0.2), 0.0, 0.0, std::sin(0.2)};
+  scene.bodies.back().center_of_mass = {0.1, -0.05, 0.2};
+  make_vessel(scene, "barge");
+  scene.wave_loads.back().name = "waves on the barge";
+  SpringDescription line;
+  line.name = "line";
+  line.first = "hull";
+  line.second = "barge";
+  line.stiffness = 20.0;
+  line.damping = 1.0;
+  line.natural_length = 3.0;
+  scene.loads.of<SpringDamper>().push_back(line);
+  if (grouped) make_group(scene, 3);
+  return scene;
+}
+
+/// The same with a joint between the hulls.
+inline SceneDescription tied_hulls() {
+  SceneDescription scene = two_hulls();
+  join(scene, "spherical", "tie", "barge", "hull", {0.2, 2.0, 0.3});
+  return scene;
+}
+
 /// A slider-crank on a vessel in wind, and slow drift from its table or, with the first-order loads, at the
 /// actual position, or below a cut-off frequency at the slow one.
 inline SceneDescription at_sea(bool actual, double cutoff = 0.0) {
@@ -306,6 +368,10 @@ inline DenseTerms dense_terms(const MaximalSystem& system) {
     out.mass.block<6, 6>(6 * b, 6 * b) = system.terms().mass_matrix(b);
     out.load.segment<6>(6 * b) = system.terms().loads()[i];
     out.acceleration.segment<6>(6 * b) = system.accelerations()[i];
+  }
+  for (const MassCoupling& c : system.terms().couplings()) {
+    out.mass.block<6, 6>(6 * c.first, 6 * c.second) = c.mass;
+    out.mass.block<6, 6>(6 * c.second, 6 * c.first) = c.mass.transpose();
   }
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const ElementModel& el = m.elements[e];

@@ -70,7 +70,7 @@ Solution by_lu(const RandomSystem& s) {
   DenseKkt kkt(RandomSystem::bodies, s.schur.rows());
   std::vector<Vec6d> a(3);
   VecXd lambda(s.schur.rows());
-  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), nullptr);
+  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), {}, nullptr);
   kkt.solve(s.load.data(), s.gamma.data(), a.data(), lambda.data());
   return {Eigen::Map<const VecXd>(a[0].data(), 18), lambda};
 }
@@ -123,7 +123,7 @@ TEST_CASE("a repeated joint: rank, null space, the same motion and the shortest 
   VecXd right(rows);
   right << s.right_side(), s.right_side().segment(s.elements[1].row, 4);
   DenseKkt kkt(RandomSystem::bodies, rows);
-  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), &space);
+  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), {}, &space);
   std::vector<Vec6d> a(3);
   VecXd lambda(rows);
   kkt.solve(s.load.data(), right.data(), a.data(), lambda.data());
@@ -143,7 +143,7 @@ TEST_CASE("independent rows of a system of full rank give its solution") {
   CHECK(space.factor(s.elements, s.blocks.data(), s.over_mass.data(), 1e-6) == s.schur.rows());
   CHECK(space.null_space().cols() == 0);
   DenseKkt kkt(RandomSystem::bodies, s.schur.rows());
-  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), &space);
+  kkt.factor(s.elements, s.blocks.data(), s.mass.data(), {}, &space);
   std::vector<Vec6d> a(3);
   VecXd lambda(s.schur.rows());
   kkt.solve(s.load.data(), s.gamma.data(), a.data(), lambda.data());

@@ -283,6 +283,14 @@ TEST_CASE("exact Jacobian: a vessel with memory, waves at its mean, actual and s
   }
 }
 
+TEST_CASE("exact Jacobian: two hulls in one water, free and tied to each other") {
+  check_redundant(two_hulls(), 8);
+  check_recursive(two_hulls(), 8);
+  check_residual(two_hulls(), 8);
+  check_redundant(tied_hulls(), 8);
+  check_residual(tied_hulls(), 8);
+}
+
 TEST_CASE("exact Jacobian of the recursive form: struts, and a loop that stays rows") {
   Random random(9);
   for (int trial = 0; trial < 4; ++trial) {
@@ -336,7 +344,7 @@ TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
 
 TEST_CASE("exact Jacobian: nothing is allocated after the first one") {
   for (const SceneDescription& scene :
-       {slider_crank(), at_sea(true, 0.7), at_sea(false), with_convolution()}) {
+       {slider_crank(), at_sea(true, 0.7), at_sea(false), two_hulls(), with_convolution()}) {
     const auto terms = std::make_shared<Terms>(compile(scene));
     MaximalSystem system(terms);
     RecursiveSystem tree(terms);

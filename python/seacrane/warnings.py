@@ -40,6 +40,14 @@ class MeanHeadingWarning(RunWarning):
     """
 
 
+class RelativePlaceWarning(RunWarning):
+    """The slow part of a vessel's place beside another of its group has left that of the group's data by more
+    than a tenth of the gap, or its heading by more than 2 deg.
+
+    Moor them closer to these places, or compute the group where they go.
+    """
+
+
 class MeanPositionWarning(RunWarning):
     """The slow part of the vessel's drift from where its wave loads are taken is more than 0.3 rad of the
     phase of waves at the peak.

@@ -12,6 +12,7 @@
 #include "seacrane/compile/find_kinks.hpp"
 #include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/compile/locked_loops.hpp"
+#include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/contact.hpp"
@@ -50,6 +51,7 @@ class Compiler final : private LoadContext {
     limits();
     loads();
     vessels();
+    groups();
     layout();
     start();
     return std::move(model_);
@@ -230,9 +232,29 @@ class Compiler final : private LoadContext {
     }
     std::vector<GraphNode> nodes;
     for (const auto& e : model_.elements) nodes.push_back({e.rows, e.first, e.second});
-    model_.schur = BlockSchur(nodes, model_.body_count());
+    model_.schur = BlockSchur(nodes, model_.body_count(), coupled_bodies());
     for (std::size_t e = 0; e < nodes.size(); ++e)
       model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+  }
+
+  int vessel_of(const std::string& name) const {
+    return static_cast<int>(std::ranges::find(scene_.vessels, name, &VesselDescription::name) -
+                            scene_.vessels.begin());
+  }
+
+  /// The pairs of all groups in turn.
+  std::vector<CoupledBodies> coupled_bodies() const {
+    std::vector<CoupledBodies> out;
+    for (const HydroGroupDescription& d : scene_.groups) {
+      if (d.added_mass.size() == 0) continue;
+      const auto body = [&](std::size_t i) {
+        return place(scene_.vessels[idx(vessel_of(d.vessels[i]))].body).body;
+      };
+      for (std::size_t i = 0; i < d.vessels.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) out.push_back({body(i), body(j)});
+      }
+    }
+    return out;
   }
 
   /// A body of next to no inertia about its joints' lever arms makes their rows alike without being
@@ -357,6 +379,56 @@ class Compiler final : private LoadContext {
     }
   }
 
+  void groups() {
+    for (const HydroGroupDescription& d : scene_.groups) {
+      HydroGroup group;
+      for (const std::string& name : d.vessels) group.vessels.push_back(vessel_of(name));
+      const int count = static_cast<int>(group.vessels.size());
+      for (int i = 0; i < count; ++i) {
+        for (int j = 0; j < i && d.added_mass.size() > 0; ++j) {
+          const Mat6d block = d.added_mass.block<6, 6>(6 * i, 6 * j);
+          group.pairs.push_back({i, j, block});
+        }
+      }
+      try {
+        group.memory = Memory(d.memory, 6 * count);
+      } catch (const std::invalid_argument& error) {
+        throw SceneError("group '" + d.name + "': " + error.what());
+      }
+      check_mass(d, group);
+      model_.groups.push_back(group);
+    }
+  }
+
+  /// Rigid and added masses of a group at the start are positive definite.
+  void check_mass(const HydroGroupDescription& d, const HydroGroup& group) const {
+    MatXd mass = MatXd::Zero(group.motions(), group.motions());
+    std::vector<YawFrame<double>> frames(model_.vessels.size(),
+                                         YawFrame<double>(BodyKinematics<double>::ground()));
+    for (std::size_t i = 0; i < group.vessels.size(); ++i) {
+      const Vessel& vessel = model_.vessels[idx(group.vessels[i])];
+      const BodyDescription& start = scene_.bodies[idx(model_.merge.carriers[idx(vessel.body)])];
+      BodyKinematics<double> k = BodyKinematics<double>::ground();
+      k.rotation = rotation_from_quaternion<double>(start.quaternion);
+      frames[idx(group.vessels[i])] = YawFrame<double>(k);
+      const auto at = static_cast<Eigen::Index>(6 * i);
+      mass.block<6, 6>(at, at) = rigid_mass_matrix<double>(model_.bodies[idx(vessel.body)], k.rotation) +
+                                 frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
+    }
+    group.couple<double>(frames.data(), [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&,
+                                            const Vec6d&) {
+      mass.block<6, 6>(6 * pair.first, 6 * pair.second) = between;
+      mass.block<6, 6>(6 * pair.second, 6 * pair.first) = between.transpose();
+    });
+    const VecXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+    const MatXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
+    const double least = Eigen::SelfAdjointEigenSolver<MatXd>(scaled).eigenvalues()[0];
+    if (least > 0.0) return;
+    throw SceneError("group '" + d.name + "': the masses of its vessels with the added masses between them " +
+                     "are not positive definite: an eigenvalue is " + to_text(least) +
+                     " of the diagonal; correct added_mass, its units, or the order of the vessels");
+  }
+
   void layout() {
     StateLayout& s = model_.layout;
     s.bodies = model_.body_count();
@@ -367,6 +439,10 @@ class Compiler final : private LoadContext {
     for (auto& v : model_.vessels) {
       v.memory_offset = s.work;
       s.work += v.memory_states();
+    }
+    for (HydroGroup& group : model_.groups) {
+      group.memory_offset = s.work;
+      s.work += group.memory.states();
     }
     s.loads = s.work;
     s.work += static_cast<int>(model_.load_states.size());
@@ -394,6 +470,14 @@ class Compiler final : private LoadContext {
       }
       if (!model_.vessels[v].fast) continue;
       for (int k = 0; k < FastMotion::states; ++k) scale[idx(i++)] = k < 6 ? length : kRotationScale;
+    }
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+      int i = model_.groups[g].memory_offset;
+      for (const StateSpaceBlock& block : scene_.groups[g].memory) {
+        for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
+          scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
+        }
+      }
     }
     for (std::size_t i = 0; i < model_.load_states.size(); ++i) {
       scale[idx(s.loads) + i] = model_.load_states[i].scale;

@@ -52,8 +52,14 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   }
   int most = 0;
   for (const Vessel& vessel : model.vessels) most = std::max(most, vessel.memory_states());
-  memory_state_.resize(idx(most));
   memory_rate_.resize(idx(most));
+  for (const HydroGroup& group : model.groups) {
+    group_rate_.resize(std::max(group_rate_.size(), idx(group.memory.states())));
+  }
+  memory_state_.resize(std::max(memory_rate_.size(), group_rate_.size()));
+  if (!model.groups.empty()) {
+    frames_.assign(model.vessels.size(), YawFrame<Scalar>(BodyKinematics<Scalar>::ground()));
+  }
   state_.resize(model.load_states.size());
   state_rate_.resize(state_.size());
   inertial_.resize(idx(model.inertial_tensions));
@@ -72,6 +78,9 @@ void BodyResidual::start(const Terms& terms, double t, const Held& held) {
     moved_[b] = terms.bodies()[b];
     bodies_[b] = constant<Scalar>(terms.bodies()[b]);
   }
+  for (std::size_t v = 0; v < frames_.size(); ++v) {
+    frames_[v] = YawFrame<Scalar>(bodies_[idx(model_->vessels[v].body)]);
+  }
   const double* states = terms.load_input(t, held.memory).states;
   for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = Scalar(states[i]);
 }
@@ -89,14 +98,22 @@ LoadInput<BodyResidual::Scalar> BodyResidual::clear() {
 }
 
 void BodyResidual::differentiate(int b) {
+  const int vessel = model_->bodies[idx(b)].vessel;
+  const bool grouped = vessel >= 0 && model_->group_of(vessel) != nullptr;
   seed(terms_->bodies()[idx(b)], bodies_[idx(b)]);
   const LoadInput<Scalar> input = clear();
   add_inertia(b);
   add_loads(b, input);
   add_hydrodynamics(b, input);
+  if (grouped) {
+    frames_[idx(vessel)] = YawFrame<Scalar>(bodies_[idx(b)]);
+    add_coupled_inertia(vessel);
+    add_group_memory(vessel);
+  }
   add_waves(b);
   add_rows(b);
   bodies_[idx(b)] = constant<Scalar>(terms_->bodies()[idx(b)]);
+  if (grouped) frames_[idx(vessel)] = YawFrame<Scalar>(bodies_[idx(b)]);
 }
 
 void BodyResidual::differentiate_states(int first) {
@@ -246,6 +263,33 @@ void BodyResidual::add_hydrodynamics(int b, const LoadInput<Scalar>& input) {
     for (int j = 0; j < 6; ++j) mu[j] += present[j] * frame.twist[i];
   }
   vessel.radiate(frame, mu, sum_);
+}
+
+/// -R_i A_ij d/dt(R_j^T v_j) on both of every pair in which the vessel is.
+void BodyResidual::add_coupled_inertia(int v) {
+  const HydroGroup& group = *model_->group_of(v);
+  const auto load = [&](int on, int by, const Mat6d& added_mass) {
+    const Vec6<Scalar> rate = held_.acceleration[model_->vessels[idx(by)].body].cast<Scalar>();
+    const Vec6<Scalar> fluid = added_mass.cast<Scalar>() * frames_[idx(by)].twist_rate(rate);
+    const Vec6<Scalar> added = frames_[idx(on)].to_inertial(fluid);
+    BodyLoad<Scalar>& out = wrench(model_->vessels[idx(on)].body);
+    out.force -= added.head<3>();
+    out.moment -= added.tail<3>();
+  };
+  for (const HydroGroup::Pair& pair : group.pairs) {
+    const int first = group.vessels[idx(pair.first)], second = group.vessels[idx(pair.second)];
+    if (first != v && second != v) continue;
+    load(first, second, pair.added_mass);
+    load(second, first, pair.added_mass.transpose());
+  }
+}
+
+void BodyResidual::add_group_memory(int v) {
+  const HydroGroup& group = *model_->group_of(v);
+  const int own = group.memory_offset - model_->layout.memory;
+  std::copy_n(held_.memory + own, group.memory.states(), memory_state_.begin());
+  for (const int other : group.vessels) wrench(model_->vessels[idx(other)].body);
+  group.apply<Scalar>(model_->vessels.data(), frames_.data(), memory_state_.data(), group_rate_.data(), sum_);
 }
 
 void BodyResidual::add_waves(int b) {

@@ -54,6 +54,8 @@ class BodyResidual {
   const LoadSum<Scalar>& sum() const { return sum_; }
   /// Rates of the memory states of the body's vessel.
   const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
+  /// Rates of the memory states of the vessel's group.
+  const std::vector<Scalar>& group_rates() const { return group_rate_; }
   /// Tensions of quasi-static lines, with accelerations held.
   const std::vector<Scalar>& inertial_tensions() const { return inertial_; }
   /// Rates of the states of all loads.
@@ -79,6 +81,8 @@ class BodyResidual {
   void add_added_inertia(const LoadList& list, std::size_t i, const LoadInput<Scalar>& input);
   void add_differences(const LoadList& list, std::size_t i);
   void add_hydrodynamics(int body, const LoadInput<Scalar>& input);
+  void add_coupled_inertia(int vessel);
+  void add_group_memory(int vessel);
   void add_waves(int body);
   void add_rows(int body);
   void add_rows(const RowBlock<Scalar>& block, const ElementModel& element);
@@ -92,7 +96,9 @@ class BodyResidual {
   std::vector<BodyKinematics<double>> moved_;
   std::vector<BodyLoad<Scalar>> wrench_, second_wrench_;
   std::vector<BodyLoad<double>> moved_wrench_;
+  std::vector<YawFrame<Scalar>> frames_;  // by vessel, where there are groups
   std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_, state_, state_rate_, inertial_;
+  std::vector<Scalar> group_rate_;
   std::vector<Mat6<Scalar>> added_;      // by body, inertia of one load
   std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;

@@ -15,18 +15,27 @@ constexpr int kMostDecomposed = 256;  // rows, for their singular values
 constexpr double kWeakPivot = 1e4;  // rows beyond wait while a model is assembled: what is kept steps safely
 constexpr double kPart = 1e-7;      // of a combination of rows of unit size: less is rounding
 
+/// The block of M^-1 of two bodies that are coupled.
+Mat6d inverse_between(const std::vector<MassCoupling>& couplings, int body, int other) {
+  for (const MassCoupling& c : couplings) {
+    if (c.first == body && c.second == other) return c.inverse;
+    if (c.first == other && c.second == body) return c.inverse.transpose();
+  }
+  return Mat6d::Zero();
+}
+
 }  // namespace
 
 ConstraintSolver::ConstraintSolver(const Terms& terms)
     : terms_(terms), model_(terms.model()), others_hold_(terms.model()) {
   const Model& m = model_;
   const auto bodies = idx(m.body_count()), elements = m.elements.size();
-  over_mass_.assign(2 * elements, Mat6d::Zero());
+  over_mass_.assign(2 * elements + m.schur.crossings().size(), Mat6d::Zero());
   values_.assign(m.schur.value_count(), 0.0);
   multipliers_.assign(idx(m.rows()), 0.0);
   impulse_.assign(bodies + 1, Vec6d::Zero());
   here_.reserve(idx(m.rows()));
-  over_shape_.assign(2 * elements, Mat6d::Zero());
+  over_shape_ = over_mass_;
   dense_mass_.assign(bodies, Mat6d::Zero());
   shape_values_.assign(m.schur.value_count(), 0.0);
   if (6 * m.body_count() + m.rows() <= kDenseLimit) {
@@ -64,6 +73,11 @@ void ConstraintSolver::assemble() {
   for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
     rows_over_mass(terms_.inertia(body), blocks[e].d[side], over_mass_[2 * e + idx(side)]);
   });
+  for (std::size_t i = 0; i < m.schur.crossings().size(); ++i) {
+    const auto [side, body, other] = m.schur.crossings()[i];
+    over_mass_[2 * m.elements.size() + i].noalias() =
+        blocks[idx(side / 2)].d[side % 2] * inverse_between(terms_.couplings(), body, other);
+  }
   m.schur.assemble(blocks.data(), over_mass_.data(), values_.data());
 }
 
@@ -104,7 +118,8 @@ void ConstraintSolver::factor_dense() {
     most_left_out_ = std::max(most_left_out_, left_out_);
   }
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.symmetric_mass(b);
-  dense_->factor(m.elements, blocks, dense_mass_.data(), dependent_ ? &*row_space_ : nullptr);
+  dense_->factor(m.elements, blocks, dense_mass_.data(), terms_.couplings(),
+                 dependent_ ? &*row_space_ : nullptr);
 }
 
 void ConstraintSolver::solve(const std::vector<Vec6d>& load, const std::vector<double>& right,
@@ -115,9 +130,8 @@ void ConstraintSolver::solve(const std::vector<Vec6d>& load, const std::vector<d
     return;
   }
   const auto& blocks = terms_.blocks();
-  for (int b = 0; b < m.body_count(); ++b)
-    acceleration[idx(b)] = solve_inertia(terms_.inertia(b), load[idx(b)]);
-  acceleration.back().setZero();
+  for (Vec6d& of_body : acceleration) of_body.setZero();
+  add_over_mass(load, acceleration);
   lambda = right;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const ElementModel& element = m.elements[e];
@@ -128,8 +142,16 @@ void ConstraintSolver::solve(const std::vector<Vec6d>& load, const std::vector<d
   }
   m.schur.solve(values_.data(), lambda.data());
   multiplier_load(terms_, lambda.data(), impulse_);
-  for (int b = 0; b < m.body_count(); ++b) {
-    acceleration[idx(b)] += solve_inertia(terms_.inertia(b), impulse_[idx(b)]);
+  add_over_mass(impulse_, acceleration);
+}
+
+/// acceleration += M^-1 load, by body.
+void ConstraintSolver::add_over_mass(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) const {
+  for (int b = 0; b < model_.body_count(); ++b) {
+    acceleration[idx(b)] += solve_inertia(terms_.inertia(b), load[idx(b)]);
+  }
+  for (const MassCoupling& c : terms_.couplings()) {
+    c.add_product(c.inverse, load.data(), acceleration.data());
   }
 }
 
@@ -137,7 +159,7 @@ void ConstraintSolver::solve_unsymmetric(const std::vector<Vec6d>& load, const s
                                          std::vector<Vec6d>& acceleration, std::vector<double>& lambda) {
   const Model& m = model_;
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.mass_matrix(b);
-  dense_->factor(m.elements, terms_.blocks().data(), dense_mass_.data(), nullptr);
+  dense_->factor(m.elements, terms_.blocks().data(), dense_mass_.data(), terms_.couplings(), nullptr);
   dense_->solve(load.data(), right.data(), acceleration.data(), lambda.data());
   if (!regular_) factor_dense();  // project() corrects in the symmetric metric
 }
@@ -148,10 +170,9 @@ void ConstraintSolver::correct(std::vector<double>& residual, std::vector<Vec6d>
     return;
   }
   model_.schur.solve(values_.data(), residual.data());
-  multiplier_load(terms_, residual.data(), motion);
-  for (int b = 0; b < model_.body_count(); ++b) {
-    motion[idx(b)] = solve_inertia(terms_.inertia(b), motion[idx(b)]);
-  }
+  multiplier_load(terms_, residual.data(), impulse_);
+  for (Vec6d& of_body : motion) of_body.setZero();
+  add_over_mass(impulse_, motion);
 }
 
 Dependence ConstraintSolver::take_dependence() {

@@ -72,6 +72,7 @@ class ConstraintSolver {
 
  private:
   void factor_dense();
+  void add_over_mass(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) const;
   void assemble();
   void assemble_shape();
   void choose_here(double most);
@@ -82,7 +83,7 @@ class ConstraintSolver {
 
   const Terms& terms_;
   const Model& model_;
-  std::vector<Mat6d> over_mass_;
+  std::vector<Mat6d> over_mass_;  // of sides, then of crossings
   std::vector<double> values_, multipliers_;
   std::vector<Vec6d> impulse_;
   std::optional<DenseKkt> dense_;

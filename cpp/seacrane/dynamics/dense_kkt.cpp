@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seacrane/model/model.hpp"
+#include "seacrane/dynamics/inertia.hpp"
 
 namespace seacrane {
 
@@ -18,7 +18,8 @@ DenseKkt::DenseKkt(int bodies, int rows)
       lu_(velocities_ + rows) {}
 
 void DenseKkt::factor(const std::vector<ElementModel>& elements, const RowBlock<double>* blocks,
-                      const Mat6d* mass, const RowSpace* independent) {
+                      const Mat6d* mass, const std::vector<MassCoupling>& couplings,
+                      const RowSpace* independent) {
   const int bodies = velocities_ / 6, n = velocities_;
   independent_ = independent;
   matrix_.setZero();
@@ -26,6 +27,10 @@ void DenseKkt::factor(const std::vector<ElementModel>& elements, const RowBlock<
   for (int b = 0; b < bodies; ++b) {
     matrix_.block<6, 6>(6 * b, 6 * b) = mass[b];
     heaviest = std::max(heaviest, mass[b].diagonal().cwiseAbs().maxCoeff());
+  }
+  for (const MassCoupling& c : couplings) {
+    matrix_.block<6, 6>(6 * c.first, 6 * c.second) = c.mass;
+    matrix_.block<6, 6>(6 * c.second, 6 * c.first) = c.mass.transpose();
   }
   // One scale for all: a scale per body would make the rows of a light body's joints parallel.
   scale_.setConstant(1.0 / std::sqrt(heaviest));

@@ -8,6 +8,10 @@ double kinetic_energy(const Terms& terms, const double* y) {
     const auto v = view<6>(y + terms.model().layout.twist(b));
     sum += 0.5 * v.dot(terms.mass_matrix(b) * v);
   }
+  for (const MassCoupling& c : terms.couplings()) {
+    const StateLayout& s = terms.model().layout;
+    sum += view<6>(y + s.twist(c.first)).dot(c.mass * view<6>(y + s.twist(c.second)));
+  }
   return sum;
 }
 

@@ -45,6 +45,15 @@ void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot
     balance.tail<3>() /= inertia;
     view<6>(r + s.twist(b)) = balance;
   }
+  for (const MassCoupling& c : terms.couplings()) {
+    const auto add = [&](int to, const Vec6d& balance) {
+      const BodyModel& body = m.bodies[idx(to)];
+      view<3>(r + s.twist(to)) += balance.head<3>() / body.mass;
+      view<3>(r + s.twist(to) + 3) += balance.tail<3>() / (body.inertia.trace() / 3.0);
+    };
+    add(c.first, c.mass * view<6>(ydot + s.twist(c.second)));
+    add(c.second, c.mass.transpose() * view<6>(ydot + s.twist(c.first)));
+  }
   for (int i = s.memory; i < s.work; ++i) r[i] = ydot[i] - rate_[idx(i)];
   for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
     terms.add_driver_power(lambda[m.elements[e].row] * terms.blocks()[e].nu[0]);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/hydro/vessel.hpp"
+#include "seacrane/hydro/hydro_group.hpp"
 #include "seacrane/math/spd_inverse.hpp"
 #include "seacrane/model/model.hpp"
 
@@ -12,6 +12,18 @@ struct BodyInertia {
   Mat3d inverse_inertia;  // compact bodies: about the centre of mass
   Mat6d mass, inverse;    // of a full 6 x 6
   bool full = false;
+};
+
+/// Blocks of the mass matrix and of its inverse between two bodies, first over second.
+struct MassCoupling {
+  int first = 0, second = 0;
+  Mat6d mass = Mat6d::Zero(), inverse = Mat6d::Zero();
+
+  /// What the blocks of the mass matrix (or of its inverse) make of vectors by body, added to `out`.
+  void add_product(const Mat6d& block, const Vec6d* by_body, Vec6d* out) const {
+    out[first].noalias() += block * by_body[second];
+    out[second].noalias() += block.transpose() * by_body[first];
+  }
 };
 
 /// Compact body (state point = centre of mass): b = (0, omega x J omega), eq (5).

@@ -6,17 +6,36 @@
 #include "seacrane/dynamics/maximal.hpp"
 
 namespace seacrane {
+namespace {
+
+/// Into the first rows and columns of matrices of zeros.
+void write_matrices(const Memory& memory, MemoryMatrices& m) {
+  const int n = memory.states();
+  const VecXd rest = VecXd::Zero(m.c.rows());
+  for (int j = 0; j < n; ++j) {
+    const VecXd unit = VecXd::Unit(n, j);
+    memory.evaluate<double>(rest.data(), unit.data(), m.a.col(j).data(), m.c.col(j).data());
+  }
+}
+
+}  // namespace
+
+std::vector<MemoryMatrices> group_matrices(const Model& model) {
+  std::vector<MemoryMatrices> out;
+  for (const HydroGroup& group : model.groups) {
+    const int n = group.memory.states();
+    out.push_back({MatXd::Zero(n, n), MatXd::Zero(group.motions(), n)});
+    write_matrices(group.memory, out.back());
+  }
+  return out;
+}
+
 std::vector<MemoryMatrices> memory_matrices(const Model& model) {
   std::vector<MemoryMatrices> out;
   for (const Vessel& vessel : model.vessels) {
     const int n = vessel.memory_states(), fluid = vessel.fluid_states();
     MemoryMatrices& m = out.emplace_back(MemoryMatrices{MatXd::Zero(n, n), MatXd::Zero(6, n)});
-    for (int j = 0; j < fluid; ++j) {
-      const VecXd unit = VecXd::Unit(fluid, j);
-      Vec6d mu = Vec6d::Zero();
-      std::get<Memory>(vessel.memory).evaluate<double>(Vec6d::Zero(), unit.data(), m.a.col(j).data(), mu);
-      m.c.col(j) = mu;
-    }
+    if (fluid > 0) write_matrices(std::get<Memory>(vessel.memory), m);
     for (int j = fluid; j < n; ++j) {
       const VecXd unit = VecXd::Unit(n - fluid, j - fluid);
       vessel.fast->rates<double>(Vec3d::Zero(), unit.data(), m.a.col(j).data() + fluid);
@@ -29,7 +48,7 @@ double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, co
                          double* x_rate) {
   if (vessel.fluid_states() == 0) return 1.0;
   Vec6d mu = Vec6d::Zero();
-  std::get<Memory>(vessel.memory).evaluate<double>(frame.twist, x, x_rate, mu);
+  std::get<Memory>(vessel.memory).evaluate<double>(frame.twist.data(), x, x_rate, mu.data());
   return sign(-frame.twist.dot(mu));
 }
 
@@ -74,6 +93,7 @@ MaximalJacobian::MaximalJacobian(const Model& model)
     : model_(&model),
       residual_(model),
       memory_(memory_matrices(model)),
+      groups_(group_matrices(model)),
       load_(idx(model.body_count()) + 1, Vec6d::Zero()),
       acceleration_(load_),
       given_(idx(model.rows())),
@@ -141,6 +161,10 @@ void MaximalJacobian::write_body_columns(int b, const double* y, double* out) {
       for (int i = 0; i < v.memory_states(); ++i) {
         column[v.memory_offset + i] = residual_.memory_rates()[idx(i)].slope[d];
       }
+      const HydroGroup* const group = m.group_of(vessel);
+      for (int i = 0; group && i < group->memory.states(); ++i) {
+        column[group->memory_offset + i] = residual_.group_rates()[idx(i)].slope[d];
+      }
     }
     write_slopes(residual_.state_rates(), k, column_.data() + m.layout.loads);
     if (k < 3) {
@@ -164,15 +188,7 @@ void MaximalJacobian::write_memory_columns(const double* y, double* out) {
     if (states == 0) continue;
     const YawFrame<double>& frame = system_->terms().frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + vessel.memory_offset, column_.data());
-    response_.setZero();
-    std::fill(given_.begin(), given_.end(), 0.0);
-    own_.setZero();
-    for (int i = 0; i < 6; ++i) {
-      const Vec6d unit = Vec6d::Unit(i);
-      for (auto& load : load_) load.setZero();
-      load_[idx(vessel.body)] = frame.to_inertial(unit);
-      solve_column(response_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
-    }
+    respond_to_motions(v, direction);
     const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
     write_wave_slopes(vessel, waves, memory_[v].c);
     jacobian.middleCols(vessel.memory_offset, states).noalias() = -response_ * memory_[v].c;
@@ -181,6 +197,37 @@ void MaximalJacobian::write_memory_columns(const double* y, double* out) {
           (direction - waves.direction) * frame.twist.dot(memory_[v].c.col(i));
     }
     jacobian.block(vessel.memory_offset, vessel.memory_offset, states, states) += memory_[v].a;
+  }
+  for (std::size_t g = 0; g < m.groups.size(); ++g) write_group_columns(g, y, jacobian);
+}
+
+void MaximalJacobian::write_group_columns(std::size_t g, const double* y, Eigen::Map<MatXd>& jacobian) {
+  const HydroGroup& group = model_->groups[g];
+  const int states = group.memory.states(), at = group.memory_offset;
+  if (states == 0) return;
+  const std::vector<YawFrame<double>>& frames = system_->terms().frames();
+  HydroGroup::Motions<double> mu;
+  group.remember(frames.data(), y + at, column_.data(), mu);
+  for (std::size_t k = 0; k < group.vessels.size(); ++k) {
+    const auto v = idx(group.vessels[k]);
+    respond_to_motions(v, sign(-frames[v].twist.dot(Eigen::Map<const Vec6d>(&mu[6 * k]))));
+    jacobian.middleCols(at, states).noalias() -=
+        response_ * groups_[g].c.middleRows<6>(static_cast<Eigen::Index>(6 * k));
+  }
+  jacobian.block(at, at, states, states) += groups_[g].a;
+}
+
+/// response_: to unit loads of a vessel's motions, whose power has this sign.
+void MaximalJacobian::respond_to_motions(std::size_t v, double direction) {
+  const YawFrame<double>& frame = system_->terms().frames()[v];
+  response_.setZero();
+  std::fill(given_.begin(), given_.end(), 0.0);
+  own_.setZero();
+  for (int i = 0; i < 6; ++i) {
+    const Vec6d unit = Vec6d::Unit(i);
+    for (auto& load : load_) load.setZero();
+    load_[idx(model_->vessels[v].body)] = frame.to_inertial(unit);
+    solve_column(response_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
   }
 }
 

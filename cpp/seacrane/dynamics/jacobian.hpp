@@ -15,6 +15,8 @@ struct MemoryMatrices {
   MatXd a, c;
 };
 std::vector<MemoryMatrices> memory_matrices(const Model& model);
+/// The same of the groups' memories, mu of all their motions.
+std::vector<MemoryMatrices> group_matrices(const Model& model);
 /// Sign of the memory's power at x; `x_rate` is scratch.
 double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, const double* x,
                          double* x_rate);
@@ -52,6 +54,8 @@ class MaximalJacobian {
   void solve_column(double* column, double power, double absolute_power);
   void write_body_columns(int body, const double* y, double* out);
   void write_memory_columns(const double* y, double* out);
+  void write_group_columns(std::size_t group, const double* y, Eigen::Map<MatXd>& jacobian);
+  void respond_to_motions(std::size_t vessel, double direction);
   void write_state_columns(double* out);
   void write_pose_rates(const double* y, double* out) const;
 
@@ -59,6 +63,7 @@ class MaximalJacobian {
   MaximalSystem* system_ = nullptr;  // during an evaluation
   BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;  // by vessel
+  std::vector<MemoryMatrices> groups_;
   std::vector<Vec6d> load_, acceleration_;
   std::vector<double> given_, lambda_, column_;
   VecXd own_;       // changes of inertial tensions with accelerations held

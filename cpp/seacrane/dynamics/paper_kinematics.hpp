@@ -24,7 +24,7 @@ struct PaperVessel {
     const Vec3d turning = t * (euler_xyz_to_omega_rate<double>(phi, rate) * rate);
     Vec6d eta_rate, mu = Vec6d::Zero();
     eta_rate << k.velocity, rate;
-    std::get<Memory>(v.memory).evaluate<double>(eta_rate, x, x_rate, mu);
+    std::get<Memory>(v.memory).evaluate<double>(eta_rate.data(), x, x_rate, mu.data());
     load = total.rightCols<3>() * turning - v.linear_damping * eta_rate - mu;
     for (int i = 0; i < 6; ++i) load[i] -= v.quadratic_damping[i] * std::abs(eta_rate[i]) * eta_rate[i];
     restore(v, k.position - v.mean_position, phi, eta_rate);

@@ -8,6 +8,7 @@ ResidualJacobian::ResidualJacobian(const Model& model)
     : model_(&model),
       residual_(model),
       memory_(memory_matrices(model)),
+      groups_(group_matrices(model)),
       acceleration_(idx(model.body_count()) + 1, Vec6d::Zero()),
       correction_(acceleration_),
       column_(model.layout.size + 2 * model.rows()) {}
@@ -72,6 +73,10 @@ void ResidualJacobian::write_body_columns(int b, const double* y, Eigen::Map<Mat
       for (int i = 0; i < v.memory_states(); ++i) {
         column_[v.memory_offset + i] = -residual_.memory_rates()[idx(i)].slope[d];
       }
+      const HydroGroup* const group = m.group_of(vessel);
+      for (int i = 0; group && i < group->memory.states(); ++i) {
+        column_[group->memory_offset + i] = -residual_.group_rates()[idx(i)].slope[d];
+      }
     }
     write_load_rates(k, column_.data());
     for (int r = 0; r < m.rows(); ++r) {
@@ -110,6 +115,30 @@ void ResidualJacobian::write_memory_columns(const double* y, Eigen::Map<MatXd>& 
     }
     out.block(at, at, states, states) = -memory_[v].a;
   }
+  for (std::size_t g = 0; g < m.groups.size(); ++g) write_group_columns(g, y, out);
+}
+
+void ResidualJacobian::write_group_columns(std::size_t g, const double* y, Eigen::Map<MatXd>& out) {
+  const Model& m = *model_;
+  const HydroGroup& group = m.groups[g];
+  const int states = group.memory.states(), at = group.memory_offset;
+  if (states == 0) return;
+  HydroGroup::Motions<double> mu;
+  group.remember(terms_->frames().data(), y + at, column_.data(), mu);
+  for (std::size_t k = 0; k < group.vessels.size(); ++k) {
+    const auto v = idx(group.vessels[k]);
+    const YawFrame<double>& frame = terms_->frames()[v];
+    const int body = m.vessels[v].body;
+    const double direction = sign(-frame.twist.dot(Eigen::Map<const Vec6d>(&mu[6 * k])));
+    for (int i = 0; i < states; ++i) {
+      const Vec6d load = groups_[g].c.block<6, 1>(static_cast<Eigen::Index>(6 * k), i);
+      const double power = frame.twist.dot(load);
+      out.block<6, 1>(m.layout.twist(body), at + i) = over_mass(body, frame.to_inertial(load));
+      out(m.layout.work, at + i) += power;
+      out(m.layout.work + 1, at + i) += direction * power;
+    }
+  }
+  out.block(at, at, states, states) = -groups_[g].a;
 }
 
 /// Writes the rates of the states of loads and of the work, in a direction of the residual.
@@ -169,6 +198,14 @@ void ResidualJacobian::write_rate_terms(double c, Eigen::Map<MatXd>& out) const 
     const Mat6d mass = terms_->mass_matrix(b);
     for (int i = 0; i < 6; ++i) {
       out.block<6, 1>(s.twist(b), s.twist(b) + i) += c * over_mass(b, mass.col(i));
+    }
+  }
+  for (const MassCoupling& pair : terms_->couplings()) {
+    for (int i = 0; i < 6; ++i) {
+      out.block<6, 1>(s.twist(pair.first), s.twist(pair.second) + i) +=
+          c * over_mass(pair.first, pair.mass.col(i));
+      out.block<6, 1>(s.twist(pair.second), s.twist(pair.first) + i) +=
+          c * over_mass(pair.second, pair.mass.row(i).transpose());
     }
   }
   for (int i = 0; i < s.velocity; ++i) out(i, i) += c;

@@ -20,6 +20,7 @@ class ResidualJacobian {
  private:
   void write_body_columns(int body, const double* y, Eigen::Map<MatXd>& out);
   void write_memory_columns(const double* y, Eigen::Map<MatXd>& out);
+  void write_group_columns(std::size_t group, const double* y, Eigen::Map<MatXd>& out);
   void write_load_rates(int direction, double* column) const;
   void write_state_columns(Eigen::Map<MatXd>& out);
   void write_multiplier_columns(const double* y, Eigen::Map<MatXd>& out);
@@ -31,6 +32,7 @@ class ResidualJacobian {
   const Terms* terms_ = nullptr;  // during an evaluation
   BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;  // by vessel
+  std::vector<MemoryMatrices> groups_;
   std::vector<Vec6d> acceleration_, correction_;
   VecXd column_;
 };

@@ -33,6 +33,11 @@ std::string describe_memory(const Model& model, int state) {
     if (own >= fluid) return "state " + std::to_string(own - fluid) + " of the fast motion" + of;
     return "memory state " + std::to_string(own) + of;
   }
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const int own = state - (model.groups[g].memory_offset - model.layout.memory);
+    if (own < 0 || own >= model.groups[g].memory.states()) continue;
+    return "memory state " + std::to_string(own) + " of group '" + model.description.groups[g].name + "'";
+  }
   return "memory state " + std::to_string(state);
 }
 

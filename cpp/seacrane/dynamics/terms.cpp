@@ -30,6 +30,13 @@ Terms::Terms(std::shared_ptr<const Model> model)
   wrench_.resize(bodies + 1);
   for (auto* vectors : {&bias_, &load_}) vectors->assign(bodies + 1, Vec6d::Zero());
   blocks_.resize(m.elements.size());
+  for (const HydroGroup& group : m.groups) {
+    group_mass_.emplace_back(static_cast<int>(group.vessels.size()));
+    for (const HydroGroup::Pair& pair : group.pairs) {
+      couplings_.push_back({m.vessels[idx(group.vessels[idx(pair.first)])].body,
+                            m.vessels[idx(group.vessels[idx(pair.second)])].body});
+    }
+  }
   for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
   for (const auto& list : m.loads.lists) {
     if (list->kind.adds_inertia) adding_inertia_.push_back(&*list);
@@ -83,6 +90,45 @@ void Terms::evaluate_inertia(double t, const double* memory) {
     if (!added.empty()) out.mass += added[idx(b)];
     out.inverse = spd_inverse(out.mass);
   }
+  if (!couplings_.empty()) invert_coupled_masses();
+}
+
+const std::vector<MassCoupling>& Terms::evaluate_couplings(Vec6d* bias) {
+  auto out = couplings_.begin();
+  for (const HydroGroup& group : model_->groups) {
+    group.couple<double>(frames_.data(), [&](const HydroGroup::Pair&, const Mat6d& mass, const Vec6d& first,
+                                             const Vec6d& second) {
+      out->mass = mass;
+      bias[out->first] += first;
+      bias[out->second] += second;
+      ++out;
+    });
+  }
+  return couplings_;
+}
+
+/// The bodies of a group have one inverse: its blocks take the place of theirs.
+void Terms::invert_coupled_masses() {
+  evaluate_couplings(bias_.data());
+  auto coupling = couplings_.begin();
+  for (std::size_t g = 0; g < group_mass_.size(); ++g) {
+    const HydroGroup& group = model_->groups[g];
+    if (group.pairs.empty()) continue;
+    SpdBlocks<double>& mass = group_mass_[g];
+    const auto of = [&](int place) -> BodyInertia& {
+      return inertia_[idx(model_->vessels[idx(group.vessels[idx(place)])].body)];
+    };
+    const auto begin = coupling;
+    for (int i = 0; i < mass.count(); ++i) mass.at(i, i) = of(i).mass;
+    for (const HydroGroup::Pair& pair : group.pairs) mass.at(pair.first, pair.second) = (coupling++)->mass;
+    mass.factor();
+    mass.invert();
+    for (int i = 0; i < mass.count(); ++i) of(i).inverse = mass.inverse(i, i);
+    coupling = begin;
+    for (const HydroGroup::Pair& pair : group.pairs) {
+      (coupling++)->inverse = mass.inverse(pair.first, pair.second);
+    }
+  }
 }
 
 const std::vector<Mat6d>& Terms::evaluate_added_inertia(double t, const double* memory) {
@@ -114,6 +160,10 @@ void Terms::apply_hydrodynamics(const LoadInput<double>& input, const double* me
     } else {
       vessel.apply<double>(input, frames_[v], x, x_rate, sum);
     }
+  }
+  for (const HydroGroup& group : m.groups) {
+    const int own = group.memory_offset - m.layout.memory;
+    group.apply<double>(m.vessels.data(), frames_.data(), memory + own, memory_rate + own, sum);
   }
   for (const auto& [v, body, memory_of] : histories_) {
     m.vessels[v].radiate(frames_[v], memory_of.evaluate(input.time, frames_[v].twist), sum);

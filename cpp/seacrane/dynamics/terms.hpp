@@ -9,6 +9,7 @@
 #include "seacrane/dynamics/histories.hpp"
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/wave_forces.hpp"
+#include "seacrane/math/spd_blocks.hpp"
 #include "seacrane/model/model.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
@@ -53,6 +54,9 @@ class Terms {
   void evaluate_inertia(double t, const double* memory);
   /// What loads add to the masses of bodies, about their state points, inertial axes; empty: nothing ever.
   const std::vector<Mat6d>& evaluate_added_inertia(double t, const double* memory);
+  /// The masses that couple bodies, one for each pair; adds their velocity terms to `bias`, by body. The
+  /// inverse comes with evaluate_inertia().
+  const std::vector<MassCoupling>& evaluate_couplings(Vec6d* bias);
   void evaluate_rows(double t);
   /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
   /// of a state, from the fluid's states to those of loads.
@@ -66,6 +70,8 @@ class Terms {
   const std::vector<BodyKinematics<double>>& bodies() const { return bodies_; }
   const std::vector<YawFrame<double>>& frames() const { return frames_; }  // by vessel
   const BodyInertia& inertia(int body) const { return inertia_[idx(body)]; }
+  const std::vector<MassCoupling>& couplings() const { return couplings_; }
+  /// Of a body with itself.
   Mat6d mass_matrix(int body) const;
   /// The mass matrix without the unsymmetric part of the paper's vessel.
   Mat6d symmetric_mass(int body) const;
@@ -104,6 +110,7 @@ class Terms {
   friend std::string non_finite_load(Terms& terms, double t, const double* y);
 
   void evaluate_loads(double t, const double* y, double* ydot);
+  void invert_coupled_masses();
   void apply_hydrodynamics(const LoadInput<double>& input, const double* memory, double* memory_rate,
                            LoadSum<double>& sum);
   void apply_waves(double t, const double* memory, LoadSum<double>& sum);
@@ -117,6 +124,8 @@ class Terms {
   std::vector<BodyKinematics<double>> bodies_;
   std::vector<YawFrame<double>> frames_;
   std::vector<BodyInertia> inertia_;
+  std::vector<MassCoupling> couplings_;         // of all groups in turn, as their pairs
+  std::vector<SpdBlocks<double>> group_mass_;  // by group
   std::vector<const LoadList*> adding_inertia_;
   std::vector<Mat6d> added_inertia_;
   std::vector<Mat6d> paper_mass_;  // of the paper's vessels

@@ -6,17 +6,23 @@
 namespace seacrane {
 namespace {
 
-void check(const StateSpaceBlock& s, std::size_t index) {
+void check(const StateSpaceBlock& s, std::size_t index, int motions) {
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("memory block " + std::to_string(index) + ": " + what);
   };
   const auto n = s.a.rows(), ni = static_cast<Eigen::Index>(s.inputs.size()),
              no = static_cast<Eigen::Index>(s.outputs.size());
-  if (ni < 1 || ni > 6 || no < 1 || no > 6) fail("needs 1 to 6 inputs and outputs");
-  for (int i : s.inputs)
-    if (i < 0 || i > 5) fail("input " + std::to_string(i) + " is not a motion 0..5");
-  for (int i : s.outputs)
-    if (i < 0 || i > 5) fail("output " + std::to_string(i) + " is not a motion 0..5");
+  if (ni < 1 || ni > motions || no < 1 || no > motions) {
+    fail("needs 1 to " + std::to_string(motions) + " inputs and outputs");
+  }
+  const auto within = [&](const char* what, const std::vector<int>& of) {
+    for (int i : of) {
+      if (i >= 0 && i < motions) continue;
+      fail(what + std::to_string(i) + " is not a motion 0.." + std::to_string(motions - 1));
+    }
+  };
+  within("input ", s.inputs);
+  within("output ", s.outputs);
   if (s.a.cols() != n || s.b.rows() != n || s.b.cols() != ni || s.c.rows() != no || s.c.cols() != n ||
       s.d.rows() != no || s.d.cols() != ni) {
     fail("shapes of A, B, C, D do not fit " + std::to_string(n) + " states, " + std::to_string(ni) +
@@ -32,16 +38,18 @@ void check(const StateSpaceBlock& s, std::size_t index) {
 
 }  // namespace
 
-Memory::Memory(const std::vector<StateSpaceBlock>& blocks) {
+Memory::Memory(const std::vector<StateSpaceBlock>& blocks, int motions) {
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const StateSpaceBlock& s = blocks[k];
-    check(s, k);
+    check(s, k, motions);
     Block block{};
     block.states = static_cast<int>(s.a.rows());
     block.inputs = static_cast<int>(s.inputs.size());
     block.outputs = static_cast<int>(s.outputs.size());
-    for (std::size_t i = 0; i < s.inputs.size(); ++i) block.input[i] = s.inputs[i];
-    for (std::size_t i = 0; i < s.outputs.size(); ++i) block.output[i] = s.outputs[i];
+    block.first_input = static_cast<int>(motions_.size());
+    motions_.insert(motions_.end(), s.inputs.begin(), s.inputs.end());
+    block.first_output = static_cast<int>(motions_.size());
+    motions_.insert(motions_.end(), s.outputs.begin(), s.outputs.end());
     put_in_tiles(s.a, s.b);
     put_in_tiles(s.c, s.d);
     blocks_.push_back(block);

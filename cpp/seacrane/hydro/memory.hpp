@@ -11,23 +11,25 @@
 namespace seacrane {
 
 /// One state-space model of the fluid memory, eqs (29)-(30): x' = A x + B u, mu = C x + D u, where u
-/// holds the motions `inputs` (0 surge ... 5 yaw) of the twist and mu adds to the loads `outputs`.
+/// holds the motions `inputs` (0 surge ... 5 yaw, of a group six for each vessel in turn) and mu adds to the
+/// loads `outputs`.
 struct StateSpaceBlock {
   std::vector<int> inputs, outputs;
   MatXd a, b, c, d;
   VecXd state_scale;  // typical magnitude of each state, for tolerances
 };
 
-/// All memory blocks of a vessel, flattened for the loop.
+/// All memory blocks of a vessel or a group, flattened for the loop.
 class Memory {
  public:
   Memory() = default;
-  explicit Memory(const std::vector<StateSpaceBlock>& blocks);
+  explicit Memory(const std::vector<StateSpaceBlock>& blocks, int motions = 6);
 
   int states() const { return states_; }
 
+  /// Rates of the states under the motions u; adds to the loads mu.
   template <class T>
-  void evaluate(const Vec6<T>& u, const T* x, T* x_rate, Vec6<T>& mu) const {
+  void evaluate(const T* u, const T* x, T* x_rate, T* mu) const {
     const double* m = coefficients_.data();
     for (const Block& block : blocks_) {
       in_tiles(block.states, [&]<int rows>(int first) {
@@ -36,7 +38,8 @@ class Memory {
       });
       in_tiles(block.outputs, [&]<int rows>(int first) {
         const auto sum = next_rows<rows, T>(block, m, u, x);
-        for (int i = 0; i < rows; ++i) mu[block.output[first + i]] += sum[idx(i)];
+        const int* const output = motions_.data() + block.first_output + first;
+        for (int i = 0; i < rows; ++i) mu[output[i]] += sum[idx(i)];
       });
       x += block.states;
       x_rate += block.states;
@@ -69,21 +72,21 @@ class Memory {
   }
   struct Block {
     int states, inputs, outputs;
-    int input[6], output[6];
+    int first_input, first_output;  // in motions_
   };
 
   void put_in_tiles(const MatXd& left, const MatXd& right);
 
   /// The next rows of a block times (x, u); moves on to the coefficients after them.
   template <int rows, class T>
-  static std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const Vec6<T>& u,
-                                            const T* x) {
+  std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const T* u, const T* x) const {
     return [&]<std::size_t... i>(std::index_sequence<i...>) {
       std::array<T, idx(rows)> sum = {(static_cast<void>(i), T(0))...};
       for (const T* const end = x + block.states; x != end; ++x, m += rows) ((sum[i] += *x * T(m[i])), ...);
+      const int* const input = motions_.data() + block.first_input;
       int j = 0;  // most blocks have one input
       do {
-        const T& motion = u[block.input[j]];
+        const T& motion = u[input[j]];
         ((sum[i] += motion * T(m[i])), ...);
         m += rows;
       } while (++j < block.inputs);
@@ -93,6 +96,7 @@ class Memory {
   }
 
   std::vector<Block> blocks_;
+  std::vector<int> motions_;          // inputs, then outputs per block
   std::vector<double> coefficients_;  // (A B), then (C D) per block, in tiles of rows, by columns
   int states_ = 0;
 };

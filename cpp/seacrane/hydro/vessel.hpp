@@ -13,6 +13,12 @@
 
 namespace seacrane {
 
+template <class T>
+struct YawFrame;
+/// 6 x 6 of loads in one yaw frame over motions in another, both to inertial axes.
+template <class T>
+Mat6<T> between(const YawFrame<T>& loads, const Mat6d& a, const YawFrame<T>& motions);
+
 /// The frame that follows yaw: psi of yaw-pitch-roll angles; the twist and its components in it.
 template <class T>
 struct YawFrame {
@@ -57,20 +63,7 @@ struct YawFrame {
   T pitch_rate() const { return twist[4]; }
 
   /// 6 x 6 in the yaw frame to inertial axes.
-  Mat6<T> to_inertial(const Mat6d& a) const {
-    const T cosine = rotation(0, 0), sine = rotation(1, 0);
-    Mat6<T> columns = a.cast<T>(), out;  // columns: those of a R^T
-    for (int j = 0; j < 6; j += 3) {
-      columns.col(j) = cosine * a.col(j).cast<T>() - sine * a.col(j + 1).cast<T>();
-      columns.col(j + 1) = sine * a.col(j).cast<T>() + cosine * a.col(j + 1).cast<T>();
-    }
-    out = columns;
-    for (int i = 0; i < 6; i += 3) {
-      out.row(i) = cosine * columns.row(i) - sine * columns.row(i + 1);
-      out.row(i + 1) = sine * columns.row(i) + cosine * columns.row(i + 1);
-    }
-    return out;
-  }
+  Mat6<T> to_inertial(const Mat6d& a) const { return between<T>(*this, a, *this); }
 
   Vec6<T> to_inertial(const Vec6<T>& w) const {
     const T cosine = rotation(0, 0), sine = rotation(1, 0);
@@ -89,6 +82,24 @@ struct YawFrame {
     return {-(roll_load / cos_pitch + yaw_load * tan_pitch), -pitch_load, -yaw_load};
   }
 };
+
+template <class T>
+Mat6<T> between(const YawFrame<T>& loads, const Mat6d& a, const YawFrame<T>& motions) {
+  T cosine = motions.rotation(0, 0), sine = motions.rotation(1, 0);
+  Mat6<T> columns = a.cast<T>(), out;  // columns: those of a R^T
+  for (int j = 0; j < 6; j += 3) {
+    columns.col(j) = cosine * a.col(j).cast<T>() - sine * a.col(j + 1).cast<T>();
+    columns.col(j + 1) = sine * a.col(j).cast<T>() + cosine * a.col(j + 1).cast<T>();
+  }
+  cosine = loads.rotation(0, 0);
+  sine = loads.rotation(1, 0);
+  out = columns;
+  for (int i = 0; i < 6; i += 3) {
+    out.row(i) = cosine * columns.row(i) - sine * columns.row(i + 1);
+    out.row(i + 1) = sine * columns.row(i) + cosine * columns.row(i + 1);
+  }
+  return out;
+}
 
 /// Linear hydrodynamics of one vessel about its reference point (its state point).
 struct Vessel {
@@ -139,7 +150,7 @@ struct Vessel {
     if (fast) fast->rates<T>({k.velocity[0], k.velocity[1], f.yaw_rate}, x + fluid, x_rate + fluid);
     if (fluid > 0) {
       Vec6<T> mu = Vec6<T>::Zero();
-      std::get<Memory>(memory).template evaluate<T>(f.twist, x, x_rate, mu);
+      std::get<Memory>(memory).template evaluate<T>(f.twist.data(), x, x_rate, mu.data());
       radiate(f, mu, out);
     }
   }

@@ -32,6 +32,7 @@ std::string kept_out_of_lanes(const Model& model) {
     if (!why.empty()) return why;
   }
   const BodyTree tree = build_tree(m);
+  if (!tree.refused.empty()) return tree.refused;
   if (tree.loop_rows > 0) return "it has loops that constraints close";
   return tree.speeds == tree.driven ? "nothing moves" : "";
 }

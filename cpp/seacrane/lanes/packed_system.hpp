@@ -351,6 +351,22 @@ class PackedSystem final : public LaneSystem {
         begin.moment = -bias.template tail<3>();
       }
     }
+    for (std::size_t i = 0; i < tree_.coupled.size(); ++i) couple(i);
+  }
+
+  void couple(std::size_t i) {
+    const HydroGroup& group = model_->groups[tree_.coupled[i].group];
+    const auto take = [&](int place, const Vec6<T>& bias) {
+      BodyLoad<T>& begin = wrench_[idx(model_->vessels[idx(group.vessels[idx(place)])].body)];
+      begin.force -= bias.template head<3>();
+      begin.moment -= bias.template tail<3>();
+    };
+    group.template couple<T>(frames_.data(), [&](const HydroGroup::Pair& pair, const Mat6<T>& mass,
+                                                 const Vec6<T>& first, const Vec6<T>& second) {
+      articulated_.set_coupling(i, pair.first, pair.second, mass);
+      take(pair.first, first);
+      take(pair.second, second);
+    });
   }
 
   LoadInput<T> input(double t) const {
@@ -375,6 +391,11 @@ class PackedSystem final : public LaneSystem {
       const Vessel& vessel = model_->vessels[v];
       const auto own = idx(memory_ + vessel.memory_offset - model_->layout.memory);
       vessel.apply<T>(input, frames_[v], state_.data() + own, rate_.data() + own, sum);
+    }
+    for (const HydroGroup& group : model_->groups) {
+      const auto own = idx(memory_ + group.memory_offset - model_->layout.memory);
+      group.template apply<T>(model_->vessels.data(), frames_.data(), state_.data() + own, rate_.data() + own,
+                              sum);
     }
     for (Waves& waves : waves_) apply(waves, t, sum);
   }

@@ -11,7 +11,8 @@ namespace {
 constexpr int kChunk = 64;  // rows updated at a time, on the stack
 
 /// Elements without rows (a free joint) link nothing.
-std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& nodes, int body_count) {
+std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& nodes, int body_count,
+                                              const std::vector<CoupledBodies>& coupled) {
   std::vector<std::vector<int>> at_body(idx(body_count));
   for (std::size_t e = 0; e < nodes.size(); ++e) {
     if (nodes[e].rows == 0) continue;
@@ -20,12 +21,17 @@ std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& node
     }
   }
   std::vector<std::set<int>> sets(nodes.size());
-  for (const auto& elements : at_body) {
-    for (int a : elements) {
-      for (int b : elements) {
+  const auto link = [&](const std::vector<int>& some, const std::vector<int>& others) {
+    for (int a : some) {
+      for (int b : others) {
         if (a != b) sets[idx(a)].insert(b);
       }
     }
+  };
+  for (const auto& elements : at_body) link(elements, elements);
+  for (const auto [first, second] : coupled) {
+    link(at_body[idx(first)], at_body[idx(second)]);
+    link(at_body[idx(second)], at_body[idx(first)]);
   }
   std::vector<std::vector<int>> out;
   for (const auto& s : sets) out.emplace_back(s.begin(), s.end());
@@ -80,9 +86,10 @@ void update_below(const double* p, int height, const std::size_t* scatter, doubl
 
 }  // namespace
 
-BlockSchur::BlockSchur(const std::vector<GraphNode>& nodes, int body_count) {
-  lay_out(nodes, order(nodes, joint_adjacency(nodes, body_count)));
-  collect_terms(nodes, body_count);
+BlockSchur::BlockSchur(const std::vector<GraphNode>& nodes, int body_count,
+                       const std::vector<CoupledBodies>& coupled) {
+  lay_out(nodes, order(nodes, joint_adjacency(nodes, body_count, coupled)));
+  collect_terms(nodes, body_count, coupled);
   value_count_ += idx(rows_);  // room for the diagonal of S before factorisation
 }
 
@@ -171,7 +178,8 @@ std::size_t BlockSchur::entry(int row, int column) const {
   return panel.values + idx(c) * idx(panel.height) + idx(r);
 }
 
-void BlockSchur::collect_terms(const std::vector<GraphNode>& nodes, int body_count) {
+void BlockSchur::collect_terms(const std::vector<GraphNode>& nodes, int body_count,
+                               const std::vector<CoupledBodies>& coupled) {
   const auto body = [&](int side) {
     const GraphNode& node = nodes[idx(side / 2)];
     return side % 2 == 0 ? node.first : node.second;
@@ -181,16 +189,27 @@ void BlockSchur::collect_terms(const std::vector<GraphNode>& nodes, int body_cou
     const int b = body(side);
     if (b >= 0 && b < body_count && nodes[idx(side / 2)].rows > 0) at_body[idx(b)].push_back(side);
   }
+  const auto add = [&](int i, int j, int over_mass) {
+    if (row_of_[idx(i / 2)] < row_of_[idx(j / 2)]) return;
+    terms_.push_back({i, over_mass, nodes[idx(i / 2)].rows, nodes[idx(j / 2)].rows,
+                      panels_[idx(panel_of_element_[idx(j / 2)])].height,
+                      entry(row_of_[idx(i / 2)], row_of_[idx(j / 2)])});
+  };
   for (const auto& sides : at_body) {
     for (int i : sides) {
-      for (int j : sides) {
-        if (row_of_[idx(i / 2)] < row_of_[idx(j / 2)]) continue;
-        const int column = row_of_[idx(j / 2)];
-        terms_.push_back({i, j, nodes[idx(i / 2)].rows, nodes[idx(j / 2)].rows,
-                          panels_[idx(panel_of_element_[idx(j / 2)])].height,
-                          entry(row_of_[idx(i / 2)], column)});
-      }
+      for (int j : sides) add(i, j, j);
     }
+  }
+  const auto cross = [&](int own, int other) {
+    for (int j : at_body[idx(own)]) {
+      const int place = static_cast<int>(2 * nodes.size() + crossings_.size());
+      crossings_.push_back({j, own, other});
+      for (int i : at_body[idx(other)]) add(i, j, place);
+    }
+  };
+  for (const auto [first, second] : coupled) {
+    cross(first, second);
+    cross(second, first);
   }
   std::sort(terms_.begin(), terms_.end(), [](const Term& a, const Term& b) { return a.target < b.target; });
 }

@@ -12,19 +12,31 @@ struct GraphNode {
   int first = -1, second = -1;  // bodies; `ground` has no inertia and makes no fill
 };
 
+/// Two bodies between which the mass matrix has a block.
+struct CoupledBodies {
+  int first, second;
+};
+
 /// Block-sparse L d L^T factorisation of S = D M^-1 D^T along the joint graph: bodies are eliminated
 /// first, then the joints in minimum-degree order. The pattern is fixed; numbers live in a workspace.
 class BlockSchur {
  public:
   BlockSchur() = default;
-  BlockSchur(const std::vector<GraphNode>& nodes, int body_count);
+  BlockSchur(const std::vector<GraphNode>& nodes, int body_count,
+             const std::vector<CoupledBodies>& coupled = {});
 
   int rows() const { return rows_; }
   /// First row of an element in the order of elimination, in which multipliers are stored.
   int row(int element) const { return row_of_[static_cast<std::size_t>(element)]; }
   std::size_t value_count() const { return value_count_; }
 
-  /// Sums S from D of each element and D M^-1 of each side [2 element + side].
+  /// A side of an element whose body is coupled to another, where D M^-1 is not zero.
+  struct Crossing {
+    int side, body, other;
+  };
+  const std::vector<Crossing>& crossings() const { return crossings_; }
+
+  /// Sums S from D of each element and D M^-1 of each side [2 element + side], then of each crossing.
   void assemble(const RowBlock<double>* blocks, const Mat6d* over_mass, double* values) const;
   /// Where the block of a row's element and a column's begins among the values, and the way from one column
   /// to the next; of two that couple, the row's eliminated no earlier.
@@ -58,7 +70,7 @@ class BlockSchur {
     std::size_t scatter = 0;
   };
   struct Term {
-    int row_side, column_side;  // index into sides
+    int row_side, column_side;  // index into sides; of the column, behind them into crossings
     int row_count, column_count;
     int height;
     std::size_t target;
@@ -67,7 +79,8 @@ class BlockSchur {
   std::vector<std::vector<int>> order(const std::vector<GraphNode>& nodes,
                                       const std::vector<std::vector<int>>& adjacency);
   void lay_out(const std::vector<GraphNode>& nodes, std::vector<std::vector<int>> below);
-  void collect_terms(const std::vector<GraphNode>& nodes, int body_count);
+  void collect_terms(const std::vector<GraphNode>& nodes, int body_count,
+                     const std::vector<CoupledBodies>& coupled);
   template <class Keep>
   double factor_panels(double* values, const double* scale, Keep&& keep) const;
   std::size_t entry(int row, int column) const;
@@ -80,6 +93,7 @@ class BlockSchur {
   std::vector<Panel> panels_;
   std::vector<int> below_;
   std::vector<std::size_t> scatter_;
+  std::vector<Crossing> crossings_;
   std::vector<Term> terms_;
 };
 

@@ -64,6 +64,27 @@ struct VesselDescription {
   }
 };
 
+/// Vessels that load each other through the water, over six motions of each in turn, each in its own yaw
+/// frame: what adds to the hydrodynamics that each has by itself.
+struct HydroGroupDescription {
+  std::string name;
+  std::vector<std::string> vessels;
+  MatXd added_mass = MatXd();  // (6n, 6n), zero of each with itself; empty: none
+  std::vector<StateSpaceBlock> memory;
+
+  static constexpr const char* type = "GroupHydrodynamics";
+  static constexpr const char* text =
+      "Vessels that load each other through the water, over six motions of each in turn.";
+  static constexpr auto fields() {
+    using D = HydroGroupDescription;
+    return std::tuple(
+        required("vessels", &D::vessels, "", "two or more, whose own memory is empty where the group has one"),
+        optional("added_mass", &D::added_mass, "kg, kg m, kg m2",
+                 "(6n, 6n) between vessels, zero of each with itself; empty: none"),
+        optional("memory", &D::memory, "", "blocks of states over all motions"));
+  }
+};
+
 /// Loads at the mean position as exact sums, or from tables of them where set; or at the actual position,
 /// which replaces all others.
 struct WaveLoadDescription {
@@ -90,6 +111,7 @@ struct SceneDescription {
   std::vector<DriverDescription> drivers;
   LoadDescriptions loads;
   std::vector<VesselDescription> vessels;
+  std::vector<HydroGroupDescription> groups;
   std::vector<WaveLoadDescription> wave_loads;
   std::shared_ptr<const SeaField> sea;  // null: still water
   std::vector<RecordedCoordinate> coordinates;

@@ -56,6 +56,7 @@ std::string difference_of_scenes(const SceneDescription& one, const SceneDescrip
     }
   }
   if (out.empty()) out = difference("vessel", one.vessels, other.vessels);
+  if (out.empty()) out = difference("group", one.groups, other.groups);
   if (out.empty()) out = difference("limit", one.limits, other.limits);
   return out;
 }

@@ -7,7 +7,7 @@
 
 #include "seacrane/elements/loads/gravity.hpp"
 #include "seacrane/elements/loads/load_kind.hpp"
-#include "seacrane/hydro/vessel.hpp"
+#include "seacrane/hydro/hydro_group.hpp"
 #include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
 #include "seacrane/model/kinks.hpp"
@@ -90,6 +90,7 @@ struct Model {
   std::vector<Gravity> gravity;
   CompiledLoads loads;
   std::vector<Vessel> vessels;
+  std::vector<HydroGroup> groups;
   std::vector<WaveLoad> wave_loads;
   std::shared_ptr<const SeaField> sea;  // null: still water
   std::vector<FlowStencil> stencils;    // at which loads look at it
@@ -116,6 +117,13 @@ struct Model {
   std::vector<Limit> limits;
   ClosedSet closed = 0;  // limits whose rows this model holds
 
+  /// The group of a vessel; null: it has none.
+  const HydroGroup* group_of(int vessel) const {
+    for (const HydroGroup& group : groups) {
+      if (group.place_of(vessel) >= 0) return &group;
+    }
+    return nullptr;
+  }
   const Model& stepped() const { return merged ? *merged : *this; }
   int body_count() const { return static_cast<int>(bodies.size()); }
   int rows() const { return schur.rows(); }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "seacrane/elements/joints/joint_kinds.hpp"
+#include "seacrane/hydro/hydro_group.hpp"
 #include "seacrane/model/limit.hpp"
 
 namespace seacrane {
@@ -184,6 +185,54 @@ void check_vessels(const SceneDescription& scene, const SceneNames& names) {
   }
 }
 
+/// Coupling masses: symmetric, and none of a vessel with itself.
+void check_coupling(const Check& c, const HydroGroupDescription& g) {
+  const auto n = static_cast<Eigen::Index>(6 * g.vessels.size());
+  const MatXd& a = g.added_mass;
+  if (a.size() == 0) return;
+  if (a.rows() != n || a.cols() != n) {
+    c.fail("added_mass has shape (" + std::to_string(a.rows()) + ", " + std::to_string(a.cols()) +
+           "); give (6n, 6n) of " + std::to_string(g.vessels.size()) + " vessels");
+  }
+  if ((a - a.transpose()).cwiseAbs().maxCoeff() > 1e-6 * a.cwiseAbs().maxCoeff()) {
+    c.fail("added_mass is not symmetric; give (A + A^T) / 2");
+  }
+  for (std::size_t i = 0; i < g.vessels.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(6 * i);
+    if (!a.block<6, 6>(at, at).isZero(0.0)) {
+      c.fail("added_mass of vessel '" + g.vessels[i] +
+             "' with itself is not zero; give it as that of the vessel");
+    }
+  }
+}
+
+void check_groups(const SceneDescription& scene) {
+  std::map<std::string, std::string> taken;
+  for (const HydroGroupDescription& g : scene.groups) {
+    const Check c("group", g.name);
+    check_fields(g, c);
+    if (g.vessels.size() < 2 || g.vessels.size() > HydroGroup::most_vessels) {
+      c.fail("has " + std::to_string(g.vessels.size()) + " vessels; name two to " +
+             std::to_string(HydroGroup::most_vessels));
+    }
+    for (const std::string& name : g.vessels) {
+      const auto vessel = std::ranges::find(scene.vessels, name, &VesselDescription::name);
+      if (vessel == scene.vessels.end()) c.fail("there is no vessel '" + name + "'; add it first");
+      const auto [other, fresh] = taken.insert({name, g.name});
+      if (!fresh) c.fail("vessel '" + name + "' is in group '" + other->second + "' already");
+      if (vessel->kinematics == VesselKinematics::paper) {
+        c.fail("vessel '" + name +
+               "' has kinematics 'paper', whose mass is not symmetric; choose 'yaw_following'");
+      }
+      const auto* blocks = std::get_if<std::vector<StateSpaceBlock>>(&vessel->memory);
+      if (!g.memory.empty() && (!blocks || !blocks->empty())) {
+        c.fail("vessel '" + name + "' has a memory of its own, and the group has one of all; leave one out");
+      }
+    }
+    check_coupling(c, g);
+  }
+}
+
 }  // namespace
 
 void validate(const SceneDescription& scene) {
@@ -196,6 +245,7 @@ void validate(const SceneDescription& scene) {
   unique_names("joint", scene.joints);
   unique_names("driver", scene.drivers);
   unique_names("vessel", scene.vessels);
+  unique_names("group", scene.groups);
   unique_names("wave load", scene.wave_loads);
   SceneNames names;
   for (const auto& b : scene.bodies) {
@@ -210,6 +260,7 @@ void validate(const SceneDescription& scene) {
   }
   check_followers(scene, names);
   check_vessels(scene, names);
+  check_groups(scene);
   check_points(scene, names);
   unique_names("limit", scene.limits);
   check_limits(scene, names);

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.databases import database_of
@@ -43,8 +44,9 @@ def motion_rao(
 ) -> Complex:
     """Complex motion of a point of any body per metre of wave amplitude.
 
-    Waves load the vessel, and what parts of other bodies are under water at rest; their drag only where
-    `drag_in_sea` made it linear. Without a vessel, parts alone: directions and phase are then inertial.
+    Waves load the vessel, all vessels of its group, and what parts of other bodies are under water at rest;
+    their drag only where `drag_in_sea` made it linear. Without a vessel, parts alone: directions and phase
+    are then inertial.
 
     Parameters
     ----------
@@ -83,7 +85,7 @@ def motion_rao(
     if linear.vessel is not None or not parts:
         database = excitation_of(linear, database)
         met, depth = encounter_frequency_at(database, along, to), database.depth
-        rates = rates + database.force_at(along, to).reshape(-1, 6) @ linear.b.T
+        rates = rates + rates_in_waves(linear, database, along, to)
     if parts:
         rates = rates + parts.rates(along, parts.flow(parts.waves(along, to, depth)))
     x = linear.response_to_rates(met, rates)

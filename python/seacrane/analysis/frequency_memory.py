@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
+from seacrane.description.hydrodynamics import group_of
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import transformer
@@ -69,6 +70,11 @@ def frequency_memories(
         raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")
     if memory == "database" and vessel is None:
         raise SceneError(f"scene {scene.name!r}: memory='database' needs a vessel; add one")
+    if memory == "database" and (group := group_of(scene, vessel)) is not None:
+        raise SceneError(
+            f"vessel {vessel!r}: its memory is that of all motions of group {group.name!r}, which a database "
+            "of one vessel does not hold; choose memory='scene'"
+        )
     found = []
     for name, element in scene.vessels.items():
         if memory == "database" and element.body == vessel:

@@ -348,7 +348,8 @@ def linear_model(
     state : State, optional
         At rest, its time that of the references. Default: ``equilibrium(scene)``.
     vessel : str, optional
-        Body on which waves act. Default: that of the scene's waves, or the only vessel.
+        Body on which waves act. Default: that of the scene's waves, the only vessel, or the first of the only
+        group.
     memory : str
         "scene" (default): the vessel's fitted states, or its convolution by frequency. "database": the A, B
         and additional matrices of its database by frequency in place of the vessel's memory, so that nothing
@@ -462,8 +463,9 @@ def _wave_body(scene: Description, wanted: str | None) -> str | None:
     floating = [vessel.body for vessel in scene.vessels.values()]
     if wanted is None and scene.waves is not None and len(scene.waves.hulls) == 1:
         wanted = scene.waves.body_of()
-    if wanted is None and len(floating) == 1:
-        wanted = floating[0]
+    together = [scene.vessels[name].body for group in scene.groups.values() for name in group.vessels]
+    if wanted is None and (len(floating) == 1 or (len(scene.groups) == 1 and set(together) == set(floating))):
+        wanted = floating[0] if len(floating) == 1 else together[0]
     if wanted is None and floating:
         raise SceneError(f"scene {scene.name!r}: has vessels {', '.join(floating)}; name one as vessel")
     if wanted is not None and wanted not in floating:

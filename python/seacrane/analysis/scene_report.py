@@ -100,6 +100,8 @@ def elements_of(scene: Description) -> Rows:
     given = given_vessels(scene)
     floating = [f"{name} ({v.body})" for name, v in scene.vessels.items() if v.body not in given]
     rows.append(("vessels", floating))
+    groups = [f"{name} ({', '.join(group.vessels)})" for name, group in scene.groups.items()]
+    rows.append(("vessels in one water", groups))
     rows.append(("vessels of given motion", [f"{body} ({kind})" for body, kind in given.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     rows.append(("crane parts", _crane_parts(scene)))
@@ -189,7 +191,8 @@ def _left_out(scene: Description, model: _core.Model) -> Rows:
     )
     given = given_vessels(scene)
     afloat = {n: vessel for n, vessel in scene.vessels.items() if vessel.floats and vessel.body not in given}
-    no_memory = [name for name, vessel in afloat.items() if not vessel.memory]
+    together = {name for group in scene.groups.values() if group.memory for name in group.vessels}
+    no_memory = [name for name, vessel in afloat.items() if not vessel.memory and name not in together]
     rows.append(("vessels without memory", no_memory))
     undamped = [name for name, v in afloat.items() if v.linear_damping[3, 3] + v.quadratic_damping[3] == 0.0]
     rows.append(("vessels without viscous roll damping", undamped))

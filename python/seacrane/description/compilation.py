@@ -49,6 +49,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
         drivers=list(scene.drivers.values()),
         loads=compiled_loads(scene.all_loads()),
         vessels=list(scene.vessels.values()),
+        groups=list(scene.groups.values()),
         wave_loads=[] if sea is None else compiled_waves(sea),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()),

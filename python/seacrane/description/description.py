@@ -31,6 +31,7 @@ COMPILED: Mapping[str, str] = {  # what the elements of each table are called
     "function_forces": "function force",
     "loads": "load",
     "vessels": "vessel",
+    "groups": "group",
     "points": "point",
 }
 KINDS: Mapping[str, str] = {
@@ -100,6 +101,7 @@ class Description:
     function_forces: dict[str, _core.FunctionForce] = field(default_factory=dict)
     loads: dict[str, Any] = field(default_factory=dict)
     vessels: dict[str, VesselHydrodynamics] = field(default_factory=dict)
+    groups: dict[str, _core.GroupHydrodynamics] = field(default_factory=dict)
     points: dict[str, _core.Point] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)

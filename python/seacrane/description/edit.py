@@ -36,7 +36,7 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     name : str
     kind : str, optional
         "body", "joint", "driver", "actuator", "point force", "spring", "force table", "function force",
-        "load" or "vessel"; needed where elements of several kinds have this name.
+        "load", "vessel" or "group"; needed where elements of several kinds have this name.
     **changes
         Arguments that differ, named as the attributes of the element, such as ``mass=12e3``.
 
@@ -144,6 +144,8 @@ def _users(scene: Description, key: str, name: str) -> Iterator[str]:
             yield f"channel {channel!r}"
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
+    if key == "vessels":
+        yield from (f"group {group.name!r}" for group in scene.groups.values() if name in group.vessels)
     body = {"bodies": name, "vessels": getattr(scene.vessels.get(name), "body", None)}.get(key)
     if scene.waves is not None and body in scene.waves.hulls:
         yield "the waves on it (scene.waves)"

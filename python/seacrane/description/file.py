@@ -38,7 +38,7 @@ from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.holding import free_drives
-from seacrane.description.hydrodynamics import add_hydrodynamics
+from seacrane.description.hydrodynamics import add_group, add_hydrodynamics
 from seacrane.description.joints import add_joint
 from seacrane.description.lift_factors import lift_factors_from_node, lift_factors_to_data
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
@@ -66,6 +66,7 @@ _CLASSES: dict[str, type] = {
     "springs": _core.Spring,
     "force_tables": _core.ForceTable,
     "vessels": VesselHydrodynamics,
+    "groups": _core.GroupHydrodynamics,
     "points": _core.Point,
 }
 _ADD: dict[str, Callable[..., Any]] = {
@@ -77,10 +78,12 @@ _ADD: dict[str, Callable[..., Any]] = {
     "springs": add_spring,
     "force_tables": add_force_table,
     "vessels": add_hydrodynamics,
+    "groups": add_group,
     "points": add_point,
 }
 _ADDED_LATER: dict[str, Any] = {
     "loads": [],
+    "groups": [],
     "points": [],
     "ranges": [],
     "limit_states": [],
@@ -286,7 +289,8 @@ def _elements(scene: Description) -> dict[str, Any]:
     }
     out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
     for kind in _CLASSES:
-        if kind != "points" or scene.points:  # digests of scenes without points are those of older versions
+        # Digests of scenes without groups and points are those of older versions.
+        if kind not in ("groups", "points") or getattr(scene, kind):
             out[kind] = [element_to_data(element) for element in getattr(scene, kind).values()]
     for data, joint in zip(out["joints"], scene.joints.values(), strict=True):
         data["parameters"] = joint.parameters

@@ -60,6 +60,8 @@ def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
         return "kinematics 'paper' has no symmetric mass matrix"
     if model.baumgarte > 0.0:
         return "Baumgarte stabilisation belongs to the redundant equations"
+    if model.tree["refused"]:
+        return str(model.tree["refused"])
     if model.euler_angles:
         return "orientation 'euler_xyz' is a choice of the redundant state"
     if not known.projects and (model.tree["loop_rows"] or model.limits):

@@ -50,6 +50,7 @@ from seacrane.scene import (
     sea,
     slack_tank,
     vessel,
+    vessels,
     wind_current,
 )
 from seacrane.scene.sea_at import sea_at
@@ -101,7 +102,7 @@ class Scene(Description):
     Attributes
     ----------
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
-    points
+    groups, points
         Elements by name, immutable; `loads` are all that puts forces on
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
         `vessels[name].database` is what that vessel was added from.
@@ -149,6 +150,7 @@ class Scene(Description):
     hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
+    add_vessels = vessels.add_vessels
     add_given_vessel = given_vessel.add_given_vessel
     add_slack_tank = slack_tank.add_slack_tank
     add_immersed = immersed.add_immersed

@@ -165,9 +165,37 @@ def _from_database(
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
-    half = 0.5 * np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
+    heading = np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
     parameters = vessel_parameters(database, memory=None if memory == "none" else memory_of(database, memory))
     place = shaped_of(f"vessel {name!r}: position", position, (3,))
+    added = put_afloat(
+        scene, database, parameters, name=name, pose=(place, float(heading)),
+        memory=[] if memory == "none" else core_memory(parameters.memory), kinematics=kinematics,
+        mooring=mooring, mooring_period=mooring_period, mooring_damping=mooring_damping,
+    )  # fmt: skip
+    band = (float(database.omega[0]), float(database.omega[-1]))
+    scene.provenance[name] = VesselProvenance(
+        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),
+        free_surface=free_surface(database, parameters.memory.additional_stiffness),
+    )  # fmt: skip
+    return added
+
+
+def put_afloat(
+    scene: Description,
+    database: HydroDatabase,
+    parameters: VesselParameters,
+    *,
+    name: str,
+    pose: tuple[FloatArray, float],
+    memory: Any,
+    kinematics: str,
+    mooring: Any,
+    mooring_period: float | None,
+    mooring_damping: float,
+) -> VesselHydrodynamics:
+    """A body with the parameters of a database, and its hydrodynamics; `pose`: position (3,), m, yaw, rad."""
+    place, half = pose[0], 0.5 * pose[1]
     add_body(
         scene,
         name=name,
@@ -190,7 +218,7 @@ def _from_database(
     else:
         omega = 0.0 if held is None else 2.0 * np.pi / held
         stiffness, damping = heavy * omega**2, 2.0 * mooring_damping * omega * heavy
-    added = add_hydrodynamics(
+    return add_hydrodynamics(
         scene,
         body=name,
         added_mass=parameters.added_mass,
@@ -199,16 +227,10 @@ def _from_database(
         restoring=restoring,
         mooring_stiffness=stiffness,
         mooring_damping=damping,
-        memory=[] if memory == "none" else core_memory(parameters.memory),
+        memory=memory,
         kinematics=kinematics,
         database=database,
     )
-    band = (float(database.omega[0]), float(database.omega[-1]))
-    scene.provenance[name] = VesselProvenance(
-        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),
-        free_surface=free_surface(database, parameters.memory.additional_stiffness),
-    )  # fmt: skip
-    return added
 
 
 def _memory_error(parameters: VesselParameters, memory: str) -> float | None:

@@ -18,6 +18,7 @@ from seacrane.validity.following import following
 from seacrane.validity.hull_range import hull_findings, motions
 from seacrane.validity.lifting import lifting
 from seacrane.validity.line_checks import line_findings
+from seacrane.validity.relative_place import relative_findings
 from seacrane.warnings import (
     FullTurnWarning,
     LargeHeelWarning,
@@ -55,8 +56,16 @@ def findings(
     """
     found: list[Finding] = []
     looks = (
-        _heel, hull_findings, current_findings, _frequencies, _links, lifting, _turns, energy_findings,
-    )  # fmt: skip
+        _heel,
+        hull_findings,
+        relative_findings,
+        current_findings,
+        _frequencies,
+        _links,
+        lifting,
+        _turns,
+        energy_findings,
+    )
     for look in looks:
         what = f"looking at {look.__name__.strip('_')}"
         found += tried(what, partial(look, scene, time, channels), [], found)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/recursive/tree_kinematics.hpp"
+#include "seacrane/math/spd_blocks.hpp"
 #include "seacrane/math/spd_inverse.hpp"
 
 namespace seacrane {
@@ -37,7 +38,19 @@ class ArticulatedTree {
         free_(tree.clusters.size()),
         torque_(tree.clusters.size(), Vec6<T>::Zero()),
         held_(tree.clusters.size()),
-        acceleration_(idx(bodies) + 1, Twist<T>::zero()) {}
+        acceleration_(idx(bodies) + 1, Twist<T>::zero()),
+        root_of_(tree.clusters.size()) {
+    for (const CoupledRoots& roots : tree.coupled) {
+      const std::size_t count = roots.clusters.size();
+      const std::size_t first = *std::ranges::min_element(roots.clusters);
+      for (const std::size_t c : roots.clusters) {
+        root_of_[c] = {static_cast<int>(coupled_.size()), c == first};
+      }
+      coupled_.push_back({roots.clusters, SpdBlocks<T>(static_cast<int>(count)),
+                          std::vector<Mat6<T>>(count * count, Mat6<T>::Zero()),
+                          std::vector<Vec6<T>>(count, Vec6<T>::Zero())});
+    }
+  }
 
   /// See TreeKinematics.
   void place(const T* q, const T* u, BodyKinematics<T>* bodies) { kinematics_.place(q, u, bodies); }
@@ -61,12 +74,23 @@ class ArticulatedTree {
       inertia_[idx(body)] = mass;
     }
   }
+  /// Mass between the roots at two places of coupled ones, which stays until it is set again.
+  void set_coupling(std::size_t coupled, int first, int second, const Mat6<T>& mass) {
+    Coupled& c = coupled_[coupled];
+    const int count = c.mass.count();
+    if (first > second) {
+      c.coupling[idx(first * count + second)] = mass;
+    } else {
+      c.coupling[idx(second * count + first)] = mass.transpose();
+    }
+  }
   /// Articulated inertias for those of all bodies, at the last place(). They are used up: set them again.
-  void factor();
+  /// Not `coupled`: of geometry, where the water has no part.
+  void factor(bool coupled = true);
   /// Takes the bodies' mass matrices, then factors.
-  void factor(const Mat6<T>* mass) {
+  void factor(const Mat6<T>* mass, bool coupled = true) {
     for (int b = 0; b < ground_; ++b) set_inertia(b, mass[b]);
-    factor();
+    factor(coupled);
   }
   /// Largest factor by which inertias cancelled in the last factor(mass), like S_ii / d_i in maximal
   /// coordinates, times that of the joints' own inertias: digits that joints between light and heavy bodies
@@ -119,6 +143,20 @@ class ArticulatedTree {
     T stiffness;  // 1 / (h^T I^-1 h)
   };
 
+  /// Roots that the water couples: a block for each.
+  struct Coupled {
+    std::vector<std::size_t> clusters;
+    SpdBlocks<T> mass;              // with all that they carry
+    std::vector<Mat6<T>> coupling;  // as set, below the diagonal
+    std::vector<Vec6<T>> motion;
+  };
+  struct Root {
+    int coupled = -1;    // none: by itself
+    bool leads = false;  // the first of its coupled ones
+  };
+  void factor(Coupled& coupled, bool with_water);
+  void solve(Coupled& coupled);
+
   static std::vector<char> leaves_of(const BodyTree& tree, int bodies);
 
   template <class Places>
@@ -169,6 +207,8 @@ class ArticulatedTree {
   std::vector<Vec6<T>> torque_;
   std::vector<Held> held_;  // per cluster
   std::vector<Twist<T>> acceleration_;
+  std::vector<Coupled> coupled_;
+  std::vector<Root> root_of_;  // by cluster
 };
 
 extern template class TreeKinematics<double>;

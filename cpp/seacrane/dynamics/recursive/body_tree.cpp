@@ -89,6 +89,7 @@ class TreeBuilder {
     }
     number();
     drive();
+    couple();
     find_leaves();
     return std::move(tree_);
   }
@@ -399,6 +400,28 @@ class TreeBuilder {
     return std::abs(DrivenStroke(tree_.struts[idx(strut)], c.joint).sine(angle)) > kDeadCentre;
   }
 
+  /// The vessels of a group float by themselves, each the root of its tree.
+  void couple() {
+    for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+      if (model_.groups[g].pairs.empty()) continue;
+      CoupledRoots roots{g, {}};
+      for (const int v : model_.groups[g].vessels) {
+        const int body = model_.vessels[idx(v)].body;
+        const auto root = std::ranges::find_if(tree_.clusters, [&](const Cluster& c) {
+          return c.kind == Cluster::floating && c.body == body && !c.is_driven();
+        });
+        if (root == tree_.clusters.end()) {
+          tree_.refused = "vessel '" + model_.description.vessels[idx(v)].name + "' of group '" +
+                          model_.description.groups[g].name +
+                          "' does not float freely: its motion is given, or a joint ties it to another body";
+          return;
+        }
+        roots.clusters.push_back(static_cast<std::size_t>(root - tree_.clusters.begin()));
+      }
+      tree_.coupled.push_back(roots);
+    }
+  }
+
   void find_leaves() {
     std::set<int> parents;
     for (const Cluster& c : tree_.clusters) parents.insert(c.parent);
@@ -443,9 +466,20 @@ BodyTree build_tree(const Model& model) { return TreeBuilder(model).run(); }
 std::vector<int> roots_of(const BodyTree& tree, int bodies) {
   std::vector<int> out(idx(bodies) + 1, -1);
   int count = 0;
-  for (const Cluster& c : tree.clusters) {
+  const auto coupled = [&](std::size_t cluster) {
+    for (const CoupledRoots& roots : tree.coupled) {
+      if (std::ranges::find(roots.clusters, cluster) == roots.clusters.end()) continue;
+      for (const std::size_t other : roots.clusters) {
+        if (other < cluster) return out[idx(tree.clusters[other].body)];
+      }
+    }
+    return -1;
+  };
+  for (std::size_t i = 0; i < tree.clusters.size(); ++i) {
+    const Cluster& c = tree.clusters[i];
     const bool root = c.kind == Cluster::floating || c.parent == bodies;
-    const int of = root ? count++ : out[idx(c.parent)];
+    int of = root ? coupled(i) : out[idx(c.parent)];
+    if (root && of < 0) of = count++;
     for (const Member& m : c.members) out[idx(m.body)] = of;
   }
   return out;

@@ -41,10 +41,18 @@ struct Cluster {
   bool is_driven() const { return !drive.drivers.empty(); }
 };
 
+/// Floating clusters of one group, between whose bodies the mass matrix has blocks.
+struct CoupledRoots {
+  std::size_t group = 0;                // of the model
+  std::vector<std::size_t> clusters;  // by place in the group
+};
+
 /// A spanning tree of clusters, parents before children, and the elements left for constraint rows.
 struct BodyTree {
   std::vector<Cluster> clusters;
   std::vector<Strut> struts;
+  std::vector<CoupledRoots> coupled;
+  std::string refused;  // why the mass matrix of a group does not fit the tree; empty: it does
   std::vector<int> loops;  // elements with rows that no branch stands for: cut joints and other drivers
   int positions = 0, speeds = 0, columns = 0;
   int driven = 0;  // of the speeds
@@ -58,7 +66,8 @@ struct BodyTree {
 /// without a branch is left to rows. Struts are found wherever their pattern occurs.
 BodyTree build_tree(const Model& model);
 
-/// The tree of every body, by the order of its root; -1: the ground's.
+/// The tree of every body, by the order of its root; -1: the ground's. Trees whose roots are coupled are
+/// one.
 std::vector<int> roots_of(const BodyTree& tree, int bodies);
 
 /// Calls f(place in the positions) for every quaternion.

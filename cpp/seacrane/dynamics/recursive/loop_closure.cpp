@@ -190,7 +190,7 @@ void LoopClosure::factor_shape(const BodyKinematics<double>* bodies, Articulated
   for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
     shape_mass_[b] = shape_mass_matrix(model_.bodies[b], bodies[b].rotation);
   }
-  tree.factor(shape_mass_.data());
+  tree.factor(shape_mass_.data(), false);
 }
 
 /// What both bodies of a row give along it without joints, every mass one.

@@ -45,6 +45,9 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
         "formulation 'recursive' closes loops by projection; set baumgarte to 0 or choose formulation "
         "'redundant'");
   }
+  if (!tree_.refused.empty()) {
+    throw std::invalid_argument("formulation 'recursive': " + tree_.refused + "; choose formulation 'redundant'");
+  }
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
@@ -130,6 +133,16 @@ void RecursiveSystem::evaluate_inertia(double t, const double* y) {
     bias_[idx(b)] = full_terms(model_, body, terms_->bodies()[idx(b)], terms_->frames(), mass);
     if (!added.empty()) mass += added[idx(b)];
     articulated_.set_inertia(b, mass);
+  }
+  if (!tree_.coupled.empty()) evaluate_couplings();
+}
+
+void RecursiveSystem::evaluate_couplings() {
+  auto coupling = terms_->evaluate_couplings(bias_.data()).begin();
+  for (std::size_t i = 0; i < tree_.coupled.size(); ++i) {
+    for (const HydroGroup::Pair& pair : model_.groups[tree_.coupled[i].group].pairs) {
+      articulated_.set_coupling(i, pair.first, pair.second, (coupling++)->mass);
+    }
   }
 }
 

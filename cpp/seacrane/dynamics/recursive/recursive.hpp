@@ -73,6 +73,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_inertia(double t, const double* y);
   void evaluate_compact(int body);
+  void evaluate_couplings();
   void factor(double t, const double* y);
   void choose_rows();
   void solve_acceleration(double* u_rate);

@@ -11,6 +11,7 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
       tree_(tree),
       residual_(model, &tree.loops),
       memory_(memory_matrices(model)),
+      groups_(group_matrices(model)),
       states_(model.layout.work - model.layout.memory),
       multipliers_(idx(model.rows())),
       power_(idx(model.body_count())),
@@ -27,12 +28,17 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
       load_(bodies_.size(), Vec6d::Zero()),
       response_(load_),
       given_load_(load_),
+      coupled_(load_),
       own_(VecXd::Zero(model.inertial_tensions)) {
   for (int e : tree.loops) {
     for (int r = 0; r < model.elements[idx(e)].rows; ++r) rows_.emplace_back(e, r);
   }
   right_ = lambda_ = VecXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   for (const Vessel& vessel : model.vessels) fluid_.emplace_back(vessel.memory_states(), kDirections);
+  group_.resize(model.vessels.size());
+  for (const HydroGroup& group : model.groups) {
+    for (const int v : group.vessels) group_[idx(v)].resize(group.memory.states(), kDirections);
+  }
   state_over_.assign(idx(model.body_count()),
                      Rates::Zero(static_cast<Eigen::Index>(model.load_states.size()), kDirections));
   inertial_over_.assign(idx(model.body_count()), Rates::Zero(model.inertial_tensions, kDirections));
@@ -86,6 +92,9 @@ void RecursiveJacobian::differentiate_bodies(double t, const double* y) {
     if (v < 0) continue;
     for (int i = 0; i < m.vessels[idx(v)].memory_states(); ++i) {
       fluid_[idx(v)].row(i) = slopes(residual_.memory_rates()[idx(i)]);
+    }
+    for (Eigen::Index i = 0; i < group_[idx(v)].rows(); ++i) {
+      group_[idx(v)].row(i) = slopes(residual_.group_rates()[idx(i)]);
     }
   }
 }
@@ -152,12 +161,21 @@ void RecursiveJacobian::gather() {
   for (const Share& share : shares_) {
     change_[idx(share.to)].noalias() += share.slopes * motion_[idx(share.from)];
   }
-  for (int b = 0; b < model_->body_count(); ++b) {
-    BodyResidual::Slopes turned;
+  const auto turned = [&](int b) {
+    BodyResidual::Slopes out;
     const Vec6<Scalar>& a = acceleration_[idx(b)].vector();
-    for (int i = 0; i < 6; ++i) turned.row(i) = Eigen::Map<const Row>(a[i].slope.data());
-    change_[idx(b)].noalias() -= at_->mass[b] * turned;
-    const Vec6d p = at_->load[b] - at_->mass[b] * at_->acceleration[b];
+    for (int i = 0; i < 6; ++i) out.row(i) = Eigen::Map<const Row>(a[i].slope.data());
+    return out;
+  };
+  for (Vec6d& of_body : coupled_) of_body.setZero();
+  for (const MassCoupling& c : at_->terms.couplings()) {
+    c.add_product(c.mass, at_->acceleration, coupled_.data());
+    change_[idx(c.first)].noalias() -= c.mass * turned(c.second);
+    change_[idx(c.second)].noalias() -= c.mass.transpose() * turned(c.first);
+  }
+  for (int b = 0; b < model_->body_count(); ++b) {
+    change_[idx(b)].noalias() -= at_->mass[b] * turned(b);
+    const Vec6d p = at_->load[b] - at_->mass[b] * at_->acceleration[b] - coupled_[idx(b)];
     Vec6<Scalar> force = p.cast<Scalar>();
     for (int i = 0; i < 6; ++i) Eigen::Map<Row>(force[i].slope.data()) = change_[idx(b)].row(i);
     force_[idx(b)] = Wrench<Scalar>(force);
@@ -194,6 +212,12 @@ void RecursiveJacobian::write_column(int k, double* column) {
     const Vessel& vessel = m.vessels[v];
     Eigen::Map<VecXd>(fluid + vessel.memory_offset - m.layout.memory, vessel.memory_states()).noalias() =
         fluid_[v] * motion_[idx(vessel.body)].col(k);
+  }
+  for (const HydroGroup& group : m.groups) {
+    Eigen::Map<VecXd> rates(fluid + group.memory_offset - m.layout.memory, group.memory.states());
+    for (const int v : group.vessels) {
+      rates.noalias() += group_[idx(v)] * motion_[idx(m.vessels[idx(v)].body)].col(k);
+    }
   }
   Eigen::Map<VecXd> of_loads(fluid + m.layout.loads - m.layout.memory,
                              static_cast<Eigen::Index>(m.load_states.size()));
@@ -336,14 +360,7 @@ void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
     if (states == 0) continue;
     const YawFrame<double>& frame = at_->terms.frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + at, to_fluid_.col(0).data());
-    to_fluid_.setZero();
-    own_.setZero();
-    for (int i = 0; i < 6; ++i) {
-      right_.setZero();
-      for (auto& load : load_) load.setZero();
-      load_[idx(vessel.body)] = frame.to_inertial(Vec6d(Vec6d::Unit(i)));
-      solve(to_fluid_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
-    }
+    respond_to_motions(v, direction);
     const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
     write_wave_slopes(vessel, waves, memory_[v].c);
     jacobian.middleCols(at, states).noalias() = -to_fluid_ * memory_[v].c;
@@ -351,6 +368,39 @@ void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
       jacobian(n - 1, at + i) += (direction - waves.direction) * frame.twist.dot(memory_[v].c.col(i));
     }
     jacobian.block(at, at, states, states) += memory_[v].a;
+  }
+  for (std::size_t g = 0; g < m.groups.size(); ++g) write_group_columns(g, y, out);
+}
+
+void RecursiveJacobian::write_group_columns(std::size_t g, const double* y, double* out) {
+  const Model& m = *model_;
+  const HydroGroup& group = m.groups[g];
+  const int first = tree_.positions + tree_.speeds, n = first + states_ + 2;
+  const int states = group.memory.states(), at = first + group.memory_offset - m.layout.memory;
+  if (states == 0) return;
+  Eigen::Map<MatXd> jacobian(out, n, n);
+  const std::vector<YawFrame<double>>& frames = at_->terms.frames();
+  HydroGroup::Motions<double> mu;
+  group.remember(frames.data(), y + at, to_fluid_.col(0).data(), mu);
+  for (std::size_t k = 0; k < group.vessels.size(); ++k) {
+    const auto v = idx(group.vessels[k]);
+    respond_to_motions(v, sign(-frames[v].twist.dot(Eigen::Map<const Vec6d>(&mu[6 * k]))));
+    jacobian.middleCols(at, states).noalias() -=
+        to_fluid_ * groups_[g].c.middleRows<6>(static_cast<Eigen::Index>(6 * k));
+  }
+  jacobian.block(at, at, states, states) += groups_[g].a;
+}
+
+/// to_fluid_: responses to unit loads of a vessel's motions, whose power has this sign.
+void RecursiveJacobian::respond_to_motions(std::size_t v, double direction) {
+  const YawFrame<double>& frame = at_->terms.frames()[v];
+  to_fluid_.setZero();
+  own_.setZero();
+  for (int i = 0; i < 6; ++i) {
+    right_.setZero();
+    for (auto& load : load_) load.setZero();
+    load_[idx(model_->vessels[v].body)] = frame.to_inertial(Vec6d(Vec6d::Unit(i)));
+    solve(to_fluid_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
   }
 }
 

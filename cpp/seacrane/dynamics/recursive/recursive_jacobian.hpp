@@ -70,6 +70,8 @@ class RecursiveJacobian {
   void respond(double* u_rate);
   void add_inertial_slopes(int direction);
   void write_memory_columns(const double* y, double* out);
+  void write_group_columns(std::size_t group, const double* y, double* out);
+  void respond_to_motions(std::size_t vessel, double direction);
   void write_state_columns(double* out);
   double along_row(int row, const Vec6d* acceleration) const;
 
@@ -77,7 +79,7 @@ class RecursiveJacobian {
   const BodyTree& tree_;
   const TreeEvaluation* at_ = nullptr;  // during an evaluation
   BodyResidual residual_;
-  std::vector<MemoryMatrices> memory_;
+  std::vector<MemoryMatrices> memory_, groups_;
   int states_ = 0;                         // of the memory and of loads
   std::vector<std::pair<int, int>> rows_;  // element and its row, of the loops
   std::vector<double> multipliers_;        // by row of the model
@@ -87,6 +89,7 @@ class RecursiveJacobian {
   std::vector<Row> power_, absolute_power_;  // by body
   using Rates = Eigen::Matrix<double, Eigen::Dynamic, kDirections>;
   std::vector<Rates> fluid_;       // memory rates, by vessel
+  std::vector<Rates> group_;       // those of its group
   std::vector<Rates> state_over_;  // rates of the states of loads, by body
 
   std::vector<Scalar> state_, state_rate_;  // positions and speeds, rates of positions
@@ -101,6 +104,7 @@ class RecursiveJacobian {
   std::vector<Rates> inertial_over_;  // inertial tensions with accelerations held, by body
 
   std::vector<Vec6d> load_, response_, given_load_;
+  std::vector<Vec6d> coupled_;  // loads of masses between bodies
   VecXd right_, lambda_, given_right_;
   VecXd own_;       // changes of inertial tensions with accelerations held
   MatXd to_fluid_;  // responses to unit loads of the memory

@@ -118,12 +118,37 @@ void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const
 }
 
 template <class T>
-void ArticulatedTree<T>::factor() {
+void ArticulatedTree<T>::factor(bool coupled) {
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { factor_held<Branch>(i); })) continue;
     with_speeds(c, [&]<int n>() { factor_cluster<n>(i); });
   }
+  for (Coupled& roots : coupled_) factor(roots, coupled);
+}
+
+template <class T>
+void ArticulatedTree<T>::factor(Coupled& roots, bool with_water) {
+  const int count = roots.mass.count();
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (with_water) {
+        roots.mass.at(i, j) = roots.coupling[idx(i * count + j)];
+      } else {
+        roots.mass.at(i, j).setZero();
+      }
+    }
+    roots.mass.at(i, i) = inertia(clusters()[roots.clusters[idx(i)]].body).matrix();
+  }
+  roots.mass.factor();
+}
+
+/// Accelerations of the roots for the loads that gather() left in torque_.
+template <class T>
+void ArticulatedTree<T>::solve(Coupled& roots) {
+  for (std::size_t i = 0; i < roots.clusters.size(); ++i) roots.motion[i] = torque_[roots.clusters[i]];
+  roots.mass.solve(roots.motion.data());
+  for (std::size_t i = 0; i < roots.clusters.size(); ++i) torque_[roots.clusters[i]] = roots.motion[i];
 }
 
 template <class T>
@@ -169,7 +194,7 @@ template <int n>
 void ArticulatedTree<T>::factor_cluster(std::size_t i) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    if (!c.is_driven()) free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
+    if (!c.is_driven() && root_of_[i].coupled < 0) free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
     return;
   }
   Mat<n> gram = Mat<n>::Zero();
@@ -262,6 +287,7 @@ void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, con
   acceleration_[idx(ground_)] = Twist<T>::zero();
   for (const std::size_t i : places) {
     const Cluster& c = clusters()[i];
+    if (root_of_[i].leads) solve(coupled_[idx(root_of_[i].coupled)]);
     if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, u_rate); })) continue;
     with_speeds(c, [&]<int n>() { spread<n>(i, moving, u_rate); });
   }
@@ -278,7 +304,7 @@ void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque, con
     }
     Vec6<T> sum = -force_[idx(c.body)].vector();
     if (torque) sum += Eigen::Map<const Vec6<T>>(torque + c.u);
-    torque_[i] = free_[i].solve(sum);
+    torque_[i] = root_of_[i].coupled < 0 ? free_[i].solve(sum) : sum;
     return;
   }
   T sum[n + 1];  // one more than none

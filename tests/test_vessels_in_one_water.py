@@ -1,0 +1,284 @@
+"""Vessels that feel each other's motions: against single ones, each other, and the frequency domain."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
+from seacrane.analysis import response_summed
+from seacrane.description.hydrodynamics import group_of
+from seacrane.hydro import HydroDatabase, HydroGroup, MemoryModel, fit_memory, shipped_database
+from seacrane.hydro.group.parts import joined_memory
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.validity.relative_place import gap_between, relative_findings
+from seacrane.warnings import RelativePlaceWarning
+
+Array = NDArray[np.float64]
+MIRROR = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])  # about the plane between two hulls side by side
+FAR = 60.0  # m
+STEPS: dict[str, Any] = {"integrator": "rk4", "dt": 0.1}
+SEA: dict[str, Any] = {"hs": 2.0, "tp": 9.0, "count": 15, "seed": 4, "direction_deg": 130.0}
+
+
+@lru_cache(maxsize=1)
+def hull() -> HydroDatabase:
+    database = replace(shipped_database(), additional=(), roll_damping=None)
+    return replace(database, memory=fit_memory(database=database, kind="by-motion"))
+
+
+@lru_cache(maxsize=1)
+def apart() -> HydroGroup:
+    """Two hulls that do not feel each other, the second turned."""
+    group = HydroGroup.from_databases(
+        databases={"a": hull(), "b": hull()},
+        positions={"a": (0.0, 0.5 * FAR, 0.0), "b": (10.0, -0.5 * FAR, 0.0)},
+    )
+    return with_memory(group, pair_of_memories())
+
+
+def with_memory(group: HydroGroup, memory: MemoryModel) -> HydroGroup:
+    return replace(group, memory=memory)
+
+
+@lru_cache(maxsize=1)
+def pair_of_memories() -> MemoryModel:
+    memory = hull().memory
+    assert memory is not None
+    return joined_memory([memory, memory])
+
+
+def mixed(share: float = 0.2, group: HydroGroup | None = None) -> HydroGroup:
+    """The same whose hulls take a share of each other's mirrored motions along in the water.
+
+    With T = I + share P the added mass is T^T A T, the damping and the memory alike: passive as before.
+    """
+    whole = apart() if group is None else group
+    mix = np.eye(12) + share * np.kron([[0.0, 1.0], [1.0, 0.0]], MIRROR)
+    memory = pair_of_memories()
+    blocks = []
+    for block in memory.blocks:
+        b, c = np.zeros((len(block.A), 12)), np.zeros((12, len(block.A)))
+        b[:, block.inputs], c[block.outputs] = block.B, block.C
+        every = np.arange(12)
+        blocks.append(
+            replace(block, inputs=every, outputs=every, B=b @ mix, C=mix.T @ c, D=np.zeros((12, 12)))
+        )
+    coupled = replace(
+        memory, blocks=tuple(blocks), motion=None, rows=(),
+        **{
+            key: mix.T @ getattr(memory, key) @ mix
+            for key in ("added_mass", "additional_added_mass", "additional_stiffness")
+        },
+    )  # fmt: skip
+    tables = {key: mix.T @ getattr(whole, key) @ mix for key in ("added_mass", "damping")}
+    limit = whole.infinite_frequency_added_mass
+    return replace(
+        whole, **tables, memory=coupled,
+        infinite_frequency_added_mass=None if limit is None else mix.T @ limit @ mix,
+    )  # fmt: skip
+
+
+def afloat(group: HydroGroup, *, sea: dict[str, Any] | None = None, **more: Any) -> Scene:
+    scene = Scene(name="pair")
+    scene.add_vessels(group, **more)
+    for name in scene.vessels if sea is not None else ():
+        scene.add_sea(vessel=name, **(sea or {}))
+    return scene
+
+
+def linear_hull(database: HydroDatabase) -> HydroDatabase:
+    return replace(database, quadratic_damping=np.zeros(6))
+
+
+def linear(group: HydroGroup) -> HydroGroup:
+    """Without what is quadratic in speeds."""
+    return replace(group, bodies=tuple(replace(body, quadratic_damping=np.zeros(6)) for body in group.bodies))
+
+
+def motion(scene: Scene, name: str, t_end: float = 20.0, **method: Any) -> Array:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = simulate(scene, t_end=t_end, dt_out=0.5, channels=["vessel_motion"], **method)
+    return np.asarray(result["vessel_motion"])[:, list(scene.vessels).index(name)]
+
+
+def test_without_coupling_it_is_two_single_vessels() -> None:
+    together = afloat(apart(), sea=SEA, position=(3.0, -2.0, 0.0), heading_deg=25.0)
+    single = Scene(name="single")
+    for body in ("a", "b"):
+        start = together.bodies[body]
+        single.add_vessel(hull(), name=body, position=start.position, heading_deg=25.0)
+        single.add_sea(vessel=body, **SEA)
+    for body in ("a", "b"):
+        found, expected = motion(together, body, **STEPS), motion(single, body, **STEPS)
+        assert np.abs(expected).max() > 0.1
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-10)
+
+
+def test_coupling_is_felt_and_both_formulations_agree() -> None:
+    scene = afloat(mixed(), sea=SEA, heading_deg=25.0)
+    redundant = motion(scene, "a", formulation="redundant", **STEPS)
+    recursive = motion(scene, "a", formulation="recursive", **STEPS)
+    np.testing.assert_allclose(recursive, redundant, rtol=0.0, atol=1e-9)
+    assert np.abs(redundant - motion(afloat(apart(), sea=SEA, heading_deg=25.0), "a", **STEPS)).max() > 0.01
+
+
+def test_other_names_in_another_order_move_alike() -> None:
+    group = mixed()
+    one = afloat(group, sea=SEA)
+    other = afloat(group.ordered(["b", "a"]), sea=SEA, names=["barge", "ship"])
+    for name, called in (("a", "ship"), ("b", "barge")):
+        np.testing.assert_allclose(
+            motion(other, called, **STEPS), motion(one, name, **STEPS), rtol=0.0, atol=1e-10
+        )
+
+
+def test_a_mirrored_pair_moves_mirrored() -> None:
+    """In waves along the plane between them; the database of one hull is that of its mirror image."""
+    group = HydroGroup.from_databases(
+        databases={"a": hull(), "b": hull()}, positions={"a": (0.0, FAR, 0.0), "b": (0.0, -FAR, 0.0)}
+    )
+    scene = afloat(mixed(group=with_memory(group, pair_of_memories())), sea=SEA | {"direction_deg": 0.0})
+    port, starboard = motion(scene, "a", **STEPS), motion(scene, "b", **STEPS)
+    assert np.abs(port).max() > 0.1
+    np.testing.assert_allclose(port, starboard @ MIRROR, rtol=0.0, atol=1e-9)
+
+
+def test_a_free_pair_keeps_its_energy() -> None:
+    group = replace(
+        linear(mixed()),
+        bodies=tuple(
+            replace(body, linear_damping=np.zeros((6, 6)), quadratic_damping=np.zeros(6))
+            for body in apart().bodies
+        ),
+    )
+    scene = Scene(name="free")
+    scene.add_vessels(group, memory="none", mooring_period=None)
+    velocities = {"a": (1.0, -0.5, 0.3), "b": (-0.4, 0.2, 0.6)}
+    for name, velocity in velocities.items():
+        turning = (0.02, -0.01, 0.03)
+        scene.replace(name, kind="body", velocity=velocity, angular_velocity=turning)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = simulate(scene, t_end=30.0, dt_out=1.0, rtol=1e-10, channels=["energy_balance"])
+    speed = np.array([*velocities["a"]])
+    energy = 0.5 * float(scene.bodies["a"].mass) * float(speed @ speed)
+    assert np.abs(result["energy_balance"]).max() < 1e-8 * energy
+
+
+def test_small_waves_move_it_as_the_coupled_frequency_domain() -> None:
+    wave = {"hs": 2e-3, "tp": 8.0, "count": 1, "seed": 2, "direction_deg": 60.0}
+    scene = afloat(linear(mixed()), sea=wave, heading_deg=25.0)
+    model = linear_model(scene, vessel="a")
+    assert scene.waves is not None
+    amplitude, omega = float(scene.waves.amplitude[0]), float(scene.waves.omega[0])
+    for place, body in enumerate(("a", "b")):
+        centre = scene.bodies[body].center_of_mass
+        summed = response_summed(model, body=body, point=centre)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            result = simulate(
+                scene, t_end=40.0, dt_out=1.0, rtol=1e-11, start=model.full_state(summed.state_at(0.0)),
+                channels=["position"],
+            )  # fmt: skip
+        start = scene.bodies[body].position + rotation_matrix(scene.bodies[body].quaternion) @ centre
+        found = np.asarray(result["position"])[:, place] - start
+        expected = summed.at(np.asarray(result.time))[:, :3]
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+        rao = motion_rao(model, omega=omega, direction=np.radians(60.0 - 25.0), body=body, point=centre)
+        np.testing.assert_allclose(np.abs(rao) * amplitude, np.abs(summed.amplitude[0]), rtol=1e-9)
+
+
+def scaled(factor: float) -> HydroDatabase:
+    """A hull whose motions move the water by another factor."""
+    memory = hull().memory
+    assert memory is not None
+    parts = ("added_mass", "additional_added_mass", "additional_stiffness")
+    blocks = tuple(replace(one, B=factor * one.B, C=factor * one.C) for one in memory.blocks)
+    masses = {key: factor**2 * getattr(memory, key) for key in parts}
+    return replace(hull(), memory=replace(memory, blocks=blocks, **masses))
+
+
+def test_natural_modes_are_those_of_hulls_that_move_alike_and_against_each_other() -> None:
+    """T of a mirrored motion is 1 + share times it, of one against it 1 - share: two single hulls."""
+    share = 0.2
+    found = natural_modes(afloat(linear(mixed(share)), mooring_period=None)).eigenvalues
+    expected = []
+    for factor in (1.0 + share, 1.0 - share):
+        single = Scene(name="single")
+        single.add_vessel(linear_hull(scaled(factor)), mooring_period=None)
+        expected.append(natural_modes(single).eigenvalues)
+    both = np.sort_complex(np.concatenate(expected))
+    np.testing.assert_allclose(np.sort_complex(found), both, rtol=1e-6)
+
+
+def test_files_copies_and_removals(tmp_path: Path) -> None:
+    scene = afloat(mixed(), sea=SEA)
+    scene.save(tmp_path / "pair.json")
+    again = Scene.load(tmp_path / "pair.json")
+    assert again == scene and again.groups["group"] == scene.groups["group"]
+    np.testing.assert_array_equal(
+        motion(again, "a", t_end=2.0, **STEPS), motion(scene, "a", t_end=2.0, **STEPS)
+    )
+    with pytest.raises(SceneError, match="group 'group' refer to it"):
+        scene.remove("b", kind="vessel")
+    found = group_of(scene, "b")
+    assert found is not None and found.vessels == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"names": ["a"]}, "names are a; give one for each"),
+        ({"memory": "convolution"}, "memory 'convolution' of a group is not available"),
+        ({"heading_deg": np.nan}, "heading_deg"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        afloat(apart(), **change)
+
+
+def test_a_vessel_tied_to_another_needs_the_redundant_form() -> None:
+    scene = afloat(mixed())
+    scene.add_joint(kind="spherical", name="tie", first="a", second="b", point=(5.0, 0.0, 0.0))
+    with pytest.raises(SceneError, match="of group 'group' does not float freely"):
+        simulate(scene, t_end=1.0, formulation="recursive")
+    assert np.all(np.isfinite(motion(scene, "b", t_end=1.0)))
+
+
+def test_a_database_of_one_vessel_does_not_hold_the_memory_of_a_group() -> None:
+    with pytest.raises(SceneError, match="that of all motions of group 'group'"):
+        linear_model(afloat(mixed()), vessel="a", memory="database")
+
+
+def test_leaving_the_place_beside_each_other_is_named() -> None:
+    scene = afloat(apart())
+    gap = gap_between(scene, "a", "b")
+    assert gap == pytest.approx(FAR - hull().breadth)
+    time = np.linspace(0.0, 100.0, 201)
+    still = np.zeros((201, 2, 6))
+
+    def found(moved: Array) -> list[tuple[type[Warning], str]]:
+        return relative_findings(scene, time, {"vessel_motion": moved})
+
+    assert found(still) == []
+    together = still.copy()
+    together[:, :, 1] = 20.0  # both drift alike
+    assert found(together) == []
+    swing = still.copy()
+    swing[:, 1, 1] = 0.3 * gap * np.sin(2.0 * np.pi * time / 10.0)  # with the waves, not on the average
+    assert found(swing) == []
+    for motion_of, size, told in ((1, 0.11 * gap, "a tenth of the gap"), (5, np.radians(2.1), "2.1 deg")):
+        away = swing.copy()
+        away[:, 1, motion_of] += size
+        ((kind, message),) = found(away)
+        assert kind is RelativePlaceWarning and told in message and "group 'group': 'b' leaves" in message
