@@ -97,7 +97,7 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     kind, names = kinds[0], values.get("names", {})
     if kind != "channel" and "names" in values:
         raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
-    bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
+    bounds: dict[str, float] = {key: values[key] for key in ("minimum", "maximum") if key in values}
     if kind in ("contact", "release"):
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")

@@ -287,8 +287,8 @@ struct ImmersedPart {
     };
     if (wet.share > 0.0) {
       out.force(Cause::buoyancy).z() = weight * wet.share;
-      out.power(Cause::waves) = weight * wet.share * at.rise +
-                                add(Cause::waves, at.pulled * (d.density * volume * wet.share));
+      out.power(Cause::waves) =
+          weight * wet.share * at.rise + add(Cause::waves, at.pulled * (d.density * volume * wet.share));
       out.power(Cause::drag) = add(Cause::drag, drag(at, wet));
     }
     if (!(at.depth > 0.0)) return out;
