@@ -169,8 +169,8 @@ def add_hoist(
     mass_per_length : float
         Of a line with mass, kg/m.
     wire : mapping, optional
-        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio and
-        those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
+        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio
+        and those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
     block_mass : float
         Hook block, kg; slings need one.
     slings : Slings or mapping, optional

@@ -95,7 +95,7 @@ def line_findings(
     if not lines or "line_unstretched_length" not in channels:
         return found
     lengths = np.asarray(channels["line_unstretched_length"]).reshape(time.size, len(lines))
-    for (name, line), length in zip(lines.items(), lengths.T, strict=True):
+    for line, length in zip(lines.values(), lengths.T, strict=True):
         if line.winch:
             found += _met(winch_of(line), line, time, length / line.share)
     if "line_tension" in channels:
