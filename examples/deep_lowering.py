@@ -181,8 +181,9 @@ if len(sys.argv) > 1:
     way.axhline(-SEABED, color="tab:brown")
     for span in waves.stages:
         way.axvline(span.start, color="0.8", linewidth=0.8, zorder=0)
-    for name in ("splash zone", "down", "stop"):
-        way.text(waves.time[waves.stage(name).start], -0.9 * SEABED, f" {name}", fontsize="small")
+    for name in ("splash zone", "compensate", "stop"):
+        at = waves.time[waves.stage(name).start]
+        way.text(at, -SEABED / 2.0, name, rotation=90, fontsize="small", ha="right", va="center")
     way.set(xlabel="time [s]", ylabel="underside over still water [m]")
     for name, label in (("waves", f"Hs {HS:g} m, Tp {TP:g} s"), ("calm", "calm")):
         pull.plot(deep[name], pulls[name][:, 0] / 1e3, linewidth=0.8, label=f"at the tip, {label}")

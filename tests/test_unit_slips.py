@@ -25,7 +25,7 @@ SLIPS = {
 ELEMENTS = {
     *_core.LOAD_KINDS.values(), _core.Body, _core.Driver, _core.VesselHydrodynamics, _core.Point,
 }  # fmt: skip
-NO_QUANTITIES = {  # directions, angles of tables, counts, shares that a winch makes; a C function's own
+NO_QUANTITIES = {  # directions, angles that tables turn about, counts, shares of a line; a C function's own
     "Body.quaternion", "FlowForce.angles", "Line.axes", "Line.turns", "Line.share", "ImmersedSpan.share",
     "FunctionForce.parameters",
 }  # fmt: skip

@@ -125,7 +125,7 @@ def on_a_winch(scene: Description, name: str, winch: Mapping[str, Any]) -> _core
     by = {"paid_out_by": name, "share": 1.0 / len(segments)}
     kinds = {
         "winding": "a Curve for its length, and the winch changes it; give the length at the start",
-        "drag": "drag in a steady flow, which takes no winch; leave its diameter out, or choose 'sea'",
+        "drag": "drag in a steady flow, which takes no winch; leave out its diameter, or choose medium 'sea'",
     }
     for kind, text in kinds.items():
         if f"{segments[0].name} {kind}" in scene.loads:

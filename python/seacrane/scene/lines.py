@@ -330,8 +330,7 @@ def add_winch(
     """Put a line on a winch: its unstretched length becomes a state, "<line>.length", driven by a rate.
 
     With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.
-    A line with mass goes by its own name too, such as "wire.rate"; its first segment, "wire.1", is on the
-    winch.
+    A line with mass goes by its own name too, and its first segment, "<line>.1", is on the winch.
     With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
     inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
     "limit". See docs/lines.md.
