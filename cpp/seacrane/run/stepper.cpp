@@ -7,8 +7,10 @@
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/run/run_options.hpp"
+#include "seacrane/run/switches.hpp"
 
 namespace seacrane {
 namespace {
@@ -31,6 +33,15 @@ void add_growth(const Model& model, const RunOptions& run, IntegratorOptions& ou
   for (std::size_t i = 0; i < states.size(); ++i) {
     out.tolerance_growth[first + i] = run.scaled_tolerance * states[i].growth;
   }
+}
+
+/// A step of no length at a kink fails where residuals are solved for by a method of many steps.
+void check_contacts(const Model& model, const Integrator& integrator, const std::string& name) {
+  if (!Switches::any_jumps(model) || !integrator_of(name).residual_form) return;
+  if (!(integrator.steps_lost_by_reset() > 0.0)) return;
+  throw std::invalid_argument("integrator \"" + name + "\" cannot restart where contact '" +
+                              model.loads.of<Contact>().front().d.name +
+                              "' is touched; choose 'dopri5', or 'cvode-bdf' where the contact is stiff");
 }
 
 }  // namespace
@@ -68,6 +79,7 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
   }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, *model, options));
+  check_contacts(*model, *integrator, options.integrator);
 }
 
 }  // namespace seacrane
