@@ -53,6 +53,7 @@ from seacrane.scene import (
     wind_current,
 )
 from seacrane.scene.gusts import gust_curve
+from seacrane.scene.line_seabed import Seabed
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 from seacrane.water import Opening
@@ -138,6 +139,7 @@ SLINGS = keys_of(
         "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     },
 )
+SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -279,6 +281,7 @@ _ALL = (
         density={"unit": "kg/m3"}, flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
         breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, segment_rung={"type": "text", "choices": lines.STRETCHING},
+        seabed={"type": "table", "keys": SEABED},
     ),
     _call("winch", lines.add_winch, _core.Line),
     Table(

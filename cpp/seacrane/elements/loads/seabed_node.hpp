@@ -38,7 +38,8 @@ struct SeabedNodeDescription {
         optional("give", &D::give, "m", "that it slides under this load before friction is full")
             .not_negative()
             .usually(1e-4, 1.0),
-        optional("anchor", &D::anchor, "m", "place, inertial axes, that it holds at the start; z is left out"));
+        optional("anchor", &D::anchor, "m",
+                 "place, inertial axes, that it holds at the start; z is left out"));
   }
 };
 
