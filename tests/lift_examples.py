@@ -303,6 +303,7 @@ segment_rung = "quasi-static"
 settling_s = 0.3
 diameter_m = 0.02
 flow_m_per_s = [1, 0, 0]
+seabed = { depth_m = 50, stiffness_N_per_m2 = 1e4, friction = 0.5, damping_ratio = 0.4, give_m = 0.02 }
 
 [[line]]
 name = "wet chain"
@@ -574,7 +575,8 @@ def every_table() -> Scene:
     scene.add_line(
         name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
         length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
-        diameter=0.02, flow=(1, 0, 0), seabed={"depth": 60, "stiffness": 2e4, "friction": 0.5, "give": 0.1},
+        diameter=0.02, flow=(1, 0, 0),
+        seabed={"depth": 50, "stiffness": 1e4, "friction": 0.5, "damping_ratio": 0.4, "give": 0.02},
     )  # fmt: skip
     scene.add_line(
         name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],

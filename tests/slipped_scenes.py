@@ -77,6 +77,12 @@ def on_feet(numbers: Mapping[str, Any], **more: Any) -> Scene:
     return scene
 
 
+def on_a_seabed(**numbers: Any) -> Scene:
+    scene = with_load((0.0, 0.0, -10.0))
+    add_load(scene, _core.SeabedNode(name="bed", body="load", **numbers))
+    return scene
+
+
 def hung(numbers: Mapping[str, Any], **more: Any) -> Scene:
     scene = with_load()
     add_load(scene, _core.Line(name="wire", bodies=["ground", "load"], **{**more, **numbers}))
@@ -402,6 +408,14 @@ SAMPLES: Mapping[str, Sample] = {
             "length": 11.0, "below_first": 1.0, "below_second": 0.5,
         },
         scene=lambda n: between(_core.WoundSpan, n),
+    ),
+    "seabed node": Sample(
+        kind=_core.SeabedNode,
+        numbers={
+            "point": (0.5, 0.0, -0.5), "depth": 10.6, "stiffness": 1e6, "damping": 0.5, "friction": 0.5,
+            "load": MASS * 9.81, "give": 0.05, "anchor": (0.6, 0.0, -10.5),
+        },
+        scene=lambda n: on_a_seabed(**n),
     ),
     "pendulum damping": Sample(
         kind=_core.PendulumDamping,

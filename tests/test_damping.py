@@ -144,7 +144,9 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
 
 
-@pytest.mark.parametrize("kind", ["pendulum damping", "span drag", "immersed span", "wound span"])
+@pytest.mark.parametrize(
+    "kind", ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
+)
 def test_the_jacobian_is_exact_and_both_formulations_agree(kind: str) -> None:
     scene = Scene(name="two")
     rng = np.random.default_rng(5)

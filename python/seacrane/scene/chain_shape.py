@@ -110,11 +110,11 @@ class Chain:
         size = np.maximum(np.linalg.norm(tension, axis=1), SOFTEST * scale)[:, None, None]
         along = tension[:, :, None] / size
         across = (np.eye(3) - along * np.swapaxes(along, 1, 2)) / size
-        each = self.segment * (np.eye(3) / self.stiffness + across)
-        whole = np.asarray(each.sum(axis=0))
+        each = np.eye(3) / self.stiffness + across
+        whole = np.asarray(self.segment * each.sum(axis=0))
         if self.bed is None:
             return whole
-        beyond = np.cumsum(each[:0:-1, :, 2], axis=0)[::-1]
+        beyond = self.segment * np.cumsum(each[:0:-1, :, 2], axis=0)[::-1]
         later = np.maximum.outer(*[np.arange(len(beyond))] * 2)
         borne = beyond[later, 2] + np.eye(len(beyond)) / self.bed_stiffness
         return np.block([[whole, -beyond.T], [-beyond, borne]])

@@ -211,6 +211,18 @@ def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
     yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
 
 
+def _seabed(around: _Around, bed: _core.SeabedNode) -> Iterator[Proportion]:
+    """A seabed gives by millimetres to metres under what lies on it."""
+    weight = around.weight(bed.body)
+    yield Proportion("stiffness", "{:.3g} m by the weight", _over(weight, bed.stiffness), 1e-4, 20.0, "N/m")
+    if bed.friction > 0.0:
+        away = np.asarray(bed.anchor) - placed(around.scene, bed.body, bed.point)
+        aside = float(np.linalg.norm(away[:2]))
+        yield Proportion("anchor", "{:.3g} m from its point", aside, 0.0, 100.0, "m")
+        share = _over(bed.load, weight)
+        yield Proportion("load", "{:.3g} times the weight on it", share, 1e-2, 100.0, "N")
+
+
 def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     """Its size counts beside that of the body, its coefficients beside those of a plate of its size."""
     body, sizes = around.scene.bodies[part.body], np.sort(part.size)
@@ -350,6 +362,7 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.EntrappedWater: ("entrapped water", _compartment),
     _core.Contact: ("contact", _contact),
     _core.WoundSpan: ("wound span", _wet_span),
+    _core.SeabedNode: ("seabed node", _seabed),
     _core.PendulumDamping: ("pendulum damping", _pendulum),
     _core.Spring: ("spring", _spring),
     _core.Actuator: ("actuator", _actuator),
