@@ -97,7 +97,7 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     kind, names = kinds[0], values.get("names", {})
     if kind != "channel" and "names" in values:
         raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
-    bounds: dict[str, float] = {key: values[key] for key in ("minimum", "maximum") if key in values}
+    bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
     if kind in ("contact", "release"):
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
@@ -112,7 +112,7 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     return by_name[kind](values[kind], **bounds)
 
 
-def _minimum(bounds: Mapping[str, float]) -> float:
+def _minimum(bounds: Mapping[Any, float]) -> float:
     if set(bounds) != {"minimum"}:
         raise SceneError("until: clear needs a minimum, in m, and no maximum; give minimum_m")
     return bounds["minimum"]
