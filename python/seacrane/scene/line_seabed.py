@@ -50,12 +50,13 @@ class Seabed:
                 f"{what}: seabed is {shown(given)}; give depth, stiffness and friction, such as "
                 "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}"
             )
+        keywords = given if isinstance(given, Mapping) else vars(given)
         try:
-            bed = given if isinstance(given, Seabed) else Seabed(**given)
+            bed = Seabed(**keywords)
         except TypeError as error:
             raise SceneError(
-                f"{what}: seabed has {', '.join(map(repr, given))}; it takes depth, stiffness, friction, and "
-                "damping_ratio and give, the first three always"
+                f"{what}: seabed has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
+                "and damping_ratio and give, the first three always"
             ) from error
         finite_of(f"{what}: seabed depth", bed.depth, "m")
         positive_of(f"{what}: seabed stiffness", bed.stiffness, "N/m2")
