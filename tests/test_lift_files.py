@@ -56,7 +56,7 @@ def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pyte
         assert depth is not None
         return replace(shipped_database(), depth=depth)
 
-    monkeypatch.setattr("seacrane.lift.calls.load_database", load)
+    monkeypatch.setattr("seacrane.lift.calls.load_hull", load)
     (tmp_path / "hull.nc").touch()
     vessel = '[vessel]\ndatabase = "hull.nc"\nmemory = "none"\ndepth_m = 40\n'
     scene = lift_of(HEAD + vessel + "[sea]\nhs_m = 1\ntp_s = 9\n", tmp_path).scene()

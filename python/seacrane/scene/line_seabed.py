@@ -50,23 +50,20 @@ class Seabed:
                 f"{what}: seabed is {shown(given)}; give depth, stiffness and friction, such as "
                 "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}"
             )
-        bed = given if isinstance(given, Seabed) else Seabed._of_keywords(what, given)
+        keywords = given if isinstance(given, Mapping) else vars(given)
+        try:
+            bed = Seabed(**keywords)
+        except TypeError as error:
+            raise SceneError(
+                f"{what}: seabed has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
+                "and damping_ratio and give, the first three always"
+            ) from error
         finite_of(f"{what}: seabed depth", bed.depth, "m")
         positive_of(f"{what}: seabed stiffness", bed.stiffness, "N/m2")
         positive_of(f"{what}: seabed give", bed.give, "m")
         for name in ("friction", "damping_ratio"):
             not_negative_of(f"{what}: seabed {name}", getattr(bed, name))
         return bed
-
-    @staticmethod
-    def _of_keywords(what: str, given: Mapping[str, Any]) -> Seabed:
-        try:
-            return Seabed(**given)
-        except TypeError as error:
-            raise SceneError(
-                f"{what}: seabed has {', '.join(map(repr, given))}; it takes depth, stiffness, friction, and "
-                "damping_ratio and give, the first three always"
-            ) from error
 
     def under(
         self, node: tuple[str, Array], place: Array, *, length: float, mass: float, weight: float
