@@ -447,8 +447,8 @@ void bind_model(py::module_& m) {
           "compiling it again gives. Raises SceneError.");
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
-        py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("groups"),
-        py::arg("wave_loads"), py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
+        py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("groups"), py::arg("wave_loads"),
+        py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
         py::arg("sea") = py::none(),
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);

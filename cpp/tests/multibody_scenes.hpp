@@ -263,8 +263,8 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
       {"waves", body, exact, std::make_shared<const WaveTable>(exact), nullptr, nullptr, nullptr});
 }
 
-/// Makes the vessels of a scene a group: masses between them, and one passive memory of all motions in place of
-/// their own.
+/// Makes the vessels of a scene a group: masses between them, and one passive memory of all motions in place
+/// of their own.
 inline void make_group(SceneDescription& scene, std::uint64_t seed) {
   Random random(seed);
   HydroGroupDescription group;

@@ -28,7 +28,8 @@ std::vector<SceneDescription> scenes() {
   line.bodies = {kGround, hoisted.bodies[0].name, hoisted.bodies[1].name};
   line.brake_capacity = 1e3;  // holds: a bound that is reached is an event, which allocates
   hoisted.loads.of<Line>().push_back(line);
-  return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false), two_hulls(), hoisted};
+  return {slider_crank(),    floating,      light,       euler,  at_sea(true),
+          at_sea(true, 0.7), at_sea(false), two_hulls(), hoisted};
 }
 
 /// Also loops whose rows depend on each other: few, which an eigendecomposition solves, and so many that rows

@@ -41,8 +41,9 @@ class MeanHeadingWarning(RunWarning):
 
 
 class RelativePlaceWarning(RunWarning):
-    """The slow part of a vessel's place beside another of its group has left that of the group's data by more
-    than a tenth of the gap, or its heading by more than 2 deg.
+    """The slow part (two running means over two peak periods, without waves the mean of the run) of a vessel's
+    place beside another of its group has left that of the group's data by more than a tenth of the gap, or its
+    heading by more than 2 deg.
 
     Moor them closer to these places, or compute the group where they go.
     """

@@ -412,11 +412,11 @@ class Compiler final : private LoadContext {
       mass.block<6, 6>(at, at) = rigid_mass_matrix<double>(model_.bodies[idx(vessel.body)], k.rotation) +
                                  frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
     }
-    group.couple<double>(frames.data(), [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&,
-                                            const Vec6d&) {
-      mass.block<6, 6>(6 * pair.first, 6 * pair.second) = between;
-      mass.block<6, 6>(6 * pair.second, 6 * pair.first) = between.transpose();
-    });
+    group.couple<double>(frames.data(),
+                         [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&, const Vec6d&) {
+                           mass.block<6, 6>(6 * pair.first, 6 * pair.second) = between;
+                           mass.block<6, 6>(6 * pair.second, 6 * pair.first) = between.transpose();
+                         });
     const VecXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
     const MatXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
     const double least = Eigen::SelfAdjointEigenSolver<MatXd>(scaled).eigenvalues()[0];

@@ -124,7 +124,7 @@ class Terms {
   std::vector<BodyKinematics<double>> bodies_;
   std::vector<YawFrame<double>> frames_;
   std::vector<BodyInertia> inertia_;
-  std::vector<MassCoupling> couplings_;         // of all groups in turn, as their pairs
+  std::vector<MassCoupling> couplings_;        // of all groups in turn, as their pairs
   std::vector<SpdBlocks<double>> group_mass_;  // by group
   std::vector<const LoadList*> adding_inertia_;
   std::vector<Mat6d> added_inertia_;

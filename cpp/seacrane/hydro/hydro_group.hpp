@@ -7,9 +7,9 @@
 
 namespace seacrane {
 
-/// Vessels in one water, whose motions load each other: (M + A) v' + K * v + ... = F over six motions of each,
-/// A and K of two vessels in the yaw frame of each, R_i A_ij R_j^T. What a vessel has by itself stays its
-/// own. Power of -R A d/dt(R^T v) is minus the rate of 1/2 nu^T A nu, nu_i = R_i^T v_i, as for one.
+/// Vessels in one water, whose motions load each other: (M + A) v' + K * v + ... = F over six motions of
+/// each, A and K of two vessels in the yaw frame of each, R_i A_ij R_j^T. What a vessel has by itself stays
+/// its own. Power of -R A d/dt(R^T v) is minus the rate of 1/2 nu^T A nu, nu_i = R_i^T v_i, as for one.
 struct HydroGroup {
   static constexpr int most_vessels = 8;
   template <class T>

@@ -77,11 +77,11 @@ struct HydroGroupDescription {
       "Vessels that load each other through the water, over six motions of each in turn.";
   static constexpr auto fields() {
     using D = HydroGroupDescription;
-    return std::tuple(
-        required("vessels", &D::vessels, "", "two or more, whose own memory is empty where the group has one"),
-        optional("added_mass", &D::added_mass, "kg, kg m, kg m2",
-                 "(6n, 6n) between vessels, zero of each with itself; empty: none"),
-        optional("memory", &D::memory, "", "blocks of states over all motions"));
+    return std::tuple(required("vessels", &D::vessels, "",
+                               "two or more, whose own memory is empty where the group has one"),
+                      optional("added_mass", &D::added_mass, "kg, kg m, kg m2",
+                               "(6n, 6n) between vessels, zero of each with itself; empty: none"),
+                      optional("memory", &D::memory, "", "blocks of states over all motions"));
   }
 };
 

@@ -43,7 +43,7 @@ struct Cluster {
 
 /// Floating clusters of one group, between whose bodies the mass matrix has blocks.
 struct CoupledRoots {
-  std::size_t group = 0;                // of the model
+  std::size_t group = 0;              // of the model
   std::vector<std::size_t> clusters;  // by place in the group
 };
 
@@ -52,7 +52,7 @@ struct BodyTree {
   std::vector<Cluster> clusters;
   std::vector<Strut> struts;
   std::vector<CoupledRoots> coupled;
-  std::string refused;  // why the mass matrix of a group does not fit the tree; empty: it does
+  std::string refused;     // why the mass matrix of a group does not fit the tree; empty: it does
   std::vector<int> loops;  // elements with rows that no branch stands for: cut joints and other drivers
   int positions = 0, speeds = 0, columns = 0;
   int driven = 0;  // of the speeds

@@ -46,7 +46,8 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
         "'redundant'");
   }
   if (!tree_.refused.empty()) {
-    throw std::invalid_argument("formulation 'recursive': " + tree_.refused + "; choose formulation 'redundant'");
+    throw std::invalid_argument("formulation 'recursive': " + tree_.refused +
+                                "; choose formulation 'redundant'");
   }
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
