@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -921,6 +921,45 @@ class Point:
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m, coordinates of the body
+        """
+class GroupHydrodynamics:
+    """
+    Vessels that load each other through the water, over six motions of each in turn. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    def __copy__(self) -> GroupHydrodynamics:
+        ...
+    def __deepcopy__(self, memo: dict) -> GroupHydrodynamics:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, vessels: collections.abc.Sequence[str], added_mass: numpy.typing.ArrayLike = ..., memory: typing.Any = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        kg, kg m, kg m2, (6n, 6n) between vessels, zero of each with itself; empty: none
+        """
+    @property
+    def memory(self) -> list[StateSpaceBlock]:
+        """
+        blocks of states over all motions
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def vessels(self) -> list[str]:
+        """
+        two or more, whose own memory is empty where the group has one
         """
 class HeaveCompensator:
     """
@@ -2684,7 +2723,7 @@ class Limit:
         """
 class StateSpaceBlock:
     """
-    Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30).
+    Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30); of a group six for each vessel in turn.
     """
     def __copy__(self) -> StateSpaceBlock:
         ...
@@ -3448,7 +3487,7 @@ def channels() -> list[Channel]:
     """
     Every channel there is, in the order of results.
     """
-def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str, str]], points: collections.abc.Sequence[Point] = [], merge: bool = True, sea: SeaField = None) -> Model:
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], groups: collections.abc.Sequence[GroupHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str, str]], points: collections.abc.Sequence[Point] = [], merge: bool = True, sea: SeaField = None) -> Model:
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """
