@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.frequency_domain import excitation_of
+from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
+from seacrane.description.hydrodynamics import group_of
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.one_thread import one_thread
@@ -125,9 +127,13 @@ class _Sea:
         self.flows = [parts.flow(parts.waves(omega, angle, depth)) for angle in angles]
         none: Complex = np.zeros((omega.size, len(parts.linear.a)), dtype=complex)
         self._on_vessel = [none] * len(angles)
-        if database is not None:
+        linear = parts.linear
+        if database is not None and group_of(linear.scene, linear.vessel) is not None:
+            grid = [np.full(omega.size, angle) for angle in angles]
+            self._on_vessel = [rates_in_waves(linear, database, omega, angle) for angle in grid]
+        elif database is not None:
             forces = force_on_grid(database, omega, angles)
-            self._on_vessel = [force @ parts.linear.b.T for force in forces]
+            self._on_vessel = [force @ linear.b.T for force in forces]
 
     def over(self, parts: PartsInWaves) -> list[Complex]:
         """Velocities of all parts over the water, by direction, (k, 3 p), per metre of wave amplitude."""
