@@ -228,7 +228,7 @@ def test_files_copies_and_removals(tmp_path: Path) -> None:
     np.testing.assert_array_equal(
         motion(again, "a", t_end=2.0, **STEPS), motion(scene, "a", t_end=2.0, **STEPS)
     )
-    with pytest.raises(SceneError, match="group 'group' refer to it"):
+    with pytest.raises(SceneError, match=r"group 'group'.* refer to it"):
         scene.remove("b", kind="vessel")
     found = group_of(scene, "b")
     assert found is not None and found.vessels == ["a", "b"]
@@ -239,12 +239,19 @@ def test_files_copies_and_removals(tmp_path: Path) -> None:
     [
         ({"names": ["a"]}, "names are a; give one for each"),
         ({"memory": "convolution"}, "memory 'convolution' of a group is not available"),
-        ({"heading_deg": np.nan}, "heading_deg"),
+        ({"position": (0.0, 0.0)}, "group 'group': position has shape"),
     ],
 )
 def test_what_cannot_be_is_refused_by_name(change: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
         afloat(apart(), **change)
+
+
+def test_a_reference_point_off_the_water_is_refused_by_name() -> None:
+    first, second = apart().bodies
+    higher = replace(first, position=np.add(first.position, (0.0, 0.0, 1.0)))
+    with pytest.raises(SceneError, match="reference point of 'a' is 1 m above the still water"):
+        afloat(replace(apart(), bodies=(higher, second)))
 
 
 def test_a_vessel_tied_to_another_needs_the_redundant_form() -> None:

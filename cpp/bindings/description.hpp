@@ -108,6 +108,8 @@ V from_python(const std::string& what, const py::handle& given) {
     return checked("vector_of")(what, given).template cast<V>();
   } else if constexpr (std::is_same_v<V, std::vector<std::string>>) {
     return checked("texts_of")(what, given).template cast<V>();
+  } else if constexpr (std::is_same_v<V, MatXd>) {
+    return checked("matrix_of")(what, given).template cast<V>();
   } else if constexpr (is_rows<V>) {
     constexpr int n = V::value_type::RowsAtCompileTime;
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, n, Eigen::RowMajor>;

@@ -41,8 +41,10 @@ class MeanHeadingWarning(RunWarning):
 
 
 class RelativePlaceWarning(RunWarning):
-    """The slow part of a vessel's place beside another of its group has left that of the group's data by more
-    than a tenth of the gap, or its heading by more than 2 deg.
+    """A vessel's place beside another of its group has left that of the group's data, in its slow part, by
+    more than a tenth of the gap, or its heading by more than 2 deg.
+
+    The slow part is that of two running means over two peak periods; without waves it is the mean of the run.
 
     Moor them closer to these places, or compute the group where they go.
     """

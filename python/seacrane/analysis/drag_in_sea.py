@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.frequency_domain import component_forces, excitation_of
+from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
+from seacrane.description.hydrodynamics import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid
@@ -148,8 +150,12 @@ class _Sea:
         depth = parts.water_depth if base is None else base.depth
         none: Complex = np.zeros((omega.size, len(parts.linear.a)), dtype=complex)
         on_vessels = [none] * len(angles)
-        if base is not None:
-            on_vessels = [force @ parts.linear.b.T for force in force_on_grid(base, omega, angles)]
+        linear = parts.linear
+        if base is not None and group_of(linear.scene, linear.vessel) is not None:
+            grid = [np.full(omega.size, angle) for angle in angles]
+            on_vessels = [rates_in_waves(linear, base, omega, angle) for angle in grid]
+        elif base is not None:
+            on_vessels = [force @ linear.b.T for force in force_on_grid(base, omega, angles)]
         return cls(
             parts=parts, omega=omega, on_vessels=on_vessels,
             flows=[parts.flow(parts.waves(omega, angle, depth)) for angle in angles],

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import band_of, drag_in_sea
 from seacrane.analysis.frequency_domain import excitation_of, linear_of
+from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.response_quadrature import (
@@ -22,6 +23,7 @@ from seacrane.analysis.response_quadrature import (
     weights_of,
 )
 from seacrane.description.description import Description
+from seacrane.description.hydrodynamics import group_of
 from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
@@ -277,7 +279,11 @@ def _responses(
         return
     omega = quadrature_frequencies(linear, *band)
     raos: Complex = np.zeros((len(headings), len(omega), 6), dtype=complex)
-    if database is not None:
+    if database is not None and group_of(linear.scene, linear.vessel) is not None:
+        for heading, rao in zip(headings, raos, strict=True):
+            met = rates_in_waves(linear, database, omega, np.full(len(omega), heading))
+            rao += linear.response_to_rates(omega, met) @ output.T
+    elif database is not None:
         unit = np.repeat(np.eye(6), len(omega), axis=0)
         by_load = (linear.response(omega=np.tile(omega, 6), force=unit) @ output.T).reshape(6, -1, 6)
         raos += np.einsum("lkm,qkl->qkm", by_load, force_on_grid(database, omega, headings))

@@ -122,6 +122,15 @@ def rows_of(what: str, value: Any, width: int) -> Array:
     return array
 
 
+def matrix_of(what: str, value: Any) -> Array:
+    """Rows of numbers, of any length; an empty list is none."""
+    array = numbers_of(what, value)
+    array = array.reshape(0, 0) if array.shape == (0,) else array
+    if array.ndim != 2:
+        raise SceneError(f"{what} has shape {array.shape}; give rows of numbers")
+    return array
+
+
 def address_of(what: str, value: Any) -> int:
     """The address of a C function."""
     if not isinstance(value, int) or not 0 < value < 2**64:

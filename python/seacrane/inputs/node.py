@@ -110,7 +110,10 @@ class Node:
         if len(shape) == 1:
             return self._numbers(values)
         rows = [item.array(shape[1:]) for item in self.items()]
-        return np.array(rows, dtype=float).reshape(len(rows), *shape[1:])
+        inner = rows[0].shape if rows else tuple(max(length, 0) for length in shape[1:])
+        if any(row.shape != inner for row in rows):
+            raise FileFormatError(f"{self.path}: has rows of several lengths; give rows of one length")
+        return np.array(rows, dtype=float).reshape(len(rows), *inner)
 
     def _numbers(self, values: list[Any]) -> Array:
         if {int, float}.issuperset(map(type, values)):
