@@ -10,7 +10,7 @@ import numpy as np
 import xarray
 from test_hydro_nemoh import control
 
-from seacrane.hydro import HydroGroup, shipped_database
+from seacrane.hydro import HydroDatabase, HydroGroup, shipped_database
 from seacrane.sea.dispersion import wavenumber
 
 NAMES = ("crane", "feeder")
@@ -19,9 +19,9 @@ FEEDER = (6.0, 38.0, -1.5)  # m, reference point of the second hull
 HEIGHT = 1.5  # m, of the first one's reference point above the still waterline
 
 
-def written_pair(*, heading: float = 0.0) -> HydroGroup:
-    """The shipped hull twice, with coupling blocks of any numbers, so that no transposition goes unseen."""
-    hull = shipped_database().select(every=8, every_heading=3)
+def written_pair(*, heading: float = 0.0, hull: HydroDatabase | None = None) -> HydroGroup:
+    """A hull twice, with coupling blocks of any numbers, so that no transposition goes unseen."""
+    hull = hull or shipped_database().select(every=8, every_heading=3)
     pair = HydroGroup.from_databases(
         databases={"crane": hull, "feeder": hull},
         positions={"crane": (0.0, 0.0, HEIGHT), "feeder": FEEDER},

@@ -30,7 +30,7 @@ from seacrane import (
 )
 from seacrane.analysis import driven
 from seacrane.crane import Payload
-from seacrane.hydro import HydroDatabase, ikeda_roll_damping, shipped_database
+from seacrane.hydro import HydroDatabase, HydroGroup, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import jonswap
@@ -311,6 +311,27 @@ def a_file_that_holds_its_mooring() -> None:
     Scene(name="moored").add_vessel(moored())
 
 
+def pair(distance: float) -> HydroGroup:
+    """The shipped hull twice; it is 25 m broad."""
+    ship = shipped_database()
+    return HydroGroup.from_databases(
+        databases={"crane": ship, "feeder": ship},
+        positions={"crane": (0.0, 0.0, 0.0), "feeder": (0.0, distance, 0.0)},
+    )
+
+
+def a_ship_within_another() -> None:
+    pair(20.0)
+
+
+def two_ships_in_another_order() -> None:
+    pair(30.0).require(names=["feeder", "crane"])
+
+
+def a_ship_beside_its_place() -> None:
+    pair(30.0).require(positions={"feeder": (0.0, 28.0, 0.0)})
+
+
 def forces_as_text() -> None:
     lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
 
@@ -428,6 +449,11 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a roll amplitude in radians": [a_roll_amplitude_in_radians],
     "bilge keels in millimetres": [bilge_keels_in_millimetres],
     "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],
+    "two ships that are not as computed": [
+        a_ship_within_another,
+        two_ships_in_another_order,
+        a_ship_beside_its_place,
+    ],
     "kilonewtons for newtons at a winch": [a_motor_in_kilonewtons],
     "a line too short for the pose": [a_hoist_ten_centimetres_short],
     "a line connected too short": [a_tagline_connected_short],

@@ -16,6 +16,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+import group_cases
+from group_cases import written_pair
 from lift_examples import EVERY_TABLE
 from orcaflex_writer import model
 from test_elements import every_load
@@ -267,6 +269,50 @@ def nemoh_seeds(folder: Path) -> None:
             put(f"nemoh-{Path(file).stem.lower()}", f"damage-{number}", change(text).encode())
 
 
+def group_seeds(folder: Path) -> None:
+    """Two hulls as each code writes them: sound sets, a listing alone, and files of one refusal each."""
+    group = written_pair(hull=shipped_database().select(omega=[5, 20], heading=[0, 9]))
+    for name in ("wamit", "nemoh"):
+        (folder / f"{name}-group").mkdir()
+    for file in sorted(group_cases.wamit_files(group, folder / "wamit-group").iterdir()):
+        put("wamit-group", f"box{file.suffix}", file.read_bytes())
+    listing = (folder / "wamit-group" / "pair.out").read_text()
+    put("wamit-listing", "box", listing.encode())
+    put(
+        "wamit-listing",
+        "haskind",
+        listing.replace("DIFFRACTION", "HASKIND").replace("feeder.gdf", "").encode(),
+    )
+    put("wamit-listing", "no-forces", listing.split("   DIFFRACTION")[0].encode())
+    put("wamit-listing", "no-period", listing.replace("Wave period", "Wave").encode())
+    put("wamit-listing", "no-gravity", listing.replace("Length scale:  1.0", "Length scale:  -1.0").encode())
+    put(
+        "wamit-listing",
+        "words",
+        listing.replace("Volumes (VOLX,VOLY,VOLZ):  1", "Volumes (VOLX,VOLY,VOLZ):  1.1.").encode(),
+    )
+    project = group_cases.nemoh_folder(group, folder / "nemoh-group")
+    for file in sorted(path for path in project.rglob("*") if path.is_file()):
+        put("nemoh-group", file.name, file.read_bytes())
+    control = (project / "Nemoh.cal").read_text()
+    put("nemoh-group-nemoh", "points", control.replace("38.0", "39.0", 1).encode())
+    put("nemoh-group-nemoh", "bodies", control.replace("2 ! Number", "3 ! Number").encode())
+    put(
+        "nemoh-group-kh_1",
+        "unlike",
+        (project / "Mesh" / "Kh_1.dat").read_text().replace("E+07", "E+09").encode(),
+    )
+    put("capytaine-group", "pair", spec_of(group_cases.capytaine_file(group, folder)))
+    silent = group_cases.capytaine_dataset(group).drop_vars(("rotation_center", "draught"))
+    silent.drop_vars("inertia_matrix").to_netcdf(folder / "silent.nc")
+    put("capytaine-group", "silent", spec_of(folder / "silent.nc"))
+    silent.isel(radiating_dof=slice(0, 11)).to_netcdf(folder / "short.nc")
+    put("capytaine-group", "short", spec_of(folder / "short.nc"))
+    put("capytaine-group-bytes", "pair", (folder / "pair.nc").read_bytes())
+    put("bemio-group", "pair", spec_of(group_cases.bemio_file(group, folder)))
+    put("bemio-group-bytes", "pair", (folder / "pair.h5").read_bytes())
+
+
 def bemio_seeds(folder: Path) -> None:
     """A sound file, and one for each refusal."""
     base = shipped_database().select(omega=[5, 20], heading=[0, 9])
@@ -304,6 +350,7 @@ def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     put("capytaine-bytes", "ship", (folder / "ship.nc").read_bytes())
     bemio_seeds(folder)
     nemoh_seeds(folder)
+    group_seeds(folder)
     path = dhyd(hull, folder, phase_origin=(1.0, 0.0))
     put("mafredo", "ship", spec_of(path))
     put("mafredo-bytes", "ship", path.read_bytes())

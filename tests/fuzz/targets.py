@@ -22,7 +22,19 @@ from seacrane.crane.jointed_file import load as load_jointed
 from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
-from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.hydro.readers import (
+    bemio,
+    bemio_group,
+    capytaine,
+    capytaine_group,
+    nemoh,
+    nemoh_group,
+    orcaflex,
+    veres,
+    wamit,
+    wamit_group,
+)
+from seacrane.hydro.readers.load import OF_SEVERAL
 from seacrane.inputs.gltf import read_gltf
 from seacrane.inputs.hdf5_structure import Structure
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
@@ -144,6 +156,28 @@ def _nemoh(path: Path) -> Any:
 def _bemio(path: Path) -> Any:
     bemio.is_bemio(path)
     return bemio.read_bemio(path)
+
+
+def _wamit_group(path: Path) -> Any:
+    """As `load_database` asks first."""
+    for kind in OF_SEVERAL:
+        kind.can_open(path.with_suffix(".out"))
+    return wamit_group.read_wamit_group(path.with_suffix(".out"))
+
+
+def _nemoh_group(path: Path) -> Any:
+    nemoh_group.FORMAT.can_open(path.parent)
+    return nemoh_group.read_nemoh_group(path.parent)
+
+
+def _capytaine_group(path: Path) -> Any:
+    capytaine_group.FORMAT.can_open(path)
+    return capytaine_group.read_capytaine_group(path)
+
+
+def _bemio_group(path: Path) -> Any:
+    bemio_group.FORMAT.can_open(path)
+    return bemio_group.read_bemio_group(path)
 
 
 def _mafredo(path: Path) -> Any:
@@ -269,7 +303,10 @@ _VERES = tuple(
     for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
 )
 _WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
+_WAMIT_GROUP = tuple(f"hydro/readers/{name}.py" for name in ("wamit_group", "wamit_listing"))
 _NEMOH = ("hydro/readers/nemoh.py",)
+_NEMOH_GROUP = ("hydro/readers/nemoh_group.py",)
+_NEMOH_FILES = (nemoh.RADIATION, nemoh.EXCITATION, nemoh.CONTROL, "Kh_1.dat", "Hydrostatics_1.dat")
 _LIFT = tuple(f"lift/{name}.py" for name in ("document", "text_lines", "check_keys", "curve_text"))
 _SERIES = tuple(f"series/{name}.py" for name in ("series_file", "headings", "reading", "rows", "clock"))
 _RECORDED = (*_SERIES, "series/mending.py", "scene/recorded_motion.py")
@@ -303,6 +340,15 @@ _ALL = [
         for name in (nemoh.RADIATION, nemoh.EXCITATION, nemoh.STIFFNESS, nemoh.HYDROSTATICS, nemoh.CONTROL)
     ],
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
+    *_set_targets("wamit-group", "out 1 3 hst", _wamit_group, _WAMIT_GROUP),
+    Target("wamit-listing", "wamit-listing", "box.out", _wamit_group, _WAMIT_GROUP),
+    *[
+        Target(
+            f"nemoh-group-{name.split('.')[0].lower()}", "nemoh-group", name, _nemoh_group, _NEMOH_GROUP,
+            beside="nemoh-group",
+        )
+        for name in _NEMOH_FILES
+    ],
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
     Target("stl", "stl", "hull.stl", _hull_of_stl, ("inputs/stl.py",), refusals=_SHAPE),
@@ -329,6 +375,8 @@ _ALL = [
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _bemio, "hydro/readers/bemio.py"),
+    *_netcdf_targets("capytaine-group", "pair.nc", _capytaine_group, "hydro/readers/capytaine_group.py"),
+    *_netcdf_targets("bemio-group", "pair.h5", _bemio_group, "hydro/readers/bemio_group.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

@@ -53,10 +53,10 @@ class GroupBody:
             raise ValueError("a body of a group has no name; give each hull one of its own")
         for name, shape in SHAPES.items():
             array = np.array(getattr(self, name), dtype=float)
-            if array.shape != shape or not np.all(np.isfinite(array)):
-                raise ValueError(
-                    f"body {self.name!r}: {name} has shape {array.shape}; {shape} finite numbers are needed"
-                )
+            if array.shape != shape:
+                raise ValueError(f"body {self.name!r}: {name} has shape {array.shape}; {shape} is needed")
+            if not np.all(np.isfinite(array)):
+                raise ValueError(f"body {self.name!r}: {name} is not finite; give finite numbers")
             array.setflags(write=False)
             object.__setattr__(self, name, array)
         for name in ("length", "breadth", "draught"):

@@ -7,6 +7,7 @@ Hydrostatics are a file for each body, ``KH_0.dat`` and ``Hydrostatics_0.dat`` o
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path, PureWindowsPath
 
@@ -23,6 +24,7 @@ from seacrane.hydro.readers.nemoh import (
     EXCITATION,
     INNER,
     RADIATION,
+    Solution,
     Water,
     blocks,
     can_open_nemoh,
@@ -76,14 +78,41 @@ def read_nemoh_group(
     files = {name: found_file(folder, name) for name in (RADIATION, EXCITATION, CONTROL)}
     water, meshes = read_control(files[CONTROL])
     names = _names(len(water.centres), meshes)
+    stiffness, hydrostatics = (_of_bodies(folder, kind, names) for kind in ("KH", "Hydrostatics"))
+    read = [file for file in (*files.values(), *stiffness, *hydrostatics) if file is not None]
+    told = folder / ", ".join(file.name for file in read)
+    given = _Given(
+        None if mass_matrices is None else of_each(folder, "mass_matrices", names, mass_matrices, (6, 6)),
+        None if restorings is None else of_each(folder, "restorings", names, restorings, (6, 6)),
+    )
     try:
-        found = _convert(folder, files, water, names, mass_matrices, restorings)
+        radiation, waves = (blocks(files[name], bodies=len(names)) for name in (RADIATION, EXCITATION))
+        if len(radiation) != 6 * len(names):
+            raise FileFormatError(
+                f"{files[RADIATION]}: {len(radiation)} degrees of freedom; six of each of "
+                f"{', '.join(names)} are "
+                "needed"
+            )
+        solved = solution(files[RADIATION], files[EXCITATION], radiation, waves)
+        bodies = [
+            _body(folder, water, (i, name), given, stiffness[i], hydrostatics[i])
+            for i, name in enumerate(names)
+        ]
+        found = _group(folder, water, bodies, solved)
     except FileFormatError:
         raise
     except ValueError as error:
-        raise FileFormatError(f"{folder}: {error}") from error
-    require_own_hydrostatics(folder, found, "restorings={name: (6, 6)} and mass_matrices")
+        raise FileFormatError(f"{told}: {error}") from error
+    require_own_hydrostatics(told, found, "restorings={name: (6, 6)} and mass_matrices")
     return with_band_of_group(found)
+
+
+@dataclass(frozen=True, eq=False)
+class _Given:
+    """What the caller says, in the order of the bodies; None: nothing."""
+
+    masses: list[FloatArray] | None
+    restorings: list[FloatArray] | None
 
 
 def _names(count: int, meshes: list[str]) -> list[str]:
@@ -93,35 +122,7 @@ def _names(count: int, meshes: list[str]) -> list[str]:
     return stems if alone else [f"body{i}" for i in range(1, count + 1)]
 
 
-def _convert(
-    folder: Path,
-    files: dict[str, Path],
-    water: Water,
-    names: list[str],
-    masses: Given | None,
-    restorings: Given | None,
-) -> HydroGroup:
-    count = len(names)
-    radiation = blocks(files[RADIATION], bodies=count)
-    if len(radiation) != 6 * count:
-        raise FileFormatError(
-            f"{files[RADIATION]}: {len(radiation)} degrees of freedom; six of each of {', '.join(names)} "
-            "are needed"
-        )
-    waves = blocks(files[EXCITATION], bodies=count)
-    solved = solution(files[RADIATION], files[EXCITATION], radiation, waves)
-    stiffness = None if restorings is None else of_each(folder, "restorings", names, restorings, (6, 6))
-    inertia = None if masses is None else of_each(folder, "mass_matrices", names, masses, (6, 6))
-    bodies = [
-        _body(
-            folder,
-            water,
-            (i, name),
-            None if stiffness is None else stiffness[i],
-            None if inertia is None else inertia[i],
-        )
-        for i, name in enumerate(names)
-    ]
+def _group(folder: Path, water: Water, bodies: list[GroupBody], solved: Solution) -> HydroGroup:
     origin = np.array([-water.phase_origin[0], -water.phase_origin[1]])
     at_mesh = phase_at(origin, solved.omega, solved.direction, water.g, water.depth)
     return HydroGroup(
@@ -145,45 +146,53 @@ def _body(
     folder: Path,
     water: Water,
     which: tuple[int, str],
-    restoring: FloatArray | None,
-    mass: FloatArray | None,
+    given: _Given,
+    stiffness: Path | None,
+    hydrostatics: Path | None,
 ) -> GroupBody:
     index, name = which
-    if restoring is None:
-        restoring = read_stiffness(_of_body(folder, f"KH_{index}.dat", name))
-    centre = water.centres[index]
-    if mass is None:
-        gravity, volume = read_hydrostatics(_of_body(folder, f"Hydrostatics_{index}.dat", name))
-        box = box_of(folder, name, restoring, volume, water.rho * water.g)
+    if given.restorings is not None:
+        restoring, told = given.restorings[index], folder
+    else:
+        told = _needed(folder, stiffness, f"KH_{index}.dat", name)
+        restoring = read_stiffness(told)
+    if given.masses is not None:
+        mass = given.masses[index]
+        box = box_of(told, name, restoring, float(mass[0, 0]) / water.rho, water.rho * water.g)
+    else:
+        file = _needed(folder, hydrostatics, f"Hydrostatics_{index}.dat", name)
+        gravity, volume = read_hydrostatics(file)
+        box = box_of(told, name, restoring, volume, water.rho * water.g)
         mass = usual_mass_matrix(
             folder,
             f"NEMOH's results hold no mass matrix of {name}, give read_nemoh_group(mass_matrices=...)",
             mass=water.rho * volume,
-            centre=gravity - centre,
+            centre=gravity - water.centres[index],
             length=box["length"],
             breadth=box["breadth"],
         )
-    else:
-        box = box_of(folder, name, restoring, float(mass[0, 0]) / water.rho, water.rho * water.g)
     return GroupBody(
         name=name,
-        position=centre,
+        position=water.centres[index],
         mass_matrix=mass,
         restoring=restoring,
         **box,
     )
 
 
-def _of_body(folder: Path, name: str, body: str) -> Path:
-    """A file of one body, in either case, in the folder or in those of results and meshes."""
-    for place in (folder, *(folder / inner for inner in INNER)):
-        if place.is_dir():
-            for file in sorted(place.iterdir()):
-                if file.name.lower() == name.lower() and file.is_file():
-                    return file
-    raise FileFormatError(
-        f"{folder / name}: no such file, nor in results or mesh; it tells {body}'s hydrostatics"
-    )
+def _needed(folder: Path, file: Path | None, name: str, body: str) -> Path:
+    if file is None:
+        raise FileFormatError(
+            f"{folder / name}: no such file, nor in results or mesh; it tells {body}'s hydrostatics"
+        )
+    return file
+
+
+def _of_bodies(folder: Path, kind: str, names: list[str]) -> list[Path | None]:
+    """A file of each body, ``kind_0.dat`` on, in either case, in the folder or its inner ones."""
+    places = [place for place in (folder, *(folder / inner for inner in INNER)) if place.is_dir()]
+    files = {file.name.lower(): file for place in places[::-1] for file in sorted(place.iterdir())}
+    return [files.get(f"{kind}_{i}.dat".lower()) for i in range(len(names))]
 
 
 def _can_open(path: Path) -> bool:
