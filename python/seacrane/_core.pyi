@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'SeabedNode', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -921,45 +921,6 @@ class Point:
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         m, coordinates of the body
-        """
-class GroupHydrodynamics:
-    """
-    Vessels that load each other through the water, over six motions of each in turn. Immutable.
-    """
-    FIELDS: typing.ClassVar[tuple]
-    def __copy__(self) -> GroupHydrodynamics:
-        ...
-    def __deepcopy__(self, memo: dict) -> GroupHydrodynamics:
-        ...
-    def __eq__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, *, name: str, vessels: collections.abc.Sequence[str], added_mass: numpy.typing.ArrayLike = ..., memory: typing.Any = ...) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    @property
-    def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        kg, kg m, kg m2, (6n, 6n) between vessels, zero of each with itself; empty: none
-        """
-    @property
-    def memory(self) -> list[StateSpaceBlock]:
-        """
-        blocks of states over all motions
-        """
-    @property
-    def name(self) -> str:
-        ...
-    @property
-    def vessels(self) -> list[str]:
-        """
-        two or more, whose own memory is empty where the group has one
         """
 class HeaveCompensator:
     """
