@@ -153,9 +153,8 @@ void bind_retardation(py::module_& m) {
 void bind_vessel(py::module_& m) {
   using B = StateSpaceBlock;
   Class<B>(m, "StateSpaceBlock",
-           "Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs "
-           "(29)-(30); of a "
-           "group six for each vessel in turn.")
+           "Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), of a "
+           "group six for each vessel in turn, eqs (29)-(30).")
       .def(py::init([](std::vector<int> inputs, std::vector<int> outputs, MatXd a, MatXd b, MatXd c, MatXd d,
                        VecXd state_scale) {
              return B{std::move(inputs), std::move(outputs), std::move(a),          std::move(b),

@@ -2903,7 +2903,7 @@ class Limit:
         """
 class StateSpaceBlock:
     """
-    Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30); of a group six for each vessel in turn.
+    Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), of a group six for each vessel in turn, eqs (29)-(30).
     """
     def __copy__(self) -> StateSpaceBlock:
         ...
