@@ -13,6 +13,7 @@ import pytest
 import xarray
 from group_cases import bemio_file, capytaine_dataset, capytaine_file, nemoh_folder, wamit_files, written_pair
 
+from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroGroup,
@@ -226,3 +227,13 @@ def test_values_of_other_bodies_are_refused(pair: HydroGroup, tmp_path: Path) ->
         FileFormatError, match="holds bodies crane, feeder; mass_matrices are given for crane, barge"
     ):
         read_bemio_group(bemio_file(pair, tmp_path), mass_matrices=wrong)
+
+
+def test_the_command_shows_the_check_of_a_group(
+    pair: HydroGroup, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(capytaine_file(pair, tmp_path))
+    assert main(["hydro", path]) == 0
+    assert "damping_from_forces_crane_feeder" in capsys.readouterr().out
+    assert main(["hydro", path, "--out", str(tmp_path / "figures")]) != 0
+    assert "--out draws one hull, and the file holds crane, feeder" in capsys.readouterr().err

@@ -27,7 +27,7 @@ from seacrane.hydro.database.check import (
     skewness,
     smallest_damping,
 )
-from seacrane.hydro.group.gap import clearance, gaps, spikes
+from seacrane.hydro.group.gap import clearance, gaps, radiating, spikes
 from seacrane.hydro.group.long_wave import long_wave_lift
 from seacrane.inputs.frames import MOTIONS
 
@@ -50,17 +50,21 @@ def check_group(group: HydroGroupData) -> list[CheckRow]:
 
 
 def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
-    """Symmetry of the hulls' own blocks and of what couples them, and damping that takes energy from all."""
+    """Symmetry of the hulls' own blocks and of what couples them, and damping that takes energy from all.
+
+    Of motions that radiate: what a file holds for others is noise.
+    """
     own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6))).astype(bool)
-    inside = in_trusted_band(group)
+    inside, felt = in_trusted_band(group), radiating(group)
+    both = np.outer(felt, felt)
     rows = []
     for name, matrix in (("added_mass", group.added_mass), ("damping", group.damping)):
-        skew = skewness(matrix[inside])
+        skew = np.where(both, skewness(matrix[inside]), 0.0)
         rows.append(at_most(f"symmetry_{name}", float(skew[own].max()), SYMMETRY_LIMIT))
         rows.append(at_most(f"symmetry_{name}_coupling", float(skew[~own].max()), COUPLING_LIMIT))
-    rows.append(
-        at_least("damping_smallest_eigenvalue", smallest_damping(group.damping[inside]), DAMPING_LIMIT)
-    )
+    damping = group.damping[inside][:, felt][:, :, felt]
+    if damping.size:
+        rows.append(at_least("damping_smallest_eigenvalue", smallest_damping(damping), DAMPING_LIMIT))
     return rows
 
 
@@ -71,12 +75,13 @@ def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:
     if radiated is None or not np.any(inside):
         return []
     peak = np.sqrt(np.abs(np.diagonal(group.damping, axis1=1, axis2=2)).max(axis=0))
+    felt = radiating(group)
     error = np.abs(radiated - 0.5 * (group.damping + group.damping.swapaxes(1, 2)))[inside].max(axis=0)
-    share = error / np.maximum(np.outer(peak, peak), 1e-300)
+    share = np.where(np.outer(felt, felt), error / np.maximum(np.outer(peak, peak), 1e-300), 0.0)
     rows = [
         at_most(f"damping_from_forces_{label}", float(share[i, i]), FORCE_DAMPING_LIMIT)
         for i, label in enumerate(_labels(group))
-        if peak[i] > 0.0
+        if felt[i]
     ]
     for (i, a), (j, b) in combinations(enumerate(group.names), 2):
         block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
@@ -91,11 +96,14 @@ def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
     known = group.infinite_frequency_added_mass
     difference = np.abs(infinite_added_mass_from_damping(group) - known)
     span = np.ptp(np.diagonal(group.added_mass, axis1=1, axis2=2), axis=0)
-    share = difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300)
+    felt = radiating(group) & (span > 0.0)
+    share = np.where(
+        np.outer(felt, felt), difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300), 0.0
+    )
     rows = [
         at_most(f"kramers_kronig_{label}", float(share[i, i]), KRAMERS_KRONIG_LIMIT)
         for i, label in enumerate(_labels(group))
-        if span[i] > 0.0
+        if felt[i]
     ]
     for (i, a), (j, b) in combinations(enumerate(group.names), 2):
         block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]

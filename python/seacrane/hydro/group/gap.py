@@ -28,6 +28,7 @@ OVERALL = 1.5  # H by the overall width
 NEAR = 0.08  # of a frequency: by as much do boxes and coarse panels miss one
 BESIDE = 0.07  # of a frequency: where a narrow peak is over
 STANDS_OUT = 1.5  # times the damping there
+FELT = 1e-4  # least damping, by inertia times frequency
 LEAST = 0.02  # of an entry's largest value
 SAME = 0.04  # of a frequency: peaks of several motions at one resonance
 FIRST_MODES = 3
@@ -125,6 +126,12 @@ def irregular_frequencies(body: GroupBody, g: float) -> FloatArray:
     return np.sort(np.array(found))
 
 
+def radiating(group: HydroGroupData) -> NDArray[np.bool_]:
+    """Motions (6 k,) that radiate anything: yaw of a round body does not, and a file holds noise there."""
+    peak = np.diagonal(group.damping, axis1=1, axis2=2).max(axis=0)
+    return np.asarray(peak > FELT * float(np.mean(group.omega)) * np.diag(group.mass_matrix))
+
+
 def spikes(group: HydroGroupData) -> list[Spike]:
     """Narrow peaks of the hulls' own damping, each with the nearest explanation.
 
@@ -142,6 +149,7 @@ def _peaks(group: HydroGroupData) -> list[float]:
     height = own / np.maximum(beside, LEAST * size)
     top = np.zeros(own.shape, dtype=bool)
     top[1:-1] = (own[1:-1] >= own[:-2]) & (own[1:-1] > own[2:]) & (own[1:-1] > LEAST * size)
+    top &= radiating(group)
     most = np.where(top & (height > STANDS_OUT), height, 0.0).max(axis=1)
     found: list[int] = []
     for i in np.argsort(-most, kind="stable"):
