@@ -174,27 +174,32 @@ def test_a_free_pair_keeps_its_energy() -> None:
     assert np.abs(result["energy_balance"]).max() < 1e-8 * energy
 
 
-def test_small_waves_move_it_as_the_coupled_frequency_domain() -> None:
-    wave = {"hs": 2e-5, "tp": 8.0, "count": 1, "seed": 2, "direction_deg": 60.0}
-    scene = afloat(linear(mixed()), sea=wave, heading_deg=25.0)
-    model = linear_model(scene, vessel="a")
-    assert scene.waves is not None
-    amplitude, omega = float(scene.waves.amplitude[0]), float(scene.waves.omega[0])
-    for place, body in enumerate(("a", "b")):
+@pytest.mark.parametrize("body", ["a", "b"])
+def test_small_waves_move_it_as_the_coupled_frequency_domain(body: str) -> None:
+    """What is of second order in the wave is taken away by a wave of twice the height."""
+    found, expected = [], []
+    for hs in (1e-3, 2e-3):
+        wave = {"hs": hs, "tp": 8.0, "count": 1, "seed": 2, "direction_deg": 60.0}
+        scene = afloat(linear(mixed()), sea=wave, heading_deg=25.0)
+        model = linear_model(scene, vessel="a")
         centre = scene.bodies[body].center_of_mass
         summed = response_summed(model, body=body, point=centre)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             result = simulate(
-                scene, t_end=40.0, dt_out=1.0, rtol=1e-11, start=model.full_state(summed.state_at(0.0)),
-                channels=["position"],
+                scene, t_end=40.0, dt_out=1.0, rtol=1e-13, start=model.full_state(summed.state_at(0.0)),
+                channels=["position", "quaternion"],
             )  # fmt: skip
         start = scene.bodies[body].position + rotation_matrix(scene.bodies[body].quaternion) @ centre
-        found = np.asarray(result["position"])[:, place] - start
-        expected = summed.at(np.asarray(result.time))[:, :3]
-        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
-        rao = motion_rao(model, omega=omega, direction=np.radians(60.0 - 25.0), body=body, point=centre)
-        np.testing.assert_allclose(np.abs(rao) * amplitude, np.abs(summed.amplitude[0]), rtol=1e-9)
+        found.append((np.asarray(result.place_of(body, point=centre)) - start) / hs)
+        expected.append(summed.at(np.asarray(result.time))[:, :3] / hs)
+    largest = np.abs(expected[0]).max()
+    np.testing.assert_allclose(expected[1], expected[0], rtol=0.0, atol=1e-12 * largest)
+    np.testing.assert_allclose(2.0 * found[0] - found[1], expected[0], rtol=0.0, atol=1e-6 * largest)
+    assert scene.waves is not None
+    amplitude, omega = float(scene.waves.amplitude[0]), float(scene.waves.omega[0])
+    rao = motion_rao(model, omega=omega, direction=np.radians(60.0 - 25.0), body=body, point=centre)
+    np.testing.assert_allclose(np.abs(rao) * amplitude, np.abs(summed.amplitude[0]), rtol=1e-9)
 
 
 def scaled(factor: float) -> HydroDatabase:
