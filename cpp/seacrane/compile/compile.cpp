@@ -10,12 +10,12 @@
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/fast_motions.hpp"
 #include "seacrane/compile/find_kinks.hpp"
+#include "seacrane/compile/group_mass.hpp"
 #include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/compile/locked_loops.hpp"
-#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/compile/start_contacts.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
-#include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/model/validate.hpp"
 
@@ -26,10 +26,8 @@ namespace {
 // cases closes to 1e-6 of the absolute work at rtol = 1e-6.
 constexpr double kTranslationScale = 0.1;  // m, m/s, times the scene's length scale
 constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of 10 m
-constexpr double kDeep = 0.1;              // m, that a point of a contact may start inside
-constexpr double kCrushed = 10.0;        // times its share of the weight, with which it may be pressed there
-constexpr double kBeyond = 1e-9;         // m or rad: a start beyond a bound
-constexpr double kLeastGyration = 1e-2;  // over the longest arm of a body, where geometry is judged
+constexpr double kBeyond = 1e-9;           // m or rad: a start beyond a bound
+constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
 
 class Compiler final : private LoadContext {
  public:
@@ -395,38 +393,9 @@ class Compiler final : private LoadContext {
       } catch (const std::invalid_argument& error) {
         throw SceneError("group '" + d.name + "': " + error.what());
       }
-      check_mass(d, group);
+      check_mass(d, group, model_);
       model_.groups.push_back(group);
     }
-  }
-
-  /// Rigid and added masses of a group at the start are positive definite.
-  void check_mass(const HydroGroupDescription& d, const HydroGroup& group) const {
-    MatXd mass = MatXd::Zero(group.motions(), group.motions());
-    std::vector<YawFrame<double>> frames(model_.vessels.size(),
-                                         YawFrame<double>(BodyKinematics<double>::ground()));
-    for (std::size_t i = 0; i < group.vessels.size(); ++i) {
-      const Vessel& vessel = model_.vessels[idx(group.vessels[i])];
-      const BodyDescription& start = scene_.bodies[idx(model_.merge.carriers[idx(vessel.body)])];
-      BodyKinematics<double> k = BodyKinematics<double>::ground();
-      k.rotation = rotation_from_quaternion<double>(start.quaternion);
-      frames[idx(group.vessels[i])] = YawFrame<double>(k);
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      mass.block<6, 6>(at, at) = rigid_mass_matrix<double>(model_.bodies[idx(vessel.body)], k.rotation) +
-                                 frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
-    }
-    group.couple<double>(frames.data(),
-                         [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&, const Vec6d&) {
-                           mass.block<6, 6>(6 * pair.first, 6 * pair.second) = between;
-                           mass.block<6, 6>(6 * pair.second, 6 * pair.first) = between.transpose();
-                         });
-    const VecXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-    const MatXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
-    const double least = Eigen::SelfAdjointEigenSolver<MatXd>(scaled).eigenvalues()[0];
-    if (least > 0.0) return;
-    throw SceneError("group '" + d.name + "': the masses of its vessels with the added masses between them " +
-                     "are not positive definite: an eigenvalue is " + to_text(least) +
-                     " of the diagonal; correct added_mass, its units, or the order of the vessels");
   }
 
   void layout() {
@@ -531,33 +500,6 @@ std::shared_ptr<Model> when_open(const std::shared_ptr<Model>& model, ClosedSet 
   const std::shared_ptr<Model> open = described_model(model->description, model->limits, 0, scene);
   open->initial_state = model->initial_state;
   return open;
-}
-
-/// Refuses a point of a contact that starts deep inside: it would be shot out.
-void check_depth(const Contact& contact, std::size_t point, const LoadInput<double>& in, const Model& model) {
-  const Contact::Touch<double> now = contact.touch(in, point);
-  const int of = contact.body < model.body_count() ? contact.body : contact.on;
-  const double weight = model.bodies[idx(of)].mass * model.description.gravity,
-               share = weight / static_cast<double>(contact.points.size());
-  if (-now.gap <= kDeep || now.press.elastic <= kCrushed * share) return;
-  throw SceneError("contact '" + contact.d.name + "': point " + std::to_string(point + 1) + " of '" +
-                   contact.d.body + "' starts " + to_text(-now.gap) + " m inside '" + contact.d.on +
-                   "', where it is pressed out with " + to_text(now.press.elastic) +
-                   " N; move the body out, turn the axis of the surface, or correct its place");
-}
-
-/// Gives points of contacts their anchors where they are at the start.
-void start_contacts(Model& model) {
-  if (model.loads.find<Contact>() == nullptr) return;
-  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
-  Terms terms(view);
-  double* const y = model.initial_state.data();
-  terms.read(0.0, y);
-  const LoadInput<double> in = terms.load_input(0.0, y + model.layout.memory);
-  for (const Contact& one : model.loads.of<Contact>()) {
-    for (std::size_t i = 0; i < one.points.size(); ++i) check_depth(one, i, in, model);
-    one.take_anchors(in, std::nullopt, y + model.layout.loads);
-  }
 }
 
 /// Refuses a start beyond a bound.

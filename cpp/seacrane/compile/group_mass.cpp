@@ -1,0 +1,39 @@
+#include "seacrane/compile/group_mass.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <vector>
+
+#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/elements/check.hpp"
+
+namespace seacrane {
+
+void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const Model& model) {
+  MatXd mass = MatXd::Zero(group.motions(), group.motions());
+  std::vector<YawFrame<double>> frames(model.vessels.size(),
+                                       YawFrame<double>(BodyKinematics<double>::ground()));
+  for (std::size_t i = 0; i < group.vessels.size(); ++i) {
+    const Vessel& vessel = model.vessels[idx(group.vessels[i])];
+    const BodyDescription& start = model.description.bodies[idx(model.merge.carriers[idx(vessel.body)])];
+    BodyKinematics<double> k = BodyKinematics<double>::ground();
+    k.rotation = rotation_from_quaternion<double>(start.quaternion);
+    frames[idx(group.vessels[i])] = YawFrame<double>(k);
+    const auto at = static_cast<Eigen::Index>(6 * i);
+    mass.block<6, 6>(at, at) = rigid_mass_matrix<double>(model.bodies[idx(vessel.body)], k.rotation) +
+                               frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
+  }
+  group.couple<double>(frames.data(),
+                       [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&, const Vec6d&) {
+                         mass.block<6, 6>(6 * pair.first, 6 * pair.second) = between;
+                         mass.block<6, 6>(6 * pair.second, 6 * pair.first) = between.transpose();
+                       });
+  const VecXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const MatXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
+  const double least = Eigen::SelfAdjointEigenSolver<MatXd>(scaled).eigenvalues()[0];
+  if (least > 0.0) return;
+  throw SceneError("group '" + d.name + "': the masses of its vessels with the added masses between them " +
+                   "are not positive definite: an eigenvalue is " + to_text(least) +
+                   " of the diagonal; correct added_mass, its units, or the order of the vessels");
+}
+
+}  // namespace seacrane
