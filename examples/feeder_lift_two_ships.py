@@ -4,18 +4,19 @@ Usage: python feeder_lift_two_ships.py [FOLDER FOR A PICTURE]
 """
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from seacrane import Outputs, Result, Scene, Stage, State, Until, ensemble, linear_model, simulate_stages
-from seacrane.analysis import response_summed
+from seacrane.analysis import LinearModel, response_summed
 from seacrane.answers import contact_hits
 from seacrane.crane import load_crane
 from seacrane.hydro import two_barges
 
 MASS, SIZE, DECK, EA, SLACK = 60e3, (8.0, 6.0, 5.0), 2.5, 3e8, 1.0  # kg, m, m over the water, N, m
-HS, TP, DIRECTION, GRAVITY = 1.0, 7.0, 150.0, 9.81  # m, s, deg, m/s2
+HS, TP, DIRECTION, GRAVITY = 1.5, 8.0, -120.0, 9.81  # m, s, deg, m/s2
 FEET = [(x, y, -0.5 * SIZE[2]) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
 WATERS = {"each as if alone": None, "lid of 0.01 in the gap": 0.01, "lid of 0.03 in the gap": 0.03}
 LIFT = [
@@ -53,10 +54,11 @@ def feeder_lift(lid_damping: float | None, seed: int = 1) -> Scene:
     return scene
 
 
-def swaying(scene: Scene) -> State:
-    """In the steady state of the linear model, so that no sea begins at once."""
-    model = linear_model(scene, vessel="feeder")
-    return model.full_state(response_summed(model, body="feeder").state_at(0.0))
+def swaying(model: LinearModel) -> Callable[[Scene], State]:
+    """Start in the steady state of the linear model, so that no sea begins at once."""
+    return lambda scene: model.full_state(
+        response_summed(model, body="feeder", waves=scene.waves).state_at(0.0)
+    )
 
 
 def rehits(result: Result) -> int:
@@ -75,9 +77,10 @@ def main() -> None:
     keep = {"rehits": rehits, "hardest": hardest, "hook": "line_tension[hoist].max"}
     for water, lid in WATERS.items():
         scene = feeder_lift(lid)
-        runs[water] = simulate_stages(scene, LIFT, start=swaying(scene), outputs=RECORDED, rtol=1e-3)
+        start = swaying(linear_model(scene, vessel="feeder"))
+        runs[water] = simulate_stages(scene, LIFT, start=start(scene), outputs=RECORDED, rtol=1e-3)
         seas = ensemble(
-            scene, over={"seed": range(1, 13)}, keep=keep, stages=LIFT, start=swaying, outputs=RECORDED, rtol=1e-3
+            scene, over={"seed": range(1, 13)}, keep=keep, stages=LIFT, start=start, outputs=RECORDED, rtol=1e-3
         )
         told = seas.dataset
         print(
