@@ -15,8 +15,9 @@ from seacrane.answers import contact_hits
 from seacrane.crane import load_crane
 from seacrane.hydro import two_barges
 
-MASS, SIZE, DECK, EA, SLACK = 60e3, (8.0, 6.0, 5.0), 2.5, 3e8, 1.0  # kg, m, m over the water, N, m
-HS, TP, DIRECTION, GRAVITY = 1.5, 8.0, -120.0, 9.81  # m, s, deg, m/s2
+MASS, SIZE, DECK, EA, SLACK = 60e3, (8.0, 6.0, 5.0), 2.5, 3e8, 2.5  # kg, m, m over the water, N, m
+HS, TP, DIRECTION, GRAVITY = 1.0, 8.0, -120.0, 9.81  # m, s, deg, m/s2
+SHOWN = 3  # the sea of the picture
 FEET = [(x, y, -0.5 * SIZE[2]) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
 WATERS = {"each as if alone": None, "lid of 0.01 in the gap": 0.01, "lid of 0.03 in the gap": 0.03}
 LIFT = [
@@ -76,11 +77,17 @@ def main() -> None:
     runs = {}
     keep = {"rehits": rehits, "hardest": hardest, "hook": "line_tension[hoist].max"}
     for water, lid in WATERS.items():
-        scene = feeder_lift(lid)
+        scene = feeder_lift(lid, seed=SHOWN)
         start = swaying(linear_model(scene, vessel="feeder"))
         runs[water] = simulate_stages(scene, LIFT, start=start(scene), outputs=RECORDED, rtol=1e-3)
         seas = ensemble(
-            scene, over={"seed": range(1, 13)}, keep=keep, stages=LIFT, start=start, outputs=RECORDED, rtol=1e-3
+            scene,
+            over={"seed": range(1, 13)},
+            keep=keep,
+            stages=LIFT,
+            start=start,
+            outputs=RECORDED,
+            rtol=1e-3,
         )
         told = seas.dataset
         print(
@@ -103,8 +110,16 @@ def draw(runs: dict[str, Result], folder: Path) -> None:
         roll = np.degrees(result.select("vessel_motion", vessel="feeder", motion="roll"))
         curves = (roll, result["contact_press"].sum(axis=1) / weight, result["line_tension"][:, 0] / weight)
         for row, curve in zip(rows, curves, strict=True):
-            row.plot(result.time, curve, linewidth=0.9, label=water)
-    for row, label in zip(rows, ("roll of the feeder [deg]", "all feet [weights]", "hook [weights]"), strict=True):
+            row.plot(
+                result.time,
+                curve,
+                "--" if water.startswith("lid of 0.03") else "-",
+                linewidth=0.9,
+                label=water,
+            )
+    for row, label in zip(
+        rows, ("roll of the feeder [deg]", "all feet [weights]", "hook [weights]"), strict=True
+    ):
         row.set(ylabel=label)
         row.grid(alpha=0.3)
     rows[-1].set(xlabel="time [s]")

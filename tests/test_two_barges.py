@@ -41,7 +41,11 @@ def feeder_lift(lid_damping: float | None, hs: float) -> Scene:
     scene.add_body(name="load", mass=MASS, size=(8.0, 6.0, 5.0), position=(x, y, DECK + 2.5))
     scene.add_contact("load", on="feeder", points=FEET, place=(0.0, 0.0, DECK), friction=0.4, name="feet")
     scene.add_line(
-        name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 2.5)], EA=3e8, length=z - DECK - 5.0 + SLACK
+        name="hoist",
+        bodies=[jib, "load"],
+        points=[head, (0.0, 0.0, 2.5)],
+        EA=3e8,
+        length=z - DECK - 5.0 + SLACK,
     )
     scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
     for vessel in scene.vessels if hs > 0.0 else ():

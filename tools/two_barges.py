@@ -48,7 +48,10 @@ class Barge:
     def body(self, y: float) -> Any:
         """Capytaine's, about a point amidships on the waterline at `y`."""
         mesh = capytaine.mesh_parallelepiped(
-            size=self.size, center=(0.0, y, -0.5 * self.size[2]), resolution=self.panels, missing_sides={"top"}
+            size=self.size,
+            center=(0.0, y, -0.5 * self.size[2]),
+            resolution=self.panels,
+            missing_sides={"top"},
         )
         body = capytaine.FloatingBody(
             mesh=mesh, lid_mesh=mesh.generate_lid(faces_max_radius=LID_PANEL),
@@ -97,7 +100,12 @@ def main() -> None:
 
 def solved(body: Any, path: Path) -> HydroDatabase | HydroGroup:
     """Radiation and diffraction of one body or of both."""
-    wanted = {"omega": [*OMEGA, np.inf], "wave_direction": HEADING, "radiating_dof": list(body.dofs), "rho": [RHO]}
+    wanted = {
+        "omega": [*OMEGA, np.inf],
+        "wave_direction": HEADING,
+        "radiating_dof": list(body.dofs),
+        "rho": [RHO],
+    }
     found = capytaine.BEMSolver().fill_dataset(xarray.Dataset(coords=wanted), body, progress_bar=False)
     capytaine.export_dataset(path, found.squeeze("rho") if "rho" in found.dims else found)
     return load_database(path, trusted_band=BAND)
@@ -109,7 +117,9 @@ def save(group: HydroGroup, limit: float, path: Path) -> None:
         key: shortened(getattr(group, key))
         for key in ("added_mass", "damping", "force", "infinite_frequency_added_mass")
     }
-    lid = "each hull alone" if group.lid_damping is None else f"lid of damping {group.lid_damping:g} on the gap"
+    lid = (
+        "each hull alone" if group.lid_damping is None else f"lid of damping {group.lid_damping:g} on the gap"
+    )
     bodies = tuple(damped(body) for body in group.bodies)
     source = f"Capytaine {capytaine.__version__}, {lid}"
     whole = replace(group, name="two barges", bodies=bodies, source=source, **tables)

@@ -33,4 +33,6 @@ def two_barges(*, lid_damping: float | None) -> HydroGroup:
             f"two barges: lid_damping is {lid_damping!r}; those that come with the package are 0.01 and 0.03, "
             "and None for hulls without interaction"
         )
-    return HydroGroup.load(Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro")))
+    return HydroGroup.load(
+        Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
+    )
