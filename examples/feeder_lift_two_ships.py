@@ -1,4 +1,4 @@
-"""A crane vessel lifts 60 t off a feeder barge beside it: lift-off from a moving deck, re-hits, and the ships' interaction.
+"""A crane vessel lifts 60 t off a feeder barge beside it: re-hits, hook, and the ships' own waves.
 
 Usage: python feeder_lift_two_ships.py [FOLDER FOR A PICTURE]
 """
@@ -92,8 +92,8 @@ def main() -> None:
         told = seas.dataset
         print(
             f"{water}: deck hit again in {int((told.rehits > 0).sum())} of {told.seed.size} seas, "
-            f"{float(told.rehits.mean()):.1f} hits a lift, hardest {float(told.hardest.max()):.2f} shares of the "
-            f"weight; hook at most {float(told.hook.mean()) / MASS / GRAVITY:.2f} weights on the average, "
+            f"{float(told.rehits.mean()):.1f} hits a lift, hardest {float(told.hardest.max()):.2f} shares of "
+            f"weight; hook {float(told.hook.mean()) / MASS / GRAVITY:.2f} weights at most on the average, "
             f"{float(told.hook.max()) / MASS / GRAVITY:.2f} in the worst"
         )
     if len(sys.argv) > 1:

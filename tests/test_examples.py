@@ -109,7 +109,7 @@ def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:
 
 
 def test_a_feeder_lift_tells_of_each_water(tmp_path: Path) -> None:
-    """The hook takes more than the weight; ships that feel each other differ from such as do not, and the lids less."""
+    """Ships that feel each other differ from such as do not, and two lids differ by less."""
     lines = run(FOLDER / "feeder_lift_two_ships.py", tmp_path).splitlines()
     alone, *lids = ([float(number) for number in re.findall(NUMBER, line)][-5:] for line in lines)
     assert len(lids) == 2

@@ -1,7 +1,7 @@
 """Compute the two barges that come with the package with Capytaine: ``python tools/two_barges.py``.
 
-A development tool: needs Capytaine 3, and takes some minutes. Writes three groups: with a lid of damping 0.01 and
-0.03 on the gap, and each hull alone.
+A development tool: needs Capytaine 3, and takes some minutes. Writes three groups: with a lid of damping
+0.01 and 0.03 on the gap, and each hull alone.
 """
 
 from __future__ import annotations

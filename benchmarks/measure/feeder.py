@@ -1,4 +1,4 @@
-"""What two vessels in one water cost: one evaluation, and runs of ten minutes, with and without their coupling."""
+"""What two vessels in one water cost: an evaluation, and ten minutes with and without their coupling."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def feeder(*, repeats: int) -> Section:
         title="Two vessels in one water",
         text=(
             f"Runs of ten minutes in a sea of 200 components (Hs {SEA['hs']:g} m, Tp {SEA['tp']:g} s), rtol "
-            "1e-3, recursive form. The feeder lift has a held crane, a load of 60 t on four feet with friction, an "
-            f"elastic wire with a winch, stages and outputs every 0.1 s. Best of {repeats}."
+            "1e-3, recursive form. The feeder lift has a crane, a load of 60 t on four feet with friction, "
+            f"an elastic wire with a winch, stages and outputs every 0.1 s. Best of {repeats}."
         ),
         head=["scene", "states of the memory", "evaluation [us]", "evaluations", "times real time",
               "evaluation over one vessel's"],
@@ -73,7 +73,7 @@ def _two(lid: float | None) -> Scene:
 def _lift(lid: float | None) -> Scene:
     scene = _two(lid)
     jib, head = scene.add_crane(
-        load_crane("lattice_boom_100t"), base="crane vessel", foot=(0.0, 6.0, 3.0), held=True,
+        load_crane("lattice_boom_100t"), base="crane vessel", foot=(0.0, 6.0, 3.0),
         coordinates={"slew": -0.5 * np.pi, "boom": 1.176},
     ).tip  # fmt: skip
     scene.add_ballast(vessel="crane vessel")

@@ -37,8 +37,8 @@ def load_group(kind: type[Group], path: str | PathLike[str]) -> Group:
         data = read_kept(source)
         if not data.startswith(MAGIC):
             raise FileFormatError(
-                f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's files "
-                "with load_database"
+                f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's "
+                "files with load_database"
             )
         reader = zlib.decompressobj()
         numbers = reader.decompress(data[len(MAGIC) :], MOST_BYTES)

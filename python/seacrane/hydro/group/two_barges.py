@@ -30,8 +30,8 @@ def two_barges(*, lid_damping: float | None) -> HydroGroup:
     """
     if lid_damping not in FILES:
         raise SceneError(
-            f"two barges: lid_damping is {lid_damping!r}; those that come with the package are 0.01 and 0.03, "
-            "and None for hulls without interaction"
+            f"two barges: lid_damping is {lid_damping!r}; those that come with the package are 0.01 and "
+            "0.03, and None for hulls without interaction"
         )
     return HydroGroup.load(
         Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
