@@ -21,6 +21,7 @@ from measure import (
     ensemble_overhead,
     evaluation,
     events,
+    feeder,
     footprint,
     formulations,
     hours,
@@ -94,6 +95,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield moving_points.moving_points(repeats=repeats)
     yield lines_in_water.lines_in_water(repeats=repeats)
     yield wet_parts.wet_parts(repeats=repeats)
+    yield feeder.feeder(repeats=min(repeats, 3))
     yield contact_cost.contact_cost(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)

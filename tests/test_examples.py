@@ -108,6 +108,16 @@ def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:
     assert all(0.1 < float(row[-1]) < 1.0 for row in kinds["hoist"])
 
 
+def test_a_feeder_lift_tells_of_each_water(tmp_path: Path) -> None:
+    """Ships that feel each other differ from such as do not, and two lids differ by less."""
+    lines = run(FOLDER / "feeder_lift_two_ships.py", tmp_path).splitlines()
+    alone, *lids = ([float(number) for number in re.findall(NUMBER, line)][-5:] for line in lines)
+    assert len(lids) == 2
+    for seas, hits, _, mean, worst in (alone, *lids):
+        assert seas == 12 and hits > 0.0 and 1.2 < mean < worst < 3.0
+    assert abs(lids[0][3] - lids[1][3]) < abs(lids[0][3] - alone[3])
+
+
 def test_controller_example_calms_its_load(tmp_path: Path) -> None:
     free, controlled = (
         float(line.split()[-2]) for line in run(FOLDER / "sampled_controller.py", tmp_path).splitlines()

@@ -24,6 +24,7 @@ from seacrane.hydro.group.gap import piston_frequency as piston_frequency
 from seacrane.hydro.group.gap import spikes as spikes
 from seacrane.hydro.group.group import HydroGroup as HydroGroup
 from seacrane.hydro.group.modes import GroupMode as GroupMode
+from seacrane.hydro.group.two_barges import two_barges as two_barges
 from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics

@@ -38,6 +38,7 @@ LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off,
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
 FEWEST_OUTPUTS = 32
+FEWEST_PERIODS = 3.0  # of a database's highest frequency, in a record that tells what is above it
 
 
 def findings(
@@ -117,6 +118,8 @@ def _frequencies(scene: Description, time: Array, channels: Channels) -> list[Fi
         if known is None or known.omega is None or time.size < FEWEST_OUTPUTS:
             continue
         highest = known.omega[1]
+        if (time[-1] - time[0]) * highest < 2.0 * np.pi * FEWEST_PERIODS:
+            continue
         worst, share = _foreign(time, motion, highest)
         if share > FOREIGN_SHARE:
             found.append(

@@ -40,6 +40,8 @@ def relative_findings(scene: Description, time: Array, channels: Mapping[str, Ar
 def _of_pair(
     scene: Description, group: str, pair: tuple[str, str], time: Array, moved: tuple[Array, Array]
 ) -> list[Finding]:
+    if scene.waves is not None and time[-1] - time[0] < peak_of(scene).period:
+        return []  # within one wave there is no mean
     fast = _relative(scene, pair, moved)
     if scene.waves is None:
         slow = np.broadcast_to(fast.mean(axis=0), fast.shape)

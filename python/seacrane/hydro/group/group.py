@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from os import PathLike
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +17,7 @@ from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group
 from seacrane.hydro.group.gap import Gap, gaps
+from seacrane.hydro.group.group_file import load_group, save_group
 from seacrane.hydro.group.lid import group_with_lid
 from seacrane.hydro.group.modes import GroupMode, natural_modes_of
 from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
@@ -165,6 +167,23 @@ class HydroGroup(HydroGroupData):
         SceneError : names the body, both values and the fix.
         """
         require_group(self, names=names, positions=positions, draughts=draughts, apart=apart)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write everything, the memory model included, to a file of seacrane, atomically and without loss.
+
+        The memory of a group takes minutes to fit, and no panel code's file holds it.
+        """
+        save_group(self, path)
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> HydroGroup:
+        """Read a file written by `save`.
+
+        Raises
+        ------
+        seacrane.errors.FileFormatError : the file is not one of ours, or is damaged.
+        """
+        return load_group(HydroGroup, path)
 
     @property
     def digest(self) -> str:

@@ -1,0 +1,116 @@
+"""What two vessels in one water cost: an evaluation, and ten minutes with and without their coupling."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from seacrane import Scene, Stage, Until, simulate, simulate_stages
+from seacrane.analysis import Evaluator
+from seacrane.crane import load_crane
+from seacrane.hydro import two_barges
+
+from .section import Section
+
+T_END = 600.0  # s
+COUNT = 500
+SEA = {"hs": 1.0, "tp": 7.0, "direction_deg": 150.0, "seed": 1}
+MASS, SIZE, DECK = 60e3, (8.0, 6.0, 5.0), 2.5  # kg, m, m
+FEET = [(x, y, -2.5) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
+LIFT = (
+    Stage(name="wait", duration=300.0),
+    Stage(
+        name="lift off", until=Until.clear("feet", minimum=2.0), maximum_duration=60.0,
+        commands={"hoist.rate": -0.4},
+    ),
+    Stage(name="hoist", duration=280.0, commands={"hoist.rate": 0.0}),
+)  # fmt: skip
+
+
+def feeder(*, repeats: int) -> Section:
+    """One vessel, two without and with coupling, and a lift off one of them by the other's crane."""
+    rows: list[list[object]] = []
+    waters = {"without coupling": None, "with coupling": 0.03}
+    single = _timed("one vessel", _one(), [], repeats)
+    rows.append([*single, 1.0])
+    for water, lid in waters.items():
+        row = _timed(f"two vessels, {water}", _two(lid), [], repeats)
+        rows.append([*row, float(row[2]) / float(single[2])])  # type: ignore[arg-type]
+    for water, lid in waters.items():
+        row = _timed(f"feeder lift, {water}", _lift(lid), LIFT, repeats)
+        rows.append([*row, float(row[2]) / float(single[2])])  # type: ignore[arg-type]
+    return Section(
+        title="Two vessels in one water",
+        text=(
+            f"Runs of ten minutes in a sea of 200 components (Hs {SEA['hs']:g} m, Tp {SEA['tp']:g} s), rtol "
+            "1e-3, recursive form. The feeder lift has a crane, a load of 60 t on four feet with friction, "
+            f"an elastic wire with a winch, stages and outputs every 0.1 s. Best of {repeats}."
+        ),
+        head=["scene", "states of the memory", "evaluation [us]", "evaluations", "times real time",
+              "evaluation over one vessel's"],
+        rows=rows,
+    )  # fmt: skip
+
+
+def _one() -> Scene:
+    scene = Scene(name="one vessel", gravity=9.81)
+    scene.add_vessel(two_barges(lid_damping=None)["crane vessel"], name="crane vessel", mooring_period=60.0)
+    scene.add_sea(vessel="crane vessel", **SEA)
+    return scene
+
+
+def _two(lid: float | None) -> Scene:
+    scene = Scene(name="two vessels", gravity=9.81)
+    scene.add_vessels(two_barges(lid_damping=lid), mooring_period=60.0)
+    for vessel in scene.vessels:
+        scene.add_sea(vessel=vessel, **SEA)
+    return scene
+
+
+def _lift(lid: float | None) -> Scene:
+    scene = _two(lid)
+    jib, head = scene.add_crane(
+        load_crane("lattice_boom_100t"), base="crane vessel", foot=(0.0, 6.0, 3.0),
+        coordinates={"slew": -0.5 * np.pi, "boom": 1.176},
+    ).tip  # fmt: skip
+    scene.add_ballast(vessel="crane vessel")
+    x, y, z = scene.place_of("tip")
+    scene.add_body(name="load", mass=MASS, size=SIZE, position=(x, y, DECK + 0.5 * SIZE[2]))
+    scene.add_contact("load", on="feeder", points=FEET, place=(0.0, 0.0, DECK), friction=0.4, name="feet")
+    scene.add_line(
+        name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.5 * SIZE[2])], EA=3e8,
+        length=z - DECK - SIZE[2] + 1.0,
+    )  # fmt: skip
+    scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
+    return scene
+
+
+def _timed(name: str, scene: Scene, stages: Sequence[Stage], repeats: int) -> list[object]:
+    """Name, states of the memory, us of an evaluation, evaluations, times real time."""
+    model = scene.compile()
+    state = np.array(model.initial_state)
+    evaluator = Evaluator(model, "recursive")
+    took = min(evaluator.time_parts(0.0, state, COUNT)["whole evaluation"] for _ in range(repeats))
+
+    def run() -> object:
+        if stages:
+            return simulate_stages(scene, stages, dt_out=0.1, rtol=1e-3, channels=["contact_least_gap"])
+        return simulate(scene, T_END, dt_out=0.1, rtol=1e-3, channels=["vessel_motion"])
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        seconds, result = _fastest(run, repeats)
+    stats = result.stats  # type: ignore[attr-defined]
+    return [name, stats["memory_states"], 1e-3 * took, stats["evaluations"], stats["simulated_s"] / seconds]
+
+
+def _fastest(run: Callable[[], object], repeats: int) -> tuple[float, object]:
+    fastest, result = np.inf, None
+    for _ in range(repeats):
+        began = time.thread_time()
+        result = run()
+        fastest = min(fastest, time.thread_time() - began)
+    return float(fastest), result

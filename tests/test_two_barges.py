@@ -1,0 +1,163 @@
+"""The two barges of the package, groups in files, and a lift off one of them by the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seacrane import Outputs, Result, Scene, SceneError, Stage, Until, ensemble, simulate_stages
+from seacrane.answers import contact_hits
+from seacrane.crane import load_crane
+from seacrane.errors import FileFormatError
+from seacrane.hydro import HydroGroup, passivity_certificate, two_barges
+from seacrane.validity.left_range import findings
+
+MASS, DECK, SLACK, RATE = 60e3, 2.5, 0.3, 0.4  # kg, m, m, m/s
+FEET = [(x, y, -2.5) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
+LIFT = [
+    Stage(name="wait", duration=2.0),
+    Stage(
+        name="lift off", until=Until.clear("feet", minimum=1.0), maximum_duration=30.0,
+        commands={"hoist.rate": -RATE},
+    ),
+]  # fmt: skip
+RECORDED = Outputs(dt_out=0.02, channels=("contact_press", "line_tension", "position"))
+
+
+@lru_cache(maxsize=4)
+def feeder_lift(lid_damping: float | None, hs: float) -> Scene:
+    scene = Scene(name="feeder lift", gravity=9.81)
+    scene.add_vessels(two_barges(lid_damping=lid_damping), mooring_period=60.0)
+    jib, head = scene.add_crane(
+        load_crane("lattice_boom_100t"), base="crane vessel", foot=(0.0, 6.0, 3.0),
+        coordinates={"slew": -0.5 * np.pi, "boom": 1.176},
+    ).tip  # fmt: skip
+    scene.add_ballast(vessel="crane vessel")
+    x, y, z = scene.place_of("tip")
+    scene.add_body(name="load", mass=MASS, size=(8.0, 6.0, 5.0), position=(x, y, DECK + 2.5))
+    scene.add_contact("load", on="feeder", points=FEET, place=(0.0, 0.0, DECK), friction=0.4, name="feet")
+    scene.add_line(
+        name="hoist",
+        bodies=[jib, "load"],
+        points=[head, (0.0, 0.0, 2.5)],
+        EA=3e8,
+        length=z - DECK - 5.0 + SLACK,
+    )
+    scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
+    for vessel in scene.vessels if hs > 0.0 else ():
+        scene.add_sea(vessel=vessel, hs=hs, tp=8.0, direction_deg=-120.0, seed=1)
+    return scene
+
+
+def rehits(result: Result) -> int:
+    return sum(hit.number > 0 for hit in contact_hits(result, "feet"))
+
+
+@pytest.mark.parametrize("lid", [None, 0.01, 0.03])
+def test_their_memory_is_passive_and_near_their_matrices(lid: float | None) -> None:
+    group = two_barges(lid_damping=lid)
+    assert group.memory is not None and group.memory.motion is not None
+    assert passivity_certificate(group.memory).passive
+    assert group.memory.motion.error.worst < 0.035
+    assert group.lid_damping == lid
+    coupling = np.abs(group.damping[:, :6, 6:]).max()
+    assert coupling == 0.0 if lid is None else coupling > 0.02 * np.abs(group.damping[:, :6, :6]).max()
+    assert group.names == ("crane vessel", "feeder")
+    for body, volume in zip(group.bodies, (100.0 * 25.0 * 5.5, 60.0 * 18.0 * 3.5), strict=True):
+        assert body.mass_matrix[0, 0] == pytest.approx(1025.0 * volume, rel=1e-12)
+        assert body.restoring[2, 2] * body.draught == pytest.approx(1025.0 * 9.81 * volume, rel=1e-6)
+
+
+def test_a_lid_lowers_the_peak_of_the_gap() -> None:
+    bare, damped = (two_barges(lid_damping=lid) for lid in (0.01, 0.03))
+    at = bare.omega.searchsorted([0.98, 1.12])
+    peaks = [group.damping[at[0] : at[1], 2, 2].max() for group in (bare, damped)]
+    assert peaks[1] < 0.95 * peaks[0]
+    where = bare.omega[at[0] : at[1]][bare.damping[at[0] : at[1], 2, 2].argmax()]
+    assert where == pytest.approx(bare.gaps()[0].piston, rel=0.07)  # Molin's formula, of a long gap
+
+
+def test_other_lids_are_refused() -> None:
+    with pytest.raises(SceneError, match=r"lid_damping is 0\.02; those that come with the package are 0\.01"):
+        two_barges(lid_damping=0.02)
+
+
+def test_a_group_is_kept_without_loss(tmp_path: Path) -> None:
+    group = two_barges(lid_damping=0.01)
+    group.save(tmp_path / "pair.hydro")
+    again = HydroGroup.load(tmp_path / "pair.hydro")
+    assert again.digest == group.digest
+    assert replace(again, rho=1000.0).digest != group.digest
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        (lambda data: b"", "no group of seacrane"),
+        (lambda data: data[:-20], "damaged group of seacrane"),
+        (lambda data: data[:200] + bytes(50) + data[250:], "damaged group of seacrane"),
+        (lambda data: data[:23], "damaged group of seacrane"),
+    ],
+)
+def test_a_file_that_is_none_is_refused_by_name(damage: object, message: str, tmp_path: Path) -> None:
+    path = tmp_path / "pair.hydro"
+    two_barges(lid_damping=None).save(path)
+    path.write_bytes(damage(path.read_bytes()))  # type: ignore[operator]
+    with pytest.raises(FileFormatError, match=message) as refused:
+        HydroGroup.load(path)
+    assert str(path) in str(refused.value)
+    with pytest.raises(FileFormatError, match="no such file"):
+        HydroGroup.load(tmp_path / "other.hydro")
+
+
+def test_a_lift_in_still_water_is_that_by_hand() -> None:
+    """The feet leave in the second in which the wire has taken the weight; no foot comes back."""
+    scene = feeder_lift(0.03, 0.0)
+    result = simulate_stages(scene, LIFT, start=None, outputs=RECORDED, rtol=1e-5)
+    weight = MASS * 9.81
+    hook = np.asarray(result.select("line_tension", line="hoist"))
+    off = [event.time for event in result.events if event.kind == "release"]
+    at = np.searchsorted(result.time, max(off))
+    assert hook[at] == pytest.approx(weight, rel=0.1)
+    assert rehits(result) == 0
+    assert result.stages[1].ended_by.startswith("contact_least_gap")
+
+
+def test_both_formulations_lift_alike() -> None:
+    runs = [
+        simulate_stages(feeder_lift(0.03, 1.5), LIFT, outputs=RECORDED, rtol=1e-7, formulation=form)
+        for form in ("recursive", "redundant")
+    ]
+    ends = [run.stages[1].end for run in runs]
+    assert ends[0] == pytest.approx(ends[1], abs=1e-3)
+    hooks = [float(run["line_tension"].max()) for run in runs]
+    assert hooks[0] == pytest.approx(hooks[1], rel=1e-3)
+
+
+def test_an_ensemble_of_staged_lifts_is_each_lift_by_itself() -> None:
+    scene = feeder_lift(0.03, 1.5)
+    many = ensemble(
+        scene, over={"seed": [1, 2]}, keep={"rehits": rehits, "hook": "line_tension[hoist].max"}, stages=LIFT,
+        outputs=RECORDED, rtol=1e-4, lanes=1,
+    )  # fmt: skip
+    assert not many.failures
+    alone = simulate_stages(scene, LIFT, outputs=RECORDED, rtol=1e-4)
+    assert float(many.dataset.hook[0]) == float(alone["line_tension"].max())
+    assert int(many.dataset.rehits[0]) == rehits(alone)
+    assert float(many.dataset.hook[1]) != float(many.dataset.hook[0])
+
+
+def test_a_second_of_a_run_does_not_tell_a_mean_place_or_a_frequency() -> None:
+    scene = feeder_lift(0.03, 1.5)
+    for span, told in ((1.0, False), (60.0, True)):
+        time = np.linspace(0.0, span, 241)
+        moved = np.zeros((241, 2, 6))
+        moved[:, 1, 1] = 5.0 + 0.1 * np.sin(9.0 * time)
+        found = findings(scene, time, {"vessel_motion": moved}, {})
+        said = [kind.__name__ for kind, _ in found]
+        assert ("RelativePlaceWarning" in said) == told
+        assert ("OutsideDatabaseWarning" in said) == told
