@@ -92,8 +92,8 @@ def main() -> None:
         told = seas.dataset
         print(
             f"{water}: deck hit again in {int((told.rehits > 0).sum())} of {told.seed.size} seas, "
-            f"{float(told.rehits.mean()):.1f} hits a lift, hardest {float(told.hardest.max()):.2f} shares of "
-            f"weight; hook {float(told.hook.mean()) / MASS / GRAVITY:.2f} weights at most on the average, "
+            f"{float(told.rehits.mean()):.1f} hits a lift, peaks to {float(told.hardest.max()):.2f} times a "
+            f"foot's share; hook {float(told.hook.mean()) / MASS / GRAVITY:.2f} weights at most on average, "
             f"{float(told.hook.max()) / MASS / GRAVITY:.2f} in the worst"
         )
     if len(sys.argv) > 1:
