@@ -106,12 +106,10 @@ def _objects(array: NDArray[Any]) -> Iterable[Any]:
 
 
 def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """An array of floats of one shape, in which -1 is any length."""
+    """An array of floats of one shape."""
     array = numbers_of(what, value)
-    if len(array.shape) != len(shape) or any(
-        one not in (-1, size) for one, size in zip(shape, array.shape, strict=True)
-    ):
-        raise SceneError(f"{what} has shape {array.shape}; give {shape}".replace("-1", "any"))
+    if array.shape != shape:
+        raise SceneError(f"{what} has shape {array.shape}; give {shape}")
     return array
 
 
