@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +15,8 @@ from seacrane.answers import contact_hits
 from seacrane.crane import load_crane
 from seacrane.errors import FileFormatError
 from seacrane.hydro import HydroGroup, passivity_certificate, two_barges
+from seacrane.hydro.data.memory_model import MemoryBlock
+from seacrane.hydro.memory.independent_states import independent_blocks
 from seacrane.validity.left_range import findings
 
 MASS, DECK, SLACK, RATE = 60e3, 2.5, 0.3, 0.4  # kg, m, m, m/s
@@ -161,3 +164,21 @@ def test_a_second_of_a_run_does_not_tell_a_mean_place_or_a_frequency() -> None:
         said = [kind.__name__ for kind, _ in found]
         assert ("RelativePlaceWarning" in said) == told
         assert ("OutsideDatabaseWarning" in said) == told
+
+
+def test_blocks_whose_states_do_not_feel_each_other_make_the_same_loads() -> None:
+    memory = two_barges(lid_damping=0.03).memory
+    assert memory is not None
+    for block in memory.blocks:
+        parts = independent_blocks(block)
+        assert len(parts) > 1
+        assert sum(len(part.A) for part in parts) == len(block.A)
+        for omega in (0.0, 0.7, 3.0):
+            whole = _transfer(block, omega)
+            apart = sum(_transfer(part, omega) for part in parts)
+            np.testing.assert_allclose(apart, whole, rtol=0.0, atol=1e-12 * np.abs(whole).max())
+
+
+def _transfer(block: MemoryBlock, omega: float) -> Any:
+    shifted = 1j * omega * np.eye(len(block.A)) - block.A
+    return block.C @ np.linalg.solve(shifted, block.B) + block.D

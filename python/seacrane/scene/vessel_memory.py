@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from seacrane import _core
 from seacrane.hydro import HydroDatabase, MemoryModel, RetardationModel, fit_memory, retardation_functions
-from seacrane.hydro.data.memory_model import RADIATION
+from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock
 from seacrane.hydro.memory.certificate import is_energy_form
 
 
@@ -35,15 +35,17 @@ def core_memory(
     """A fitted memory, or retardation functions."""
     if isinstance(model, RetardationModel):
         return _core.RetardationFunctions(step=model.step, kernel=model.kernel)
-    return [
-        _core.StateSpaceBlock(
-            inputs=[int(i) for i in block.inputs],
-            outputs=[int(i) for i in block.outputs],
-            a=block.A,
-            b=block.B,
-            c=block.C,
-            d=block.D,
-            state_scale=block.state_scale,
-        )
-        for block in model.blocks
-    ]
+    return [core_block(block) for block in model.blocks]
+
+
+def core_block(block: MemoryBlock) -> _core.StateSpaceBlock:
+    """A block of a fitted memory."""
+    return _core.StateSpaceBlock(
+        inputs=[int(i) for i in block.inputs],
+        outputs=[int(i) for i in block.outputs],
+        a=block.A,
+        b=block.B,
+        c=block.C,
+        d=block.D,
+        state_scale=block.state_scale,
+    )

@@ -17,13 +17,14 @@ from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroGroup, MemoryModel, fit_memory
 from seacrane.hydro.data.data_warnings import warn_of_water
+from seacrane.hydro.memory.independent_states import independent_blocks
 from seacrane.hydro.vessel.parameters import time_domain_vessel
 from seacrane.inputs.checked import name_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.vessel import MOORING_DAMPING, MOORING_PERIOD, put_afloat
-from seacrane.scene.vessel_memory import core_memory
+from seacrane.scene.vessel_memory import core_block
 
 FloatArray = NDArray[np.float64]
 MEMORY = ("joint", "none")
@@ -122,9 +123,10 @@ def add_vessels(
         )  # fmt: skip
         band = (float(group.omega[0]), float(group.omega[-1]))
         scene.provenance[name] = VesselProvenance(database=database.name, omega=band, memory=memory)
+    blocks = () if memory == "none" else model.blocks
     add_group(
         scene, name=group.name, vessels=list(called), added_mass=_between(model),
-        memory=[] if memory == "none" else core_memory(model),
+        memory=[core_block(part) for block in blocks for part in independent_blocks(block)],
     )  # fmt: skip
     return tuple(added)
 
