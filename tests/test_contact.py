@@ -220,7 +220,7 @@ def test_points_that_start_deep_inside_are_refused() -> None:
     ("given", "told"),
     [
         ({"friction": 0.3, "stiffness": 0.0}, "friction 0.3 and a stiffness of 0 N/m"),
-        ({"surface": "pipe", "size": (2.0, 2.02, 3.0), "edge": 0.05}, "is 0.01 m thin"),
+        ({"surface": "pipe", "size": (2.0, 2.02, 3.0), "edge": 0.05}, "size is 0.01 m where it is thinnest"),
         ({"surface": "cone"}, "choose one of plane, box, post, pipe"),
         ({"surface": "post"}, "needs a size; give 2 lengths"),
         ({"size": (1.0, 1.0, 1.0)}, "a plane has no size"),

@@ -18,6 +18,7 @@ import pytest
 from test_scene_file import every_kind
 
 from seacrane import Curve, Result, Run, Scene, SceneError, _core, cases, simulate
+from seacrane.hydro import two_barges
 from seacrane.scene import FlowForce
 
 
@@ -51,6 +52,7 @@ def all_kinds() -> Scene:
                   direction=0.3, frontal_area=10.0, lateral_area=20.0, length=30.0, angles=angles,
                   coefficients=np.cos(np.outer(angles, [1, 2, 3])))
     )  # fmt: skip
+    scene.add_vessels(two_barges(lid_damping=0.03), names=["crane barge", "feeder barge"])
     return scene
 
 

@@ -197,7 +197,8 @@ IN_FILES_OF_LINES = {"EA": "stiffness", "rung": "stretch"}
 def older_files() -> list[Any]:
     """(file, place in it, field) of all that elements may leave out."""
     data = described(every_load())
-    places = [((section, i), type_) for section, type_ in _CLASSES.items() for i in range(len(data[section]))]
+    places = [((section, i), type_) for section, type_ in _CLASSES.items()
+              for i in range(len(data.get(section, ())))]  # fmt: skip
     places += [(("loads", i), LOAD_KINDS[load["kind"]]) for i, load in enumerate(data["loads"])]
     frames = [((*place, key), _core.Frame) for place, type_ in places if type_ is _core.Joint
               for key in ("first_frame", "second_frame")]  # fmt: skip

@@ -16,15 +16,15 @@ from lift_examples import every_table
 from seacrane import Scene
 from seacrane.crane import Payload, load_crane
 from seacrane.description.description import KINDS
-from seacrane.hydro import DriftCoefficients, shipped_database
+from seacrane.hydro import DriftCoefficients, shipped_database, two_barges
 from seacrane.scene import Ballast
 
 METHODS = sorted(name for name in dir(Scene) if name.startswith("add_"))
 
 
 def known(scene: Scene, returned: Any) -> bool:
-    """Whether the scene holds what was returned: itself, all of a list, or what an answer names."""
-    if isinstance(returned, list):
+    """Whether the scene holds what was returned: itself, all of several, or what an answer names."""
+    if isinstance(returned, (list, tuple)):
         return bool(returned) and all(known(scene, one) for one in returned)
     if isinstance(returned, Ballast):
         return known(scene, list(returned.forces))
@@ -76,6 +76,7 @@ def everything() -> None:
         "soft", first="vessel", second="payload", area=0.05, force=2e4, stiffness=3e3, length=40.0
     )
     ship.add_given_vessel("rest", name="barge", position=(0.0, 60.0, 0.0))
+    ship.add_vessels(two_barges(lid_damping=0.03), position=(0.0, 300.0, 0.0))
     quay = Scene()
     quay.add_crane(load_crane("lattice_boom_100t"), base="ground", payload=Payload())
     quay.add_luffing_rope()

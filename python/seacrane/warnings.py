@@ -45,7 +45,6 @@ class RelativePlaceWarning(RunWarning):
     more than a tenth of the gap, or its heading by more than 2 deg.
 
     The slow part is that of two running means over two peak periods; without waves it is the mean of the run.
-
     Moor them closer to these places, or compute the group where they go.
     """
 

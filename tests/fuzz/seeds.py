@@ -302,6 +302,10 @@ def group_seeds(folder: Path) -> None:
         "unlike",
         (project / "Mesh" / "Kh_1.dat").read_text().replace("E+07", "E+09").encode(),
     )
+    radiation = (project / "Results" / "RadiationCoefficients.tec").read_text()
+    put("nemoh-group-radiationcoefficients", "short", radiation[: radiation.rindex("Zone")].encode())
+    volume = (project / "Mesh" / "Hydrostatics_1.dat").read_text()
+    put("nemoh-group-hydrostatics_1", "negative", volume.replace("t = ", "t = -").encode())
     put("capytaine-group", "pair", spec_of(group_cases.capytaine_file(group, folder)))
     silent = group_cases.capytaine_dataset(group).drop_vars(("rotation_center", "draught"))
     silent.drop_vars("inertia_matrix").to_netcdf(folder / "silent.nc")

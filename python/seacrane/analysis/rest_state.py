@@ -34,6 +34,7 @@ ROUNDED = 1e-4  # likewise, 1e-5 of gravity, where no step is left that the digi
 CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states of loads
 DIGITS = 1e-15  # of the largest position
 ROUGHEST = 1e3  # times that, where a step has not brought the scene nearer to rest
+SMALLEST_MOVE = 1e-8  # m and rad, likewise where what acts is the rounding of a stiff line
 LARGEST_MOVE = 0.5  # m and rad in one step
 LEAST_LED = 0.01  # m: by less, what hangs is moved by Newton's method alone
 MOST_STEPS = 100
@@ -264,7 +265,9 @@ def _search(
         move = coordinates.basis @ step[: coordinates.size]
         finest = DIGITS * float(np.max(np.abs(y[: model.twist_index(0)])))
         left, free = (float(np.max(np.abs(along[part]), initial=0.0)) for part in (fixed, ~fixed))
-        stands = np.max(np.abs(move)) <= (finest if moving < 0.5 * before else ROUGHEST * finest)
+        rounding = float(size[0]) * finest  # acceleration that the digits of positions make
+        roughest = SMALLEST_MOVE if left < rounding else ROUGHEST * finest
+        stands = np.max(np.abs(move)) <= (finest if moving < 0.5 * before else roughest)
         done = left < CONVERGED or (stands and moving < ROUNDED and drifting < CREEP)
         before = moving
         if done and max(free, drifting) < CREEP:

@@ -105,8 +105,8 @@ struct ContactDescription {
     const double least =
         is("box") ? 0.5 * size.minCoeff() : std::min(is("pipe") ? wall() : 0.5 * size[1], 0.5 * size[2]);
     if (least >= edge) return;
-    c.fail("is " + to_text(2.0 * least) + " m thin and has edges with a radius of " + to_text(edge) +
-           " m; give a thicker " + surface + ", or an edge of at most half of its thickness");
+    c.fail("size is " + to_text(2.0 * least) + " m where it is thinnest, and edges have a radius of " +
+           to_text(edge) + " m; give a thicker " + surface + ", or an edge of at most half of that");
   }
 
   void check_table(const Check& c) const {
