@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse.csgraph import connected_components
 
 from seacrane.hydro.data.memory_model import MemoryBlock
 
@@ -18,6 +17,8 @@ def independent_blocks(block: MemoryBlock) -> list[MemoryBlock]:
     The passive model of a group is one block of oscillators, of which few share a damper. A block costs the
     square of its states, so that small parts share one, first fit by size.
     """
+    from scipy.sparse.csgraph import connected_components
+
     count, part_of = connected_components(block.A != 0.0, directed=False)
     sizes = np.bincount(part_of, minlength=count)
     shared: list[list[int]] = []
