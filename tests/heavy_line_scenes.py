@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
 from seacrane.scene import spline_curve
+from seacrane.sea import Current
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -98,4 +99,23 @@ def string(count: int, *, strain: float = 0.01, amplitude: float = 0.01) -> Scen
         node = scene.bodies[f"line.{i}"]
         pluck = amplitude * np.sin(np.pi * i / count)
         scene.bodies[node.name] = type(node)(**node.__getstate__() | {"velocity": (0.0, 0.0, pluck)})
+    return scene
+
+
+def in_waves(length: Curve | float, *, seed: int = 3, rung: Any = "elastic") -> Scene:
+    """Through the surface in waves and a current, a load on its end."""
+    scene = Scene(name="wet", gravity=G)
+    scene.add_sea(
+        vessel=None, hs=1.5, tp=5.0, count=20, seed=seed, direction_deg=30.0, gamma=2.0,
+        current=Current(depth=0.0, speed=0.8, direction_deg=20.0),
+    )  # fmt: skip
+    scene.add_body(
+        name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
+        velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
+    )  # fmt: skip
+    scene.add_line(
+        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5,
+        length=length, mass_per_length=40.0, diameter=0.25, rung="with mass", medium="sea", segments=4,
+        segment_rung=rung,
+    )  # fmt: skip
     return scene

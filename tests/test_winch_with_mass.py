@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from heavy_line_scenes import in_waves
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
@@ -27,7 +28,6 @@ from seacrane import (
 )
 from seacrane.result import heavy_line_tension
 from seacrane.run import Run
-from seacrane.sea import Current
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -57,21 +57,8 @@ def asked(lag: float) -> Curve:
 def wet(
     length: Curve | float = FIRST, *, rung: Any = "elastic", compensated: bool = False, **winch: Any
 ) -> Scene:
-    """Through the surface in waves and a current, a load on its end."""
-    scene = Scene(name="wet", gravity=G)
-    scene.add_sea(
-        vessel=None, hs=1.5, tp=5.0, count=20, seed=3, direction_deg=30.0, gamma=2.0,
-        current=Current(depth=0.0, speed=0.8, direction_deg=20.0),
-    )  # fmt: skip
-    scene.add_body(
-        name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
-        velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
-    )  # fmt: skip
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5,
-        length=length, mass_per_length=40.0, diameter=0.25, rung="with mass", medium="sea", segments=4,
-        segment_rung=rung,
-    )  # fmt: skip
+    """On a winch, but with a curve for its length."""
+    scene = in_waves(length, rung=rung)
     if not isinstance(length, Curve):
         scene.add_winch("wire", **{"rate": asked(LAG), "lag": LAG} | winch)
     if compensated:

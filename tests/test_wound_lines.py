@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from heavy_line_scenes import in_waves
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from test_jacobian import largest_error, moving
@@ -13,7 +14,6 @@ from test_jacobian import largest_error, moving
 from seacrane import Curve, Scene, SceneError, _core, simulate
 from seacrane.result import heavy_line_tension
 from seacrane.run import Run
-from seacrane.sea import Current
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -130,22 +130,7 @@ def test_at_a_steady_rate_an_upright_line_carries_its_weight_as_at_rest(directio
 
 
 def wet(seed: int = 3) -> Scene:
-    """Through the surface in waves and a current, a load on its end."""
-    scene = Scene(name="wet", gravity=G)
-    scene.add_sea(
-        vessel=None, hs=1.5, tp=5.0, count=20, seed=seed, direction_deg=30.0, gamma=2.0,
-        current=Current(depth=0.0, speed=0.8, direction_deg=20.0),
-    )  # fmt: skip
-    scene.add_body(
-        name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
-        velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
-    )  # fmt: skip
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5,
-        length=Curve.quintic(start_time=-1.0, end_time=4.0, start=10.5, end=14.0), mass_per_length=40.0,
-        diameter=0.25, rung="with mass", medium="sea", segments=4,
-    )  # fmt: skip
-    return scene
+    return in_waves(Curve.quintic(start_time=-1.0, end_time=4.0, start=10.5, end=14.0), seed=seed)
 
 
 def test_both_formulations_agree_and_the_ledger_closes() -> None:

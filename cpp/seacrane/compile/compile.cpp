@@ -10,7 +10,7 @@
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/fast_motions.hpp"
 #include "seacrane/compile/find_kinks.hpp"
-#include "seacrane/compile/group_mass.hpp"
+#include "seacrane/compile/groups.hpp"
 #include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/compile/locked_loops.hpp"
 #include "seacrane/compile/start_contacts.hpp"
@@ -49,7 +49,7 @@ class Compiler final : private LoadContext {
     limits();
     loads();
     vessels();
-    groups();
+    add_groups(model_);
     layout();
     start();
     return std::move(model_);
@@ -235,18 +235,13 @@ class Compiler final : private LoadContext {
       model_.elements[e].row = model_.schur.row(static_cast<int>(e));
   }
 
-  int vessel_of(const std::string& name) const {
-    return static_cast<int>(std::ranges::find(scene_.vessels, name, &VesselDescription::name) -
-                            scene_.vessels.begin());
-  }
-
   /// The pairs of all groups in turn.
   std::vector<CoupledBodies> coupled_bodies() const {
     std::vector<CoupledBodies> out;
     for (const HydroGroupDescription& d : scene_.groups) {
       if (d.added_mass.size() == 0) continue;
       const auto body = [&](std::size_t i) {
-        return place(scene_.vessels[idx(vessel_of(d.vessels[i]))].body).body;
+        return place(scene_.vessels[idx(vessel_of(scene_, d.vessels[i]))].body).body;
       };
       for (std::size_t i = 0; i < d.vessels.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) out.push_back({body(i), body(j)});
@@ -374,27 +369,6 @@ class Compiler final : private LoadContext {
       if (d.positioned && d.positioned->cutoff() > 0.0) {
         model_.vessels[idx(v)].fast = FastMotion{d.positioned->cutoff()};
       }
-    }
-  }
-
-  void groups() {
-    for (const HydroGroupDescription& d : scene_.groups) {
-      HydroGroup group;
-      for (const std::string& name : d.vessels) group.vessels.push_back(vessel_of(name));
-      const int count = static_cast<int>(group.vessels.size());
-      for (int i = 0; i < count; ++i) {
-        for (int j = 0; j < i && d.added_mass.size() > 0; ++j) {
-          const Mat6d block = d.added_mass.block<6, 6>(6 * i, 6 * j);
-          group.pairs.push_back({i, j, block});
-        }
-      }
-      try {
-        group.memory = Memory(d.memory, 6 * count);
-      } catch (const std::invalid_argument& error) {
-        throw SceneError("group '" + d.name + "': " + error.what());
-      }
-      check_mass(d, group, model_);
-      model_.groups.push_back(group);
     }
   }
 

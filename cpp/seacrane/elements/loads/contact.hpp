@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/elements/loads/bristle.hpp"
 #include "seacrane/elements/loads/contact_description.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
@@ -142,7 +143,6 @@ struct Contact {
     if (states.count > 0) out.state_rates[states.first + states.count - 1] = loss;
   }
 
-  /// Of all points, whether the ball about them is apart or not.
   template <class T>
   Touch<T> touch(const LoadInput<T>& in, std::size_t i) const {
     const auto &b = in.bodies[body], &s = in.bodies[on];
@@ -230,6 +230,7 @@ struct Contact {
     return axes.transpose().cast<T>() * (s.rotation.transpose() * lever - place.cast<T>());
   }
 
+  /// Whether the ball about all points is.
   template <class T>
   bool apart(const LoadInput<T>& in) const {
     const auto &b = in.bodies[body], &s = in.bodies[on];
@@ -267,19 +268,15 @@ struct Contact {
   template <class T>
   void rub(const LoadInput<T>& in, std::size_t i, const Vec3<T>& normal, const Mat3<T>& turn,
            Touch<T>& out) const {
-    using std::sqrt;
     for (int k = 0; k < 3; ++k) out.spring[k] = out.at[k] - in.states[anchor(i) + k];
     out.spring -= normal * normal.dot(out.spring);
-    const Vec3<T> slip = turn.transpose() * out.slip, pull = out.spring * T(d.shear_stiffness);
-    Vec3<T> held = pull + slip * T(d.shear_damping);
-    const T most = T(d.friction) * out.press.total();
-    out.square = held.squaredNorm();
-    out.slides = out.slides && out.square > most * most;
-    if (out.square > most * most) {
-      held *= most / sqrt(out.square);
-      out.following = slip - (held - pull) * T(1.0 / d.shear_damping);
-    }
-    out.shear = -(turn * held);
+    const Vec3<T> slip = turn.transpose() * out.slip;
+    const Vec3<T> pull = out.spring * T(d.shear_stiffness) + slip * T(d.shear_damping);
+    const auto held = bristle_friction<T, 3>(pull, T(d.friction) * out.press.total(), d.shear_damping);
+    out.square = pull.squaredNorm();
+    out.slides = out.slides && held.slides;
+    out.following = held.follow;
+    out.shear = -(turn * held.force);
   }
 
   /// Two of each point: how far it is open, and what friction could hold beyond what it is asked for.

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
-#include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/immersed_part_description.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/elements/loads/water_by_cause.hpp"
@@ -20,62 +18,6 @@
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
-
-struct ImmersedPartDescription {
-  std::string name, body;
-  std::string shape = "box";
-  Vec3d point = Vec3d::Zero();     // its centre, body coordinates
-  Mat3d axes = Mat3d::Identity();  // columns: its axes in those of the body
-  Vec3d size = Vec3d::Zero();
-  double fill = 1.0;  // share of its volume that keeps water out
-  double density = 0.0;
-  double wave_factor = 1.0;
-  std::vector<double> depths;       // of its lowest point below the surface
-  std::vector<Vec3d> added_masses;  // along its axes, at these depths
-  std::vector<double> volumes;      // likewise, of a table
-  Vec3d drag = Vec3d::Zero();       // rho/2 C_D S along its axes
-  std::string row;                  // strips like it at equal steps have one name
-  double place = 0.0, count = 1.0;  // its own among them; whole numbers
-  Vec3d step = Vec3d::Zero();       // body coordinates
-  std::string source;
-  std::vector<Vec3d> slow_added_masses;
-
-  static constexpr const char* type = "ImmersedPart";
-  static constexpr const char* text =
-      "Water on a part of a body: buoyancy, added mass over depth, slam, drag; see Scene.add_immersed.";
-  static constexpr auto fields() {
-    using D = ImmersedPartDescription;
-    return std::tuple(
-        on_body("body", &D::body), optional("shape", &D::shape, "", "'box', 'cylinder', 'sphere' or 'table'"),
-        optional("point", &D::point, "m", "its centre, body coordinates"),
-        optional("axes", &D::axes, "", "columns: its axes in those of the body"),
-        required("size", &D::size, "m", "along its axes; of a cylinder, its length and twice its diameter"),
-        optional("fill", &D::fill, "", "share of its volume that keeps water out")
-            .within(0.0, 1.0)
-            .usually(2e-3, 1.0),
-        required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
-        required("depths", &D::depths, "m", "of its lowest point below the surface, from 0").not_negative(),
-        required("added_masses", &D::added_masses, "kg", "along its axes, at the depths").not_negative(),
-        optional("volumes", &D::volumes, "m3", "of a table: what is wet, at the depths").not_negative(),
-        optional("drag", &D::drag, "N s2/m2", "density / 2 times C_D times area, along its axes")
-            .not_negative(),
-        optional("row", &D::row, "",
-                 "name of a row of strips at equal steps, for which the sea is summed at once"),
-        optional("place", &D::place, "", "in its row, from 0"),
-        optional("count", &D::count, "", "strips of its row"),
-        optional("step", &D::step, "m", "from strip to strip of its row, body coordinates"),
-        optional("wave_factor", &D::wave_factor, "",
-                 "times the waves of the sea: what a hull beside makes of them")
-            .not_negative()
-            .usually(0.1, 3.0),
-        optional("source", &D::source, "", "where its coefficients are from"),
-        optional("slow_added_masses", &D::slow_added_masses, "kg",
-                 "at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone")
-            .not_negative());
-  }
-
-  bool is(const char* name) const { return shape == name; }
-};
 
 /// Water on a part of a body with frame at its centre P, its lowest point at a depth h below the surface at
 /// P. With u the undisturbed flow, its mean over the part, v the velocity of P over it, A(h) the added mass
@@ -111,40 +53,7 @@ struct ImmersedPart {
   Mat3d widths = Mat3d::Zero();  // columns: over which the flow is averaged, its axes
   int stencil = -1;              // its point in the sea
 
-  static void check(const Description& d, const Check& c, SceneNames& names) {
-    names.body(c, d.body);
-    if (!d.is("box") && !d.is("cylinder") && !d.is("sphere") && !d.is("table")) {
-      c.fail("shape '" + d.shape + "' is unknown; choose 'box', 'cylinder', 'sphere' or 'table'");
-    }
-    check_size(d, c);
-    const bool whole = d.place == std::floor(d.place) && d.count == std::floor(d.count);
-    if (!whole || d.place < 0.0 || d.place >= d.count || d.count > kMostStrips) {
-      c.fail("place is " + to_text(d.place) + " in a row of " + to_text(d.count) +
-             "; give whole numbers, 0 up to " + "one less than count, which is " + to_text(kMostStrips) +
-             " at most");
-    }
-    if (!(d.axes.transpose() * d.axes).isIdentity(1e-9) || d.axes.determinant() < 0.0) {
-      c.fail("axes are not those of a right-handed frame; give unit columns at right angles");
-    }
-    const std::size_t n = d.depths.size();
-    if (n < 2 || d.added_masses.size() != n || d.depths.front() != 0.0) {
-      c.fail("has " + std::to_string(n) + " depths and " + std::to_string(d.added_masses.size()) +
-             " added masses; give as many of both, at least two, from depth 0 m on");
-    }
-    if (!d.slow_added_masses.empty() && d.slow_added_masses.size() != n) {
-      c.fail("has " + std::to_string(d.slow_added_masses.size()) + " slow_added_masses at " +
-             std::to_string(n) + " depths; give as many of both");
-    }
-    c.increases("depths", d.depths);
-    check_growth("added_masses", d.added_masses, d, c);
-    if (d.is("table") != !d.volumes.empty()) c.fail("volumes belong to shape 'table', which needs them");
-    if (!d.is("table")) return;
-    if (d.volumes.size() != n) {
-      c.fail("has " + std::to_string(d.volumes.size()) + " volumes at " + std::to_string(n) +
-             " depths; give as many of both");
-    }
-    check_growth("volumes", rows(d.volumes), d, c);
-  }
+  static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
 
   static Description example() {
     Description d;
@@ -174,12 +83,12 @@ struct ImmersedPart {
     out.place_in_row = static_cast<int>(d.place);
     out.axes = on.axes * d.axes;
     out.arm = out.axes.transpose() * out.point;
-    out.whole = volume_of(d);
-    out.volume = d.fill * volume_of(d);
+    out.whole = d.volume();
+    out.volume = d.fill * d.volume();
     out.weight = d.density * context.gravity() * out.volume;
     out.edge = (out.shape == Shape::box ? kRound : 0.1 * kRound) * 0.5 * d.size.maxCoeff();
     out.added = MonotoneSpline<3>(d.depths, d.added_masses);
-    if (d.is("table")) out.wet_volume = MonotoneSpline<1>(d.depths, rows(d.volumes));
+    if (d.is("table")) out.wet_volume = MonotoneSpline<1>(d.depths, d.volume_rows());
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
     out.widths = widths_of(out.shape, d.size).asDiagonal();
@@ -325,7 +234,6 @@ struct ImmersedPart {
  private:
   using Sides = std::array<Margin, 2>;
   static constexpr double kRound = 1e-3;  // of half a size, or of a cosine
-  static constexpr double kMostStrips = 1000.0;
 
   /// Where a part is.
   template <class T>
@@ -529,40 +437,6 @@ struct ImmersedPart {
     if (d.is("cylinder")) return Shape::cylinder;
     if (d.is("sphere")) return Shape::sphere;
     return d.is("table") ? Shape::table : Shape::box;
-  }
-  static double volume_of(const Description& d) {
-    using std::numbers::pi;
-    if (d.is("cylinder")) return pi / 4.0 * d.size[0] * d.size[1] * d.size[1];
-    if (d.is("sphere")) return pi / 6.0 * std::pow(d.size[0], 3);
-    return d.is("table") ? d.volumes.back() : d.size.prod();
-  }
-  static std::vector<Eigen::Matrix<double, 1, 1>> rows(const std::vector<double>& values) {
-    std::vector<Eigen::Matrix<double, 1, 1>> out;
-    for (const double v : values) out.emplace_back(v);
-    return out;
-  }
-
-  static void check_size(const Description& d, const Check& c) {
-    if (d.size.minCoeff() < 0.0 || d.size.maxCoeff() <= 0.0) {
-      c.fail("size holds " + to_text(d.size.minCoeff()) + " m; give lengths of which one is above 0 m");
-    }
-    if (d.is("cylinder") && d.size[1] != d.size[2]) {
-      c.fail("a cylinder's size is its length and twice its diameter; y and z differ");
-    }
-    if (d.is("sphere") && (d.size[0] != d.size[1] || d.size[0] != d.size[2])) {
-      c.fail("a sphere's size is its diameter three times; its numbers differ");
-    }
-  }
-
-  /// A table that falls would give slam a wrong sign.
-  template <class Row>
-  static void check_growth(const char* what, const std::vector<Row>& values, const Description& d,
-                           const Check& c) {
-    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-      if ((values[i + 1] - values[i]).minCoeff() >= 0.0) continue;
-      c.fail(std::string(what) + " fall between " + to_text(d.depths[i]) + " and " +
-             to_text(d.depths[i + 1]) + " m of depth; give values that grow");
-    }
   }
 };
 

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/bristle.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
-#include "seacrane/math/select.hpp"
+#include "seacrane/elements/loads/normal_law.hpp"
 
 namespace seacrane {
 
@@ -106,21 +107,15 @@ struct SeabedNode {
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const Place<T> at = place(in);
-    const T normal = this->normal(at), spring = elastic(at);
-    Vec3<T> force(T(0), T(0), normal);
-    T power = (normal - spring) * at.velocity.z();
+    const NormalForce<T> press = normal(at);
+    Vec3<T> force(T(0), T(0), press.total());
+    T power = press.viscous * at.velocity.z();
     if (states.count > 0) {
-      const Grip<T> held = this->held(in, at);
-      const T most = T(d.friction) * normal, square = held.pull.squaredNorm();
-      const bool slips = square > most * most;
-      const T share = slips ? T(most / sqrt_of(square)) : T(1);
-      const Vec2<T> friction = held.pull * share;
-      Vec2<T> slip = Vec2<T>::Zero();
-      if (slips) slip = held.pull * ((T(1) - share) / T(drag));
-      for (int i = 0; i < 2; ++i) out.state_rates[states.first + i] = slip[i];
-      force.template head<2>() = -friction;
-      const Vec2<T> rate = at.velocity.template head<2>();
-      power += T(grip) * held.away.dot(rate - slip) - friction.dot(rate);
+      const Vec2<T> away = this->away(in, at), rate = at.velocity.template head<2>();
+      const auto held = bristle_friction<T, 2>(pull(away, at), T(d.friction) * press.total(), drag);
+      for (int i = 0; i < 2; ++i) out.state_rates[states.first + i] = held.follow[i];
+      force.template head<2>() = -held.force;
+      power += T(grip) * away.dot(rate - held.follow) - held.force.dot(rate);
     }
     out.wrench[body].add(force, at.lever);
     out.add_power(power);
@@ -130,7 +125,7 @@ struct SeabedNode {
     const Place<double> at = place(in);
     const double sunk = std::max(at.depth, 0.0), normal = 0.5 * d.stiffness * sunk * sunk;
     if (states.count == 0) return normal;
-    return normal + 0.5 * grip * held(in, at).away.squaredNorm();
+    return normal + 0.5 * grip * away(in, at).squaredNorm();
   }
 
   static bool has_sides() { return true; }
@@ -146,17 +141,6 @@ struct SeabedNode {
     Vec3<T> lever, point, velocity;
     T depth;  // in the seabed; negative above it
   };
-  /// x - a, and the T that holds without slip.
-  template <class T>
-  struct Grip {
-    Vec2<T> away, pull;
-  };
-
-  template <class T>
-  static T sqrt_of(const T& square) {
-    using std::sqrt;
-    return sqrt(square);
-  }
 
   template <class T>
   Place<T> place(const LoadInput<T>& in) const {
@@ -170,38 +154,33 @@ struct SeabedNode {
   }
 
   template <class T>
-  T elastic(const Place<T>& at) const {
-    return at.depth > T(0) ? T(T(d.stiffness) * at.depth) : T(0);
-  }
-  template <class T>
-  static T damped(const Place<T>& at, double damping) {
-    return T(1) - T(damping) * at.velocity.z();
-  }
-  template <class T>
-  T normal(const Place<T>& at) const {
-    const T share = damped(at, d.damping);
-    return share > T(0) ? T(elastic(at) * share) : T(0);
+  NormalForce<T> normal(const Place<T>& at) const {
+    if (!(at.depth > T(0))) return {};
+    return hunt_crossley<T>(T(d.stiffness) * at.depth, d.damping, T(-at.velocity.z()));
   }
 
+  /// x - a.
   template <class T>
-  Grip<T> held(const LoadInput<T>& in, const Place<T>& at) const {
-    Grip<T> out;
-    for (int i = 0; i < 2; ++i) out.away[i] = at.point[i] - in.states[states.first + i];
-    out.pull = out.away * T(grip) + at.velocity.template head<2>() * T(drag);
-    return out;
+  Vec2<T> away(const LoadInput<T>& in, const Place<T>& at) const {
+    return {at.point[0] - in.states[states.first], at.point[1] - in.states[states.first + 1]};
+  }
+  /// The T that holds without slip.
+  template <class T>
+  Vec2<T> pull(const Vec2<T>& away, const Place<T>& at) const {
+    return away * T(grip) + at.velocity.template head<2>() * T(drag);
   }
 
   /// Positive above the seabed, while it would not pull, and while friction holds; below zero off the seabed.
   Margins margins(const LoadInput<double>& in) const {
     const Place<double> at = place(in);
     const bool touches = at.depth > 0.0;
-    const double share = damped(at, d.damping);
+    const double share = 1.0 - d.damping * at.velocity.z();
     Margins out;
     out.add({nullptr, -at.depth});
     out.add({nullptr, touches ? share : 1.0});
     if (states.count == 0) return out;
     const double most = d.friction * d.stiffness * at.depth * (touches ? std::max(share, 0.0) : 1.0);
-    out.add({nullptr, most - held(in, at).pull.norm()});
+    out.add({nullptr, most - pull(away(in, at), at).norm()});
     return out;
   }
 };

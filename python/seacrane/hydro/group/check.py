@@ -78,15 +78,7 @@ def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:
     felt = radiating(group)
     error = np.abs(radiated - 0.5 * (group.damping + group.damping.swapaxes(1, 2)))[inside].max(axis=0)
     share = np.where(np.outer(felt, felt), error / np.maximum(np.outer(peak, peak), 1e-300), 0.0)
-    rows = [
-        at_most(f"damping_from_forces_{label}", float(share[i, i]), FORCE_DAMPING_LIMIT)
-        for i, label in enumerate(_labels(group))
-        if felt[i]
-    ]
-    for (i, a), (j, b) in combinations(enumerate(group.names), 2):
-        block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
-        rows.append(at_most(f"damping_from_forces_{a}_{b}", float(block.max()), FORCE_DAMPING_LIMIT))
-    return rows
+    return _by_motion_and_pair(group, "damping_from_forces", share, felt, FORCE_DAMPING_LIMIT)
 
 
 def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
@@ -100,14 +92,21 @@ def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
     share = np.where(
         np.outer(felt, felt), difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300), 0.0
     )
+    return _by_motion_and_pair(group, "kramers_kronig", share, felt, KRAMERS_KRONIG_LIMIT)
+
+
+def _by_motion_and_pair(
+    group: HydroGroupData, name: str, share: NDArray[np.float64], felt: NDArray[np.bool_], limit: float
+) -> list[CheckRow]:
+    """A row for each motion that is felt, and one for the largest entry between each two hulls."""
     rows = [
-        at_most(f"kramers_kronig_{label}", float(share[i, i]), KRAMERS_KRONIG_LIMIT)
+        at_most(f"{name}_{label}", float(share[i, i]), limit)
         for i, label in enumerate(_labels(group))
         if felt[i]
     ]
     for (i, a), (j, b) in combinations(enumerate(group.names), 2):
         block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
-        rows.append(at_most(f"kramers_kronig_{a}_{b}", float(block.max()), KRAMERS_KRONIG_LIMIT))
+        rows.append(at_most(f"{name}_{a}_{b}", float(block.max()), limit))
     return rows
 
 

@@ -1,13 +1,17 @@
-#include "seacrane/compile/group_mass.hpp"
+#include "seacrane/compile/groups.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/elements/check.hpp"
 
 namespace seacrane {
+namespace {
 
+/// Rigid and added masses of a group at the start are positive definite.
 void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const Model& model) {
   MatXd mass = MatXd::Zero(group.motions(), group.motions());
   std::vector<YawFrame<double>> frames(model.vessels.size(),
@@ -34,6 +38,34 @@ void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const M
   throw SceneError("group '" + d.name + "': the masses of its vessels with the added masses between them " +
                    "are not positive definite: an eigenvalue is " + to_text(least) +
                    " of the diagonal; correct added_mass, its units, or the order of the vessels");
+}
+
+}  // namespace
+
+int vessel_of(const SceneDescription& scene, const std::string& name) {
+  return static_cast<int>(std::ranges::find(scene.vessels, name, &VesselDescription::name) -
+                          scene.vessels.begin());
+}
+
+void add_groups(Model& model) {
+  for (const HydroGroupDescription& d : model.description.groups) {
+    HydroGroup group;
+    for (const std::string& name : d.vessels) group.vessels.push_back(vessel_of(model.description, name));
+    const int count = static_cast<int>(group.vessels.size());
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < i && d.added_mass.size() > 0; ++j) {
+        const Mat6d block = d.added_mass.block<6, 6>(6 * i, 6 * j);
+        group.pairs.push_back({i, j, block});
+      }
+    }
+    try {
+      group.memory = Memory(d.memory, 6 * count);
+    } catch (const std::invalid_argument& error) {
+      throw SceneError("group '" + d.name + "': " + error.what());
+    }
+    check_mass(d, group, model);
+    model.groups.push_back(group);
+  }
 }
 
 }  // namespace seacrane
