@@ -1,9 +1,12 @@
 # make demo     the paper's figures and report in out/demo
-# make test     what CI checks before it makes the wheel: lint, types, formatting, C++ tests, sanitized too, Python tests
+# make test     lint, types, formatting, C++ tests, Python tests that are not slow
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests, C++ tests with every check of the sanitizers, ThreadSanitizer
-#                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
-#                  (make extremes), every comparison (make validation), benchmarks (make bench)
+# make nightly  all that takes longer, row by row (tools/nightly.py); the table goes to docs/nightly.md
+#                  (NIGHTLY_ROWS='site wheel': only these)
+# make campaign NAME=atlas|fuzz|peers|tables  what takes hours: the whole stability atlas, hostile files, rival programs,
+#                  every measured table
+# make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
+# make bits     results kept in bits.json, compared with those of this engine
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
@@ -12,6 +15,7 @@
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make wheel    dist/: the sdist, and a wheel for older Linux systems made from it, tried where no compiler is
 #                   (WHEEL_ARGS=--publish writes its facts into benchmarks/ and the documents)
+# make wheel-trial  the same in dist/trial with one notebook, under a version that no index takes
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
 #               and findings in out/fuzz; goes on where the last call stopped
@@ -23,7 +27,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers release-check docs extremes notebooks stubs viewer wheel format clean distclean \
+.PHONY: demo test build nightly campaign campaign-% sanitized wheel-trial bench bench-peers release-check docs extremes notebooks stubs viewer wheel format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
@@ -114,6 +118,10 @@ cpp-sanitize: system-packages
 	  -DSEACRANE_SANITIZE_NOT=$(SANITIZE_NOT) -DSEACRANE_UNITY=$(UNITY)
 	cmake --build $(SANITIZE_BUILD) --target seacrane_tests
 	ctest --test-dir $(SANITIZE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
+	$(PYTHON) .ci/sanitized write
+
+sanitized:
+	@.ci/sanitized check || .ci/quiet sanitizers $(MAKE) --no-print-directory cpp-sanitize
 
 # Threads that share one model. Where it is allowed, addresses are not randomised: ThreadSanitizer of older
 # compilers cannot map its shadow memory where newer kernels put things.
@@ -123,26 +131,25 @@ cpp-tsan: system-packages
 	cmake --build $(TSAN_BUILD) --target seacrane_thread_tests
 	$$(setarch -R true 2>/dev/null && echo setarch -R) $(TSAN_BUILD)/cpp/tests/seacrane_thread_tests
 
+# Files stay whole, so that what a module makes for its tests is made once.
 python-test: build .venv/.installed-dev browser-packages
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
+	$(BIN)/python -m pytest -q --brief -n $(JOBS) --dist loadfile $(PYTEST_ARGS)
 
-# Both builds run every C++ test: optimisers see other warnings and other orders than sanitizers do.
-test:
-	$(MAKE) --no-print-directory lint
-	$(MAKE) --no-print-directory cpp-allocations
-	$(MAKE) --no-print-directory cpp-test
-	$(MAKE) --no-print-directory cpp-sanitize
-	$(MAKE) --no-print-directory python-test
+# Steps print a line each; what they said stands in out/test, and here where they fail.
+test: build .venv/.installed-dev
+	@for step in lint cpp-allocations cpp-test; do .ci/quiet $$step $(MAKE) --no-print-directory $$step || exit; done
+	@$(MAKE) --no-print-directory --silent python-test
 
 nightly: build .venv/.installed-dev bundle-packages
-	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
-	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT= UNITY=OFF
-	$(MAKE) --no-print-directory cpp-tsan
-	$(MAKE) --no-print-directory docs
-	$(MAKE) --no-print-directory wheel
-	$(MAKE) --no-print-directory extremes
-	$(MAKE) --no-print-directory validation
-	$(MAKE) --no-print-directory bench
+	$(BIN)/python tools/nightly.py $(NIGHTLY_ROWS)
+
+campaign:
+	@case '$(NAME)' in atlas|fuzz|peers|tables) $(MAKE) --no-print-directory campaign-$(NAME);; \
+	  *) echo "make campaign NAME=... : no campaign '$(NAME)'; there are atlas, fuzz, peers, tables" >&2; exit 1;; esac
+campaign-atlas: extremes
+campaign-fuzz: fuzz
+campaign-peers: bench-peers
+campaign-tables: bench
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
@@ -217,6 +224,12 @@ wheel: build .venv/.installed-wheel $(EXECUTED)
 	$(BIN)/python tools/wheel/check.py dist/seacrane-*.whl $(WHEEL_ARGS)
 	for system in linux macos windows; do \
 	  $(BIN)/python -m cibuildwheel --print-build-identifiers --platform $$system --archs all; done
+
+# The notebook that asks for most: it runs pytest.
+TRIED := build/executed/10_tested_lift.ipynb
+wheel-trial: build .venv/.installed-wheel $(TRIED)
+	$(BIN)/python tools/wheel/build.py dist/trial --trial $(TRIED)
+	$(BIN)/python tools/wheel/check.py dist/trial/seacrane-*.whl --notebooks $(basename $(notdir $(TRIED)))
 
 format: .venv/.installed-dev
 	$(BIN)/ruff check --fix .

@@ -1,9 +1,12 @@
-"""Fixtures shared by all tests."""
+"""Fixtures shared by all tests, the marks of slow tests, and what each test costs."""
 
 from __future__ import annotations
 
+import csv
 import os
 import signal
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -41,3 +44,101 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip(f"shared data folder absent: no {folder}; set SEACRANE_SHARED to it")
     return folder
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """`--times FILE`: what each item costs, as CSV; `--brief`: a line for each tenth instead of a dot an item."""
+    parser.addoption("--times", metavar="FILE", type=Path, help="write processor and wall seconds of each item")
+    parser.addoption("--brief", action="store_true", help="tell of progress once in a tenth of the items")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Write and tell where all reports arrive: not in the workers of xdist."""
+    if hasattr(config, "workerinput"):
+        return
+    if file := config.getoption("--times"):
+        config.pluginmanager.register(TimesTable(file))
+    if config.getoption("--brief"):
+        config.pluginmanager.register(Tenths())
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A slow test says why it is slow."""
+    for item in items:
+        for mark in item.iter_markers("slow"):
+            if len(mark.args) != 1 or not mark.args[0]:
+                raise pytest.UsageError(f'{item.nodeid}: say why it is slow: @pytest.mark.slow("why")')
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Keep the start of an item; what has begun, its reports tell."""
+    item.stash[STARTED] = _seconds()
+    return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Iterator[None]:
+    """The last report of an item has its processor and wall seconds, child processes included."""
+    report = yield
+    if call.when == "teardown":
+        spent = (now - then for now, then in zip(_seconds(), item.stash[STARTED], strict=True))
+        report.user_properties.append(("seconds", tuple(spent)))
+    return report
+
+
+STARTED = pytest.StashKey[tuple[float, float]]()
+
+
+def _seconds() -> tuple[float, float]:
+    """Seconds of processor time, of this process and of those that have ended, and of the wall."""
+    return sum(os.times()[:4]), time.perf_counter()
+
+
+class TimesTable:
+    """Writes a table of what each item costs, the dearest first."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self.rows: list[tuple[str, str, str]] = []
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Take the seconds of an item from its last report."""
+        for name, value in report.user_properties:
+            if name == "seconds":
+                self.rows.append((report.nodeid, *(f"{seconds:.2f}" for seconds in value)))
+
+    def pytest_sessionfinish(self) -> None:
+        """Write, when all have run."""
+        self.rows.sort(key=lambda row: -float(row[1]))
+        self.file.parent.mkdir(parents=True, exist_ok=True)
+        with self.file.open("w", newline="", encoding="utf-8") as out:
+            csv.writer(out, lineterminator="\n").writerows([("item", "cpu_s", "wall_s"), *self.rows])
+
+
+class Tenths:
+    """Tells of progress once in a tenth of the items, and of what fails at once."""
+
+    def __init__(self) -> None:
+        self.all = self.done = 0
+
+    def pytest_collection_finish(self, session: pytest.Session) -> None:
+        """Know how many there are."""
+        self.all = len(session.items)
+
+    def pytest_xdist_node_collection_finished(self, node: object, ids: list[str]) -> None:
+        """Know how many there are: workers collect all."""
+        self.all = len(ids)
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_report_teststatus(self, report: pytest.TestReport) -> tuple[str, str, str] | None:
+        """No letter for what went as it should."""
+        if report.passed and report.when == "call" and not hasattr(report, "wasxfail"):
+            return "passed", "", ""
+        return ("skipped", "", "") if report.skipped and not hasattr(report, "wasxfail") else None
+
+    def pytest_runtest_logfinish(self, nodeid: str) -> None:
+        """Count, and tell."""
+        self.done += 1
+        if self.done * 10 // self.all > (self.done - 1) * 10 // self.all:
+            print(f"{self.done} of {self.all}", flush=True)

@@ -23,7 +23,7 @@ def test_accuracies_hold_on_a_sample_of_random_lifts() -> None:
     assert sum(one.end == "held" for one in words) >= SAMPLE - 2, told(words)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random lifts")
 def test_accuracies_hold_on_400_random_lifts(capsys: pytest.CaptureFixture[str]) -> None:
     words = [word(number, seed=SEED) for number in range(ALL)]
     with capsys.disabled():

@@ -47,7 +47,7 @@ def test_an_example_is_inserted_beside_what_others_added(tmp_path: Path) -> None
         additions.Insertion("list.hpp", "Distance Free", "").into(tmp_path)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("compiles the package")
 @pytest.mark.skipif(shutil.which("cmake") is None or shutil.which("g++") is None, reason="no compiler here")
 def test_the_package_with_every_example_compiles_and_passes_its_tests(tmp_path: Path) -> None:
     """All in one build, which takes ten minutes: so an example also survives the additions of others."""

@@ -53,7 +53,7 @@ def run(name: str, text: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize(
-    "name", [name if name in SAMPLE else pytest.param(name, marks=pytest.mark.nightly) for name in RUN]
+    "name", [name if name in SAMPLE else pytest.param(name, marks=pytest.mark.slow("all blocks of a document")) for name in RUN]
 )
 def test_blocks_of_a_document_run_in_order_without_a_warning(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -59,7 +59,7 @@ def test_a_command_with_a_wrong_option_is_found() -> None:
     assert end.value.code
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("all commands of a document")
 @pytest.mark.parametrize("name", RUN)
 def test_commands_of_a_document_run_in_order(name: str, tmp_path: Path) -> None:
     """Files that a page calls the reader's own hold the page's first listing."""

@@ -112,7 +112,7 @@ def test_random_edits_of_random_states_are_taken() -> None:
     assert {seed: told for seed in range(20) if (told := wrong(seed))} == {}
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("many random states")
 def test_many_random_edits_of_random_states_are_taken() -> None:
     assert {seed: told for seed in range(1000, 1600) if (told := wrong(seed))} == {}
 

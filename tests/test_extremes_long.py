@@ -23,7 +23,7 @@ TIME_ORIGIN = next(axis for axis in VESSELS if axis.name == "time-origin")
 CHECKS = ["constraint_error", "constraint_rate_error", "energy_balance", "absolute_work"]
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hours of motion")
 def test_three_hours_of_case_2_keep_their_joints_closed() -> None:
     for formulation in ("auto", "redundant"):
         with warnings.catch_warnings():
@@ -54,7 +54,7 @@ def test_conservative_scenes_keep_their_energy(formulation: str) -> None:
         assert np.max(np.abs(result["energy_balance"])) < 1e-9 * np.max(kinetic)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hours of motion")
 @pytest.mark.parametrize("memory", ["passive", "per-pair"])
 def test_a_day_of_the_vessel_in_waves_does_not_grow(memory: str) -> None:
     with warnings.catch_warnings():

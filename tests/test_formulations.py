@@ -149,7 +149,7 @@ def test_loops_close_to_where_they_fold_flat(turned: float, planar: bool) -> Non
         assert planar or found.reaction < found.bound, seed
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("thousands of random scenes")
 @pytest.mark.parametrize("family", FAMILIES)
 def test_thousands_of_scenes(family: str) -> None:
     check_seeds(family, range(120, 4000))

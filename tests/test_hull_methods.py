@@ -138,7 +138,7 @@ def test_capytaine_one_heading_one_frequency_and_too_many_panels() -> None:
         )
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("panels")
 def test_the_difference_to_strip_theory_is_that_of_the_ends() -> None:
     """With a parallel midbody of one more length, the ends and with them the errors weigh half as much."""
     pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
@@ -167,7 +167,7 @@ def test_the_difference_to_strip_theory_is_that_of_the_ends() -> None:
     assert np.all(errors[1] < 0.7 * errors[0])
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("panels")
 def test_capytaine_reproduces_the_shipped_database() -> None:
     pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     hull = Hull.from_parametric(SHIPPED, stations=56, girth=20)

@@ -181,7 +181,7 @@ def test_hulls_together_are_as_alone_and_as_at_the_origin_of_a_moved_sea(seed: i
     compare_with_single_runs(seed)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random seas")
 @pytest.mark.parametrize("seed", range(100, 300))
 def test_more_hulls_together_are_as_alone_and_as_at_the_origin_of_a_moved_sea(seed: int) -> None:
     compare_with_single_runs(seed)

@@ -237,14 +237,14 @@ def test_orders_of_names_change_neither_numbers_nor_neighbours() -> None:
             assert other.attrs["side_by_side"] == found[0].attrs["side_by_side"]
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random lifts")
 def test_many_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
     how, wrong = judged(range(1000, 1200), staged_told_of)
     assert wrong == {}
     assert how["in lanes"] >= 30 and how["apart"] >= 30, how
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random lifts")
 def test_many_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
     how, wrong = judged(range(1000, 1400))
     assert wrong == {}

@@ -209,7 +209,7 @@ def test_several_lines_are_near_the_elastic_ones() -> None:
     assert sum(quasi for _, quasi in found) >= 3
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("many random scenes")
 def test_many_scenes_of_several_lines_are_near_the_elastic_ones() -> None:
     found = [apart(seed) for seed in range(20, 120)]
     assert max(error for error, _ in found) < 0.03

@@ -204,7 +204,7 @@ def test_a_sample_of_what_may_happen_to_a_file(name: str, tmp_path: Path) -> Non
         CHECKS[name](seed, tmp_path / str(seed) / "run.nc")
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("many kills")
 @pytest.mark.parametrize("name", CHECKS)
 def test_whatever_happens_to_a_file_it_is_whole_and_unmixed(name: str, tmp_path: Path) -> None:
     reference()

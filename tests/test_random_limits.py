@@ -53,7 +53,7 @@ def test_contacts_that_no_force_can_part_end_by_name_and_not_by_a_crash() -> Non
     assert "no set of its limits is consistent" in outcomes([1722])[1722]
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("a thousand random scenes")
 def test_a_thousand_random_scenes_with_limits_neither_crash_nor_stop_for_a_wrong_reason() -> None:
     found = {
         seed: text for first in range(1000, 2000, 50) for seed, text in bad(range(first, first + 50)).items()

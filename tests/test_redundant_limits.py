@@ -71,7 +71,7 @@ def test_four_wires_of_a_payload_that_only_swings_share_its_weight() -> None:
     assert np.all(result["tension"] > 0.2 * MASS * GRAVITY)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("long run")
 def test_four_rigid_wires_follow_four_stiff_springs_that_only_pull() -> None:
     """SciPy's answer differs by about the stretch under twice the load that one spring may carry."""
     top, yaw_rate, stiffness, end = 1.0, 0.2, 1e8, 4.0

@@ -116,7 +116,7 @@ def test_rows_of_four_bars_stay_on_their_branch(loops: int, formulation: str) ->
     assert angle[1] > 10.0 * np.pi
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("forty loops")
 @pytest.mark.filterwarnings("ignore:.*are redundant")
 def test_forty_loops_of_redundant_joints_move_as_one_pendulum() -> None:
     """605 rows, 120 of them redundant; the recursive form has to tell 200 rows of loops apart."""
@@ -137,7 +137,7 @@ def test_sixty_loops_of_redundant_joints_move_as_one_pendulum() -> None:
     np.testing.assert_allclose(posts, np.outer(0.5 * np.sin(angle), np.ones(61)), atol=1e-7)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("forty loops")
 @pytest.mark.parametrize(("loops", "formulation"), [(10, "redundant"), (10, "recursive"), (40, "recursive")])
 def test_many_four_bars(loops: int, formulation: str) -> None:
     """Up to the library's own forty loops, 81 bodies, through the first flat position."""

@@ -72,7 +72,7 @@ def test_energy_of_conservative_scenes_drifts_below_1e_9_in_100_s(name: str) -> 
     assert drift(CONSERVATIVE[name](), 100.0) < 1e-9
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("long runs")
 @pytest.mark.parametrize("integrator", ["dopri5", "dop853"])
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("name", CONSERVATIVE)
@@ -80,7 +80,7 @@ def test_energy_of_all_conservative_scenes(name: str, formulation: str, integrat
     assert drift(CONSERVATIVE[name](), 100.0, formulation=formulation, integrator=integrator) < 1e-9
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("long runs")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_energy_of_four_bars_drifts_by_what_their_flat_positions_cost(formulation: str) -> None:
     """100 passages in which loops move freely for 1e-4 rad: 1e-9 is not kept, whatever the tolerance."""
@@ -104,7 +104,7 @@ def test_energy_balance_of_the_vessel_is_1e_8_of_the_absolute_work() -> None:
     assert np.max(balance / work) < 1e-8
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("long runs")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> None:
     """Default setting otherwise."""
@@ -114,7 +114,7 @@ def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> 
     assert np.abs(result["energy_balance"][-1]) < 1e-8 * result["absolute_work"][-1]
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("long runs")
 def test_a_vessel_does_not_grow_in_a_day() -> None:
     """24 h: the default setting's error against a tight one is as large at the end as at the start."""
 

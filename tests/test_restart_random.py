@@ -63,7 +63,7 @@ def test_a_run_goes_on_bit_for_bit_into_the_set_of_limits_of_its_start(tmp_path:
     assert unequal(range(794, 795), tmp_path / "run.state") == {}
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("many random scenes")
 def test_many_random_scenes_with_limits_go_on_bit_for_bit(tmp_path: Path) -> None:
     assert unequal(range(2000, 2400), tmp_path / "run.state") == {}
 

@@ -252,7 +252,7 @@ IN_FILES = "stages in study files"
 
 
 ASKED = [
-    pytest.param(by, row, marks=[pytest.mark.nightly] if by == "with mass" and row in MANY_RUNS else [])
+    pytest.param(by, row, marks=[pytest.mark.slow("many runs")] if by == "with mass" and row in MANY_RUNS else [])
     for by in LIFTS
     for row in ROWS
 ]

@@ -191,7 +191,7 @@ def test_what_a_page_would_load_from_a_network_is_found(what: str, tmp_path: Pat
     assert "cdn.example" in found
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("makes a site")
 def test_the_search_finds_without_a_network(small_site: Path) -> None:
     command = chromium.found()
     if command is None:

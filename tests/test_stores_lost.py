@@ -289,7 +289,7 @@ def test_a_kill_at_any_file_operation_is_made_good(kind: str) -> None:
     attempts(6, kind)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of kills")
 @pytest.mark.parametrize("kind", KINDS)
 def test_kills_at_hundreds_of_file_operations_are_made_good(kind: str) -> None:
     attempts(150, kind)

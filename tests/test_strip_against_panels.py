@@ -57,7 +57,7 @@ def added_mass_and_damping(length: float) -> Any:
     return np.array([[solve(omega, motion) for motion in MOTIONS] for omega in OMEGA])
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("panels")
 def test_longer_barge_gains_sections() -> None:
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     gained = (added_mass_and_damping(288.0) - added_mass_and_damping(192.0)) / 96.0

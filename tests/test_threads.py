@@ -102,7 +102,7 @@ time.sleep(0.3)
 """
 
 
-@pytest.mark.parametrize("times", [2, pytest.param(24, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("times", [2, pytest.param(24, marks=pytest.mark.slow("many interpreters"))])
 def test_the_interpreter_ends_while_threads_are_in_the_loop(times: int) -> None:
     for _ in range(times):
         command = [sys.executable, "-W", "ignore", "-c", EXIT]

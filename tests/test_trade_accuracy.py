@@ -21,7 +21,7 @@ def test_errors_stay_within_limit_and_estimate() -> None:
     assert all(p.error <= p.estimate <= p.limit for p in found), found
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random scenes")
 def test_promises_hold_on_200_random_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     rng = np.random.default_rng(2027)  # none of the scenes that set the constants
     found = [promise(rng, t_end=40.0) for _ in range(200)]
@@ -84,7 +84,7 @@ def test_accuracies_hold_over_kinks_stops_and_wires() -> None:
     assert sum(w.estimate is None for w in words) <= 2, told(words)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("hundreds of random scenes")
 def test_accuracies_hold_on_200_random_scenes_with_kinks_stops_and_wires(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

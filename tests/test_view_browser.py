@@ -19,7 +19,7 @@ from seacrane.pictures import View
 
 SHOWN = (
     "case2",  # the one page that `make test` looks at
-    *(pytest.param(name, marks=pytest.mark.nightly) for name in ("alone", "thrown", "pair")),
+    *(pytest.param(name, marks=pytest.mark.slow("opens a page")) for name in ("alone", "thrown", "pair")),
 )
 
 
@@ -86,7 +86,7 @@ def test_the_page_keeps_pictures_and_films(tab: chromium.Tab, tmp_path: Path) ->
     assert tab.errors == []
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_page_moves_bodies_as_the_run_did(tab: chromium.Tab, tmp_path: Path) -> None:
     result = case2()
     opened(tab, view(result), tmp_path)
@@ -97,7 +97,7 @@ def test_the_page_moves_bodies_as_the_run_did(tab: chromium.Tab, tmp_path: Path)
             assert angle_between(pose[3:], result.select("quaternion", body=body)[index]) < 1e-4
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_page_sums_the_waves_that_load_the_vessel(tab: chromium.Tab, tmp_path: Path) -> None:
     result = case2()
     assert result.scene is not None
@@ -111,7 +111,7 @@ def test_the_page_sums_the_waves_that_load_the_vessel(tab: chromium.Tab, tmp_pat
     assert drawn == (60 if tab.value("seacrane.software") else 200)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(thrown()), tmp_path)
     tension = thrown()["link_tension"]
@@ -121,7 +121,7 @@ def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
         assert tab.value("seacrane.slack()") == wires
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_a_mesh_of_ones_own_is_drawn(tab: chromium.Tab, tmp_path: Path) -> None:
     """In the colour of its body, which fills much of the close picture."""
     from PIL import Image
@@ -143,7 +143,7 @@ def test_a_mesh_of_ones_own_is_drawn(tab: chromium.Tab, tmp_path: Path) -> None:
     assert shares[0] > 0.02 > 10.0 * shares[1]
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(pair()), tmp_path)
     assert tab.value("document.title") == "<i>two vessels</i>"
@@ -152,7 +152,7 @@ def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
     assert tab.value("document.querySelectorAll('b, #labels i, #caption i').length") == 0
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_address_tells_time_and_view(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(case2()), tmp_path, "#t=42.8&view=payload")
     tab.wait_for("document.getElementById('now').textContent === '42.80 s'")
@@ -161,7 +161,7 @@ def test_the_address_tells_time_and_view(tab: chromium.Tab, tmp_path: Path) -> N
     tab.wait_for("document.getElementById('now').textContent === '7.50 s'")
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(case2()), tmp_path, "#t=10")
     tab.press("ArrowRight")
@@ -179,7 +179,7 @@ def test_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) ->
     tab.wait_for("document.getElementById('now').textContent === '60.00 s'")
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_a_scene_alone_has_a_moving_sea(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(cases.vessel(hs=3.0)), tmp_path)
     tab.value("seacrane.seek(30)")
@@ -187,7 +187,7 @@ def test_a_scene_alone_has_a_moving_sea(tab: chromium.Tab, tmp_path: Path) -> No
     assert tab.value("document.getElementById('strip').hidden")
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_page_lives_inside_another_one_as_in_a_notebook(tab: chromium.Tab, tmp_path: Path) -> None:
     tab.errors.clear()
     tab.requests.clear()

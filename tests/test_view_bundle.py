@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("bundles by npm")
 def test_the_committed_bundle_is_what_its_sources_make(repository: Path, tmp_path: Path) -> None:
     """Where the pinned packages are installed (`make viewer`), or npm can install them."""
     tools = repository / "tools" / "viewer"

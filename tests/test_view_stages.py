@@ -91,7 +91,7 @@ def test_stages_points_clearances_and_forces_are_on_the_page() -> None:
     assert "EA = 40 GPa" in page.html
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens pages")
 def test_pages_tell_stage_clearance_and_tension(tmp_path: Path) -> None:
     command = chromium.found()
     if command is None:
@@ -107,7 +107,7 @@ def test_pages_tell_stage_clearance_and_tension(tmp_path: Path) -> None:
         assert tab.errors == []
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens pages")
 def test_pages_hide_it(tmp_path: Path) -> None:
     command = chromium.found()
     if command is None:

@@ -184,7 +184,7 @@ def placed(result: Result, time: float) -> tuple[np.ndarray, Rotation]:
     return position[0, 0] + body.apply(drum.at[1:]), body * Rotation.from_rotvec(angle * drum.axis)
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_page_turns_drums_on_their_bodies(tmp_path: Path) -> None:
     command = chromium.found()
     if command is None:
@@ -200,7 +200,7 @@ def test_the_page_turns_drums_on_their_bodies(tmp_path: Path) -> None:
         assert tab.errors == []
 
 
-@pytest.mark.nightly
+@pytest.mark.slow("opens a page")
 def test_the_picture_shows_that_drums_turn(tmp_path: Path) -> None:
     """By the mark on the flange."""
     from PIL import Image

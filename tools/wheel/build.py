@@ -1,6 +1,7 @@
 """Builds a wheel for an old glibc by zig's compiler and its libc++: ``python tools/wheel/build.py [FOLDER]``.
 
-FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. What the system's own compiler
+FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. With --trial NOTEBOOK the wheel holds
+that notebook alone, and its version ends in "+trial", which package indexes refuse. What the system's own compiler
 makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the extra `wheel`, the
 build requirements, CMake, Ninja, and apt (debian_sources.sh).
 """
@@ -10,6 +11,8 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -21,6 +24,8 @@ from unpack import unpack
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
 BUILD = ROOT / "build" / "wheel"
+EXECUTED = Path("build/executed")  # notebooks with their outputs, in the sdist
+TRIAL = "+trial"  # a local version (PEP 440)
 GLIBC = "2.28"  # of RHEL 8 and Debian 10
 PACKAGES = {"sundials": "sundials", "eigen": "eigen3"}  # Debian's names
 
@@ -30,8 +35,12 @@ def compilers() -> dict[str, str]:
     zig = Path(ziglang.__file__).with_name("zig")
     # All but the target only spare zig from building its C++ library once more, for what CMake tries first.
     options = f"-target {platform.machine()}-linux-gnu.{GLIBC} -O2 -fPIC -s"
+    launcher = {"CMAKE_C_COMPILER_LAUNCHER": "ccache"} if shutil.which("ccache") else {}  # of SUNDIALS
     return {
         **os.environ,
+        **launcher,
+        "CCACHE_BASEDIR": str(ROOT),
+        "CCACHE_COMPILERCHECK": "content",  # a package of Python has another date in each environment
         "CC": f"{zig} cc {options}",
         "CXX": f"{zig} c++ {options}",
         "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig"),
@@ -86,10 +95,25 @@ def python_headers() -> str:
     return f"-isystem {BUILD / 'python'}"
 
 
-def wheel(archive: Path) -> Path:
+def as_trial(source: Path, notebook: str) -> None:
+    """Leave one notebook in an unpacked sdist, and say so in its version."""
+    for path in (source / EXECUTED).glob("*.ipynb"):
+        if path.name != Path(notebook).name:
+            path.unlink()
+    settings = source / "pyproject.toml"
+    text, found = re.subn(r'(?m)^(version = "[^"+]+)"$', rf'\1{TRIAL}"', settings.read_text(encoding="utf-8"))
+    if found != 1:
+        raise SystemExit(f"{settings} has {found} lines `version = ...`; one was to get {TRIAL}")
+    settings.write_text(text, encoding="utf-8")
+
+
+def wheel(archive: Path, trial: str | None) -> Path:
     """The wheel as the build makes it from the sdist, tagged for this system only."""
     source, raw = BUILD / "source", BUILD / "raw"
     unpack(archive, source)
+    if trial:
+        (folder,) = source.iterdir()
+        as_trial(folder, trial)
     _clear(raw, "*.whl")
     environment = compilers() | {
         "SKBUILD_BUILD_DIR": str(BUILD / "package"),
@@ -122,5 +146,6 @@ if __name__ == "__main__":
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "dist")
-    folder = parser.parse_args().folder
-    print(repaired(wheel(source_archive(folder)), folder))
+    parser.add_argument("--trial", metavar="NOTEBOOK", help="hold this notebook alone, and say so in the version")
+    asked = parser.parse_args()
+    print(repaired(wheel(source_archive(asked.folder), asked.trial), asked.folder))
