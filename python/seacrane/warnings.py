@@ -326,8 +326,8 @@ class UnitWarning(SceneWarning):
 
     Usual magnitudes stand with the fields of the elements (`FIELDS`, `least` and `most`); what depends on
     the rest of the scene is told as what it makes: a strain of 3.9 at rest, a piston of 100 m/s, a ship that
-    heaves in 0.2 s. It comes when a run starts, that of a `MotionHistory` when it is made. Where you mean
-    the value, silence it.
+    heaves in 0.2 s. It comes when a run starts, that of a `MotionHistory` when it is made. If the value is
+    right, filter the warning out.
     """
 
 

@@ -18,7 +18,7 @@ struct LimitKind {
   bool of_coordinate;  // where it holds, it is a driver at its bound; else its joint, which is open elsewhere
   bool closes_again;   // has a gap and an impact; else it stays open once it lets go, and pushes over an area
 };
-/// All of them.
+/// Every kind that the engine has.
 const std::vector<LimitKind>& limit_kinds();
 
 /// Which limits hold, one bit each: the discrete part of the state.

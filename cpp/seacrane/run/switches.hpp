@@ -42,9 +42,10 @@ class Switches {
   void watch(Stepper& at, double t, const double* y);
   /// Begins a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
-  /// Where the last step of what `at` steps is to end when it is taken again: at the first crossing inside
-  /// it, or just behind its start, where it began on the old side of a jump. Nothing where there is no
-  /// crossing but at its ends: then the next step starts from the sides at its end.
+  /// The time at which the last step of `at` is to end when it is taken again: that of the first crossing
+  /// inside it. If a load jumped as the step began, and the step still began on the old side, that time is
+  /// just after the step's start. If the step came no nearer to its crossing, it is made longer, to lead
+  /// across. Nothing, if the step stands: the next one starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
   /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
   /// on kinks.

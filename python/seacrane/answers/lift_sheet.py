@@ -207,7 +207,7 @@ class _Sheet:
         self._labels = [f" {one.label}" if several or one.crane is None else "" for one in hung]
 
     def rows(self) -> Iterator[SheetRow]:
-        """All of them."""
+        """All rows of the sheet, in its order."""
         factors = self._factors
         weight = self._scene.bodies[factors.name].mass * self._scene.gravity
         design = factors.weight_contingency * weight

@@ -197,9 +197,9 @@ def ensemble(
         "stages.lift.commands.hoist.rate" or, of a `Move`, "stages.lift.commands.slew.to". What is kept may
         be of one stage, "hook_load[stage=lift].max", and its time, "stage[lift].end" ("start", "duration").
         A member whose stage is not over in its maximum duration fails, by its name.
-        In a grid, "start_time" (s) is when the lift begins: the scene waits until then in the same sea, in
-        one run that is carried from each start to the next, and a member begins in its state there, without
-        lanes.
+        In a grid, "start_time" (s) is when the lift begins. One run carries the waiting scene through its
+        sea, from each start time to the next. A member begins in the state that this run has reached at its
+        start time. Such members run one by one, not in lanes.
     method, outputs : Method, Outputs, optional
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     start : State, "rest" or callable, optional

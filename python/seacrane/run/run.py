@@ -169,8 +169,9 @@ class Run:
         """A run of the same scene in another sea, by the same method, with the same outputs.
 
         It is the run that ``Run(scene.copy(waves=waves), ...)`` makes, to the bit, at a small part of its
-        cost: what does not depend on the sea is neither checked nor compiled again, and modes that make a
-        run slow, or grow, are first looked for at the common start.
+        cost: what does not depend on the sea is neither checked nor compiled again. Modes that make a run
+        slow, or that grow, are sought once, at the start that all such runs share. A run's own modes are
+        sought only if those come near a limit.
 
         Parameters
         ----------
@@ -225,7 +226,7 @@ class Run:
         self.interrupted = False
         self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
-        self.slack: list[Finding] = []  # why it stands in the place of another run
+        self.slack: list[Finding] = []  # that it repeats a run whose line went slack, and why
         self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
     def _simulation(self) -> _core.Simulation:
@@ -497,7 +498,10 @@ def _options(run: Run) -> _core.RunOptions:
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:
-    """Ruptures from a start (s) to before now: a run that goes on from there tells of what bursts then."""
+    """Events of hoses that burst from `start` (s) on and before `now` (s).
+
+    A hose that bursts at `now` is left to the run that continues from there.
+    """
     return [
         Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
         for name, cylinder in hydraulic_cylinders(scene).items()

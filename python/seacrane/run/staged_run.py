@@ -430,7 +430,8 @@ def simulate_stages(
     -------
     Result
         With `stages`, an event for each stage, connection and release, and `interrupted` set when Ctrl-C
-        stopped it. A force or power is 0 in stages without its element, other channels are no number there.
+        stopped it. In stages without an element, its forces and powers are 0 and its other channels
+        are NaN.
 
     Raises
     ------

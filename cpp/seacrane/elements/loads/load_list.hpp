@@ -65,7 +65,7 @@ class LoadList {
   virtual void add_inertia(Place i, const LoadInput<Slopes>& in, Mat6<Slopes>* mass) const = 0;
   virtual void add_potential(const LoadInput<double>& in, double& sum) const = 0;
   virtual bool looks_at_states(Place i, int first, int last) const = 0;
-  /// Its own, whose rates it sets.
+  /// The states of load i itself, whose rates it sets.
   virtual StateRange states(Place i) const = 0;
   /// What one newton along its direction, or of a component, puts on the bodies.
   virtual void add_unit(Place i, int component, const LoadInput<double>& in, Vec6d* wrenches) const = 0;

@@ -159,7 +159,7 @@ struct Winch {
     out.add_power(line_tension * r + into_line);
   }
 
-  /// Its own, those of the dead band, and those of the drum.
+  /// Margins of the winch itself, of its dead band and of its drum.
   void add_margins(const LoadInput<double>& in, double pull, double line_tension, Margins& out) const {
     auto own = kMargins;
     const double asked = goal(in, pull), at_bound = (1.0 + kRounding) * d.maximum_rate;
