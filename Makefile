@@ -5,6 +5,8 @@
 #                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
 #                  (make extremes), every comparison (make validation), benchmarks (make bench)
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
+# make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
+#                  (BITS_ARGS=--record writes the file)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
 #               would load from a network
@@ -23,7 +25,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers release-check docs extremes notebooks stubs viewer wheel format clean distclean \
+.PHONY: demo test build nightly bench bench-peers bits release-check docs extremes notebooks stubs viewer wheel format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
@@ -153,6 +155,9 @@ validation: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+bits: build .venv/.installed-dev
+	PYTHONPATH=tools $(BIN)/python -m bits $(BITS_ARGS)
 
 release-check: build .venv/.installed-dev
 	$(BIN)/python benchmarks/documents.py --check
