@@ -23,7 +23,13 @@ from bits.compare import Change, Renamed, differences  # noqa: E402
 from bits.record import recorded  # noqa: E402
 
 FIXED_STEP = {"semi-implicit-euler", "rk4", "rk-low-storage", "generalized-alpha"}
-QUICK = ("loads/actuator", "lines/sheaves", "loads/gas_spring", "drawn/03")
+QUICK = (
+    "loads/actuator",
+    "lines/wound_by_a_winch",
+    "contact/end_stop",
+    "cranes/case2_by_its_paper",
+    "drawn/15",
+)
 NONE = Renamed()
 
 

@@ -69,7 +69,7 @@ def run_all(names: Sequence[str], jobs: int) -> Iterator[tuple[str, Record | str
             workers.put(worker)
 
     with ThreadPoolExecutor(jobs) as threads:
-        bar = tqdm(threads.map(one, names), total=len(names), delay=2.0, unit="scene")
+        bar = tqdm(threads.map(one, names), total=len(names), delay=2.0, unit="scene", disable=None)
         yield from zip(names, bar, strict=True)
     for _ in range(jobs):
         workers.get().shutdown()

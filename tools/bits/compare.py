@@ -132,7 +132,8 @@ def _size(name: str, channels: Mapping[str, Record]) -> float:
     """What differences of a channel are divided by: its largest absolute value, or a least one."""
     unit = channels[name]["unit"]
     alike = max(_largest(one) for one in channels.values() if one["unit"] == unit)
-    return max(_largest(channels[name]), SHARE * alike, LEAST.get(unit, 0.0), LEAST.get(name, 0.0))
+    share = 1.0 if name == "energy_balance" else SHARE  # what is left over of all energies
+    return max(_largest(channels[name]), share * alike, LEAST.get(unit, 0.0), LEAST.get(name, 0.0))
 
 
 def relative(one: Record, other: Record, size: float) -> float:

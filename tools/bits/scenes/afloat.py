@@ -5,17 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from bits.case import by, case
-from bits.scenes.parts import G
-from seacrane import (
-    FlowCoefficients,
-    MotionHistory,
-    MotionRaos,
-    Scene,
-    SeaState,
-    WaveSystem,
-    cases,
-    shipped_database,
-)
+from bits.scenes.parts import HULL_IN_FLOW, G
+from seacrane import MotionHistory, MotionRaos, Scene, SeaState, WaveSystem, cases, shipped_database
 from seacrane.hydro import two_barges
 from seacrane.sea import cos_2s, jonswap
 
@@ -30,21 +21,16 @@ for memory, second in zip(("per-pair", "convolution"), SECONDS, strict=True):
 
 @case(by("dopri5"), by("rk4", dt=0.05), t_end=8.0, dt_out=0.2)
 def memory_by_motion_in_two_seas() -> Scene:
-    """Short-crested wind sea and swell, wind and current on the hull, slow drift."""
-    about = FlowCoefficients(angle=np.radians([0, 90, 180]), x=[0.9, 0, -0.9], y=[0, 0.8, 0], yaw=[0, 0.1, 0])
+    """Short-crested wind sea and swell, wind and current on the hull."""
     areas = {"frontal_area": 400.0, "lateral_area": 1200.0, "length": 115.0}
-    wind = WaveSystem(
-        spectrum=jonswap(hs=1.8, tp=6.5, gamma="dnv"),
-        direction_deg=180.0,
-        spreading=cos_2s(6.0),
-        name="wind sea",
-    )
-    swell = WaveSystem(spectrum=jonswap(hs=1.0, tp=13.0, gamma=5.0), direction_deg=250.0, name="swell")
+    short, long = jonswap(hs=1.8, tp=6.5, gamma="dnv"), jonswap(hs=1.0, tp=13.0, gamma=5.0)
+    wind = WaveSystem(spectrum=short, direction_deg=180.0, spreading=cos_2s(6.0), name="wind sea")
+    swell = WaveSystem(spectrum=long, direction_deg=250.0, name="swell")
     scene = Scene(name="two seas", gravity=G)
     scene.add_vessel(shipped_database())
     scene.add_sea(sea=SeaState(systems=[wind, swell], seed=1))
-    scene.add_wind(coefficients=about, speed=12.0, direction_deg=90.0, **areas)
-    scene.add_current(coefficients=about, speed=0.5, direction_deg=0.0, **areas)
+    scene.add_wind(coefficients=HULL_IN_FLOW, speed=12.0, direction_deg=90.0, **areas)
+    scene.add_current(coefficients=HULL_IN_FLOW, speed=0.5, direction_deg=0.0, **areas)
     return scene
 
 

@@ -7,8 +7,8 @@ import ctypes
 import numpy as np
 
 from bits.case import by, case
-from bits.scenes.parts import G, guided, heaving, ramp, thrown, with_load
-from seacrane import Curve, FlowCoefficients, Scene
+from bits.scenes.parts import HULL_IN_FLOW, G, guided, heaving, ramp, thrown, with_load
+from seacrane import Curve, Scene
 from seacrane.scene import gust_curve
 
 ADAMS, BDF, IDA = by("cvode-adams", "redundant"), by("cvode-bdf", "redundant"), by("ida", "redundant")
@@ -76,11 +76,10 @@ def function_force() -> Scene:
 @case()
 def flow_force() -> Scene:
     scene = thrown()
-    about = FlowCoefficients(angle=np.radians([0, 90, 180]), x=[0.9, 0, -0.9], y=[0, 0.8, 0], yaw=[0, 0.1, 0])
     areas = {"frontal_area": 40.0, "lateral_area": 90.0, "length": 12.0, "body": "load"}
     gust = gust_curve(mean_speed=12, duration=10, seed=3)
-    scene.add_wind(coefficients=about, speed=gust, direction_deg=60, point=(0, 0, 0.5), **areas)
-    scene.add_current(coefficients=about, speed=0.5, direction_deg=-20, **areas)
+    scene.add_wind(coefficients=HULL_IN_FLOW, speed=gust, direction_deg=60, point=(0, 0, 0.5), **areas)
+    scene.add_current(coefficients=HULL_IN_FLOW, speed=0.5, direction_deg=-20, **areas)
     scene.add_air_drag(body="load", frontal_area=2, lateral_area=3, drag_coefficient=0.8, name="air")
     return scene
 

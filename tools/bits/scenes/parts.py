@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Curve, Scene
+from seacrane import Curve, FlowCoefficients, Scene
 from seacrane.scene import spline_curve
 
 G = 9.80665
-DOWN, UP = (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)
+UP = (0.0, 0.0, 1.0)
+HULL_IN_FLOW = FlowCoefficients(
+    angle=np.radians([0, 90, 180]), x=[0.9, 0, -0.9], y=[0, 0.8, 0], yaw=[0, 0.1, 0]
+)
 
 
 def with_load(
