@@ -6,8 +6,9 @@
 # make campaign NAME=atlas|fuzz|peers|tables  what takes hours: the whole stability atlas, hostile files, rival programs,
 #                  every measured table
 # make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
-# make bits     results kept in bits.json, compared with those of this engine
+# make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
+#                  (BITS_ARGS=--record writes the file)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
 #               would load from a network
@@ -27,7 +28,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly campaign campaign-% sanitized wheel-trial bench bench-peers release-check docs extremes notebooks stubs viewer wheel format clean distclean \
+.PHONY: demo test build nightly campaign campaign-% sanitized wheel-trial bench bench-peers bits release-check docs extremes notebooks stubs viewer wheel format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
@@ -160,6 +161,9 @@ validation: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+bits: build .venv/.installed-dev
+	PYTHONPATH=tools $(BIN)/python -m bits $(BITS_ARGS)
 
 release-check: build .venv/.installed-dev
 	$(BIN)/python benchmarks/documents.py --check
