@@ -47,8 +47,10 @@ def shared() -> Path:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """`--times FILE`: what each item costs, as CSV; `--brief`: a line for each tenth instead of a dot an item."""
-    parser.addoption("--times", metavar="FILE", type=Path, help="write processor and wall seconds of each item")
+    """`--times FILE`: what each item costs, as CSV; `--brief`: a line a tenth instead of a dot an item."""
+    parser.addoption(
+        "--times", metavar="FILE", type=Path, help="write processor and wall seconds of each item"
+    )
     parser.addoption("--brief", action="store_true", help="tell of progress once in a tenth of the items")
 
 

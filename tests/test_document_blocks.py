@@ -52,9 +52,10 @@ def run(name: str, text: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=900, check=False)
 
 
-@pytest.mark.parametrize(
-    "name", [name if name in SAMPLE else pytest.param(name, marks=pytest.mark.slow("all blocks of a document")) for name in RUN]
-)
+MANY = pytest.mark.slow("all blocks of a document")
+
+
+@pytest.mark.parametrize("name", [name if name in SAMPLE else pytest.param(name, marks=MANY) for name in RUN])
 def test_blocks_of_a_document_run_in_order_without_a_warning(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -25,7 +25,8 @@ def hunts(scene: Scene) -> bool:
 
 
 def seeds() -> list[object]:
-    return [pytest.param(n, marks=[] if n % USUAL == 0 else pytest.mark.slow("hundreds of random rests")) for n in range(EVERY)]
+    many = pytest.mark.slow("hundreds of random rests")
+    return [pytest.param(n, marks=[] if n % USUAL == 0 else many) for n in range(EVERY)]
 
 
 def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:

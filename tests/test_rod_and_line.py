@@ -251,8 +251,9 @@ MANY_RUNS = ("stages with `until=`", "stages in `sensitivity`")
 IN_FILES = "stages in study files"
 
 
+MANY = [pytest.mark.slow("many runs")]
 ASKED = [
-    pytest.param(by, row, marks=[pytest.mark.slow("many runs")] if by == "with mass" and row in MANY_RUNS else [])
+    pytest.param(by, row, marks=MANY if by == "with mass" and row in MANY_RUNS else [])
     for by in LIFTS
     for row in ROWS
 ]

@@ -47,6 +47,15 @@ def test_a_build_asks_for_no_browser(machine: Path, repository: Path) -> None:
     assert "chromium" not in asked and "npm" not in asked
 
 
+def test_a_build_asks_for_ccache_and_goes_on_without_it(machine: Path, repository: Path) -> None:
+    fake(machine, "apt-get", FAKE.format(log=machine / "asked", code="$(echo $* | grep -c ccache)"))
+    (machine / "grep").symlink_to(shutil.which("grep") or "/bin/grep")
+    done, asked = run(machine, repository)
+    assert done.returncode == 0, done.stderr
+    assert "--no-install-recommends ccache\n" in asked
+    assert "ccache cannot be installed" in done.stderr
+
+
 def test_tests_ask_for_a_browser_and_nightly_ones_for_npm(machine: Path, repository: Path) -> None:
     done, asked = run(machine, repository, "browser", "npm")
     assert done.returncode == 0, done.stderr

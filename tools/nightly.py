@@ -69,7 +69,9 @@ def table(outcomes: list[Outcome]) -> str:
         passed = "yes" if one.code == 0 else f"**no**, exit code {one.code}"
         lines.append(f"| {ROWS[one.row][1]} | {one.cpu:.0f} | {one.wall:.0f} | {passed} |")
     cpu, wall = sum(one.cpu for one in outcomes), sum(one.wall for one in outcomes)
-    return "\n".join([*lines, f"| all | {cpu:.0f} | {wall:.0f} | {'yes' if passed_all(outcomes) else '**no**'} |"])
+    return "\n".join(
+        [*lines, f"| all | {cpu:.0f} | {wall:.0f} | {'yes' if passed_all(outcomes) else '**no**'} |"]
+    )
 
 
 def passed_all(outcomes: list[Outcome]) -> bool:
@@ -100,7 +102,9 @@ def _git(*words: str) -> str:
 
 def main() -> int:
     """Run the rows that are asked for, print their table, keep it where all were."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("rows", nargs="*", metavar="ROW", help=f"of {', '.join(ROWS)}; default all")
     asked = parser.parse_args().rows or list(ROWS)
     if unknown := sorted(set(asked) - ROWS.keys()):
@@ -111,7 +115,10 @@ def main() -> int:
         for row in asked:
             print(f"{len(outcomes) + 1} of {len(asked)}, {row}: {ROWS[row][1]}", flush=True)
             outcomes.append(run(row))
-            print(f"    {outcomes[-1].wall:.0f} s, {'passed' if outcomes[-1].code == 0 else 'FAILED'}", flush=True)
+            print(
+                f"    {outcomes[-1].wall:.0f} s, {'passed' if outcomes[-1].code == 0 else 'FAILED'}",
+                flush=True,
+            )
     except KeyboardInterrupt:
         print(f"stopped in {asked[len(outcomes)]}; what ran:")
         print(table(outcomes))

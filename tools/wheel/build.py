@@ -1,8 +1,8 @@
 """Builds a wheel for an old glibc by zig's compiler and its libc++: ``python tools/wheel/build.py [FOLDER]``.
 
-FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. With --trial NOTEBOOK the wheel holds
-that notebook alone, and its version ends in "+trial", which package indexes refuse. What the system's own compiler
-makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the extra `wheel`, the
+FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. With --trial NOTEBOOK the wheel
+holds that notebook alone, and its version ends in "+trial", which package indexes refuse. What the system's own
+compiler makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the extra `wheel`, the
 build requirements, CMake, Ninja, and apt (debian_sources.sh).
 """
 
@@ -146,6 +146,8 @@ if __name__ == "__main__":
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "dist")
-    parser.add_argument("--trial", metavar="NOTEBOOK", help="hold this notebook alone, and say so in the version")
+    parser.add_argument(
+        "--trial", metavar="NOTEBOOK", help="hold this notebook alone, and say so in the version"
+    )
     asked = parser.parse_args()
     print(repaired(wheel(source_archive(asked.folder), asked.trial), asked.folder))

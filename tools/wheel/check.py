@@ -158,7 +158,9 @@ def main() -> None:
     other = "interpreter with the package that the system's compiler made (default: this one)"
     parser.add_argument("--against", type=Path, default=Path(sys.executable), metavar="PYTHON", help=other)
     every = sorted(path.stem for path in (ROOT / "notebooks").glob("*.md"))
-    parser.add_argument("--notebooks", nargs="+", default=every, metavar="NAME", help="that it holds (default: all)")
+    parser.add_argument(
+        "--notebooks", nargs="+", default=every, metavar="NAME", help="that it holds (default: all)"
+    )
     parser.add_argument("--publish", action="store_true", help="also into benchmarks/ and the documents")
     asked = parser.parse_args()
     facts = checked_inside(asked.wheel)
