@@ -1,9 +1,9 @@
 """Builds a wheel for an old glibc by zig's compiler and its libc++: ``python tools/wheel/build.py [FOLDER]``.
 
-FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. With --trial NOTEBOOK the wheel
-holds that notebook alone, and its version ends in "+trial", which package indexes refuse. What the system's own
-compiler makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the extra `wheel`, the
-build requirements, CMake, Ninja, and apt (debian_sources.sh).
+FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. With --trial NOTEBOOK the
+wheel holds that notebook alone, and its version ends in "+trial", which package indexes refuse. What the
+system's own compiler makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the
+extra `wheel`, the build requirements, CMake, Ninja, and apt (debian_sources.sh).
 """
 
 from __future__ import annotations
