@@ -39,11 +39,9 @@ def compilers() -> dict[str, str]:
     return {
         **os.environ,
         **launcher,
-        "CCACHE_BASEDIR": str(ROOT),
         "CCACHE_COMPILERCHECK": "content",  # a package of Python has another date in each environment
         "CC": f"{zig} cc {options}",
         "CXX": f"{zig} c++ {options}",
-        "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig"),
         "CMAKE_GENERATOR": "Ninja",
     }
 

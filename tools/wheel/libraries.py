@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -69,9 +70,14 @@ def unpack(archive: Path, folder: Path) -> Path:
 def install(source: Path, build: Path, prefix: Path, options: Sequence[str]) -> None:
     """Configure, build and install by CMake."""
     where = f"-DCMAKE_INSTALL_PREFIX={prefix}"
-    subprocess.run(["cmake", "-S", source, "-B", build, where, *COMMON, *options], check=True)
-    subprocess.run(["cmake", "--build", build, "--config", "Release"], check=True)
-    subprocess.run(["cmake", "--install", build, "--config", "Release"], check=True)
+    # For ccache, where the compiler is called through it: the folder has another name each time.
+    environment = {**os.environ, "CCACHE_BASEDIR": str(build.parent), "CCACHE_NOHASHDIR": "1"}
+    for command in (
+        ["cmake", "-S", source, "-B", build, where, *COMMON, *options],
+        ["cmake", "--build", build, "--config", "Release"],
+        ["cmake", "--install", build, "--config", "Release"],
+    ):
+        subprocess.run(command, check=True, env=environment)
 
 
 def main() -> None:
