@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Kept, Result, Scene
+from seacrane import Curve, Kept, Result, Scene
+from seacrane.ensembles.paths import with_values
 
 SWING: dict[str, Any] = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
@@ -21,6 +22,42 @@ def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
         kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
     )
     return scene
+
+
+def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) -> Scene:
+    """An arm on a hinge, held by a cylinder between ground and arm, with a load on a rod.
+
+    The same joints close where the cylinder is turned by half about its line, and behind the dead centre.
+    """
+    scene = Scene(name="luffed")
+    angle, foot = 0.8, np.array([1.0, 0.0, 0.0])
+    tip = 1.5 * np.array([np.cos(angle), 0.0, np.sin(angle)])
+    line = (tip - foot) / np.linalg.norm(tip - foot)
+    down = np.array([0.0, 0.0, -0.7])
+    places = {"arm": tip, "barrel": foot + 0.2 * line, "rod": tip - 0.2 * line, "load": tip + down}
+    for name, place in places.items():
+        scene.add_body(name=name, mass=5.0, inertia=(0.1, 0.2, 0.3), position=place)
+    hinge = {"kind": "revolute", "name": "hinge", "first": "ground", "second": "arm"}
+    scene.add_joint(**hinge, point=(0, 0, 0), axis=(0, 1, 0))
+    cross = {"kind": "universal", "name": "cross", "first": "ground", "second": "barrel"}
+    scene.add_joint(**cross, point=foot, axis=(0, 1, 0), second_axis=np.cross(line, (0, 1, 0)))
+    scene.add_joint(
+        kind="prismatic", name="ram", first="barrel", second="rod", point=0.5 * (foot + tip), axis=line
+    )
+    scene.add_joint(kind="spherical", name="ball", first="rod", second="arm", point=tip)
+    scene.add_joint(kind="revolute", name="eye", first="arm", second="load", point=tip, axis=(0, 1, 0))
+    if driven:
+        scene.add_driver(joint="ram", curve=Curve.harmonic(amplitude=0.02, omega=3.0, phase=0.5 * np.pi))
+    leaning = float(np.arctan2(line[2], line[0]))
+    half = {"arm": angle, "barrel": leaning, "rod": leaning}  # of the turn to behind
+    moved: dict[str, Any] = {}
+    if behind:
+        moved |= {f"bodies.{name}.position": scene.bodies[name].position * (1, 1, -1) for name in half}
+        moved["bodies.load.position"] = tip * (1, 1, -1) + down
+        moved |= {f"bodies.{name}.quaternion": (np.cos(a), 0.0, np.sin(a), 0.0) for name, a in half.items()}
+    if turned:
+        moved |= {f"bodies.{name}.quaternion": (0.0, *line) for name in ("barrel", "rod")}
+    return with_values(scene, moved)
 
 
 def lowest(result: Result) -> float:

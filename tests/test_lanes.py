@@ -14,13 +14,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import pendulum
+from ensemble_studies import luffed, pendulum
 from numpy.typing import NDArray
 from random_scenes import KINDS, Shape, build
 
 from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.paths import with_values
 from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
 
@@ -256,6 +257,57 @@ def test_what_the_first_of_the_runs_decides_is_the_same_in_all(other: dict[str, 
         _core.advance_side_by_side(
             [Run(pendulum(start=start), **given).core for start in (1.0, 2.0)], module_of(4), 1.0
         )
+
+
+def beside_and_alone(scenes: list[Scene]) -> tuple[list[str], list[float]]:
+    """Why runs were kept apart, and the largest difference of poses of each from its run alone."""
+    given: dict[str, Any] = {"rtol": 1e-9, "formulation": "recursive", "integrator": "dopri5", "dt_out": 0.5}
+    runs, alone = ([Run(scene, 1.0, **given) for scene in scenes] for _ in range(2))
+    assert advance_side_by_side(runs, 4, lambda _: None)
+    off = []
+    for run, one in zip(runs, alone, strict=True):
+        run.advance(1.0)
+        one.advance(1.0)
+        beside, by_itself = run.result(), one.result()
+        off.append(max(float(np.abs(beside[x] - by_itself[x]).max()) for x in ("position", "quaternion")))
+    return [str(run.lanes.get("kept_apart", "")) for run in runs], off
+
+
+@needs_lanes
+@pytest.mark.parametrize(
+    ("attribute", "value"),
+    [("position", (0.0, 2.0, 0.0)), ("quaternion", (np.cos(0.1), 0.0, 0.0, np.sin(0.1)))],
+)
+def test_a_vessel_is_moored_where_its_own_lift_describes_it(attribute: str, value: Any) -> None:
+    there = with_values(case("vessel"), {f"bodies.vessel.{attribute}": value})
+    why, off = beside_and_alone([case("vessel"), there])
+    assert why == [f"{MORE} where vessel 'vessel' is at rest"] * 2
+    assert off == [0.0, 0.0]
+
+
+@needs_lanes
+def test_a_vessel_may_start_above_the_water_at_which_it_rests() -> None:
+    lifted = with_values(case("vessel"), {"bodies.vessel.position": (0.0, 0.0, 0.5)})
+    why, off = beside_and_alone([case("vessel"), lifted])
+    assert why == ["", ""] and max(off) < 1e-6
+
+
+@needs_lanes
+@pytest.mark.parametrize(
+    ("one", "other", "told"),
+    [
+        ({}, {"turned": True}, "the strut of joint 'ram' stands on different sides"),
+        ({"driven": True}, {"driven": True, "behind": True}, "joint 'hinge' is on different sides of a dead"),
+        ({}, {"behind": True}, ""),
+        ({"driven": True}, {"driven": True}, ""),
+    ],
+)
+def test_a_cylinder_stands_on_the_side_of_its_own_lift(
+    one: dict[str, bool], other: dict[str, bool], told: str
+) -> None:
+    why, off = beside_and_alone([luffed(**one), luffed(**other)])
+    assert all(told in reason if told else not reason for reason in why)
+    assert max(off) <= (0.0 if told else 1e-6)
 
 
 @needs_lanes

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import cart
+from ensemble_studies import cart, luffed
 from stage_scenes import on_deck
 
 from seacrane import Kept, Move, Scene, Stage, Until, ensemble, shipped_database
@@ -116,6 +116,18 @@ def test_kinds_that_cannot_share_are_no_neighbours() -> None:
             cart, over={name: over[name] for name in names}, keep=CART, lanes=4, t_end=1.0, dt_out=0.1
         ).dataset
         assert told.attrs["side_by_side"] == "8 in 4 lanes"
+
+
+def test_lifts_on_different_sides_go_beside_those_on_their_own() -> None:
+    """Their models share what lanes share: where their cylinders stand is seen in the runs alone."""
+    turn = Kept(channel="quaternion", names={"body": "rod"}, interval=0.1)
+    keep = {"turn": turn, "lanes": lambda result: float(result.stats.get("lanes", 1))}
+    stages = [Stage(name="fall", duration=0.5), Stage(name="on", duration=0.3)]
+    over = [{"turned": 0}, {"turned": 1}] * 2
+    alone, beside = in_both(luffed, stages=stages, over=over, keep=keep, **FINE)
+    assert (beside.kept_apart == "").all() and (beside.lanes == 4).all()
+    assert np.abs(beside.turn - alone.turn).max() < 1e-6
+    assert np.abs(alone.turn[0] - alone.turn[1]).max() > 0.1
 
 
 @pytest.mark.parametrize("store", ["packs", "group.zarr"])

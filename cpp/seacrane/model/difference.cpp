@@ -43,6 +43,16 @@ std::string difference_of_waves(const Model& one, const Model& other) {
   return "";
 }
 
+/// What moors a vessel holds it where it is described, which is no part of what bodies are compared by.
+std::string difference_of_rest(const Model& one, const Model& other) {
+  for (std::size_t v = 0; v < one.vessels.size(); ++v) {
+    const Vessel &here = one.vessels[v], &there = other.vessels[v];
+    if (here.mean_position == there.mean_position && here.mean_yaw == there.mean_yaw) continue;
+    return "where vessel '" + one.description.vessels[v].name + "' is at rest";
+  }
+  return "";
+}
+
 std::string difference_of_scenes(const SceneDescription& one, const SceneDescription& other) {
   if (one.gravity != other.gravity) return "gravity";
   if (one.orientation != other.orientation) return "orientation";
@@ -123,6 +133,8 @@ std::string difference(const Model& one, const Model& other) {
   std::string out = difference_of_scenes(one.description, other.description);
   if (!out.empty()) return out;
   if (one.merges != other.merges) return "whether bodies are merged";
+  out = difference_of_rest(one, other);
+  if (!out.empty()) return out;
   if (one.closed != other.closed) return "the limits that hold";
   out = difference_of_bodies(one.stepped(), other.stepped());
   if (out.empty()) out = difference_of_geometry(one.stepped(), other.stepped());

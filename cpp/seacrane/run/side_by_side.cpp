@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "seacrane/dynamics/recursive/body_tree.hpp"
+#include "seacrane/dynamics/recursive/driven_stroke.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/model/difference.hpp"
 
@@ -71,6 +73,26 @@ bool by_one_method(const Simulation& one, const Simulation& other) {
          a.fixed_step == b.fixed_step && a.max_step == b.max_step;
 }
 
+/// The sides that poses choose: those of a strut about its universal joint belong to the tree, and a stroke
+/// that is prescribed leaves its hinge one on either side of a dead centre, near that of one lane.
+std::string difference_of_sides(const Simulation& first, const Simulation& run) {
+  const Model& model = first.model()->stepped();
+  const BodyTree one = build_tree(model), other = build_tree(run.model()->stepped());
+  for (std::size_t i = 0; i < one.struts.size(); ++i) {
+    const Strut &here = one.struts[i], &there = other.struts[i];
+    if (here.extension_sign == there.extension_sign && here.side == there.side) continue;
+    return "the strut of joint '" + model.elements[idx(here.element)].name + "' stands on different sides";
+  }
+  for (const Cluster& c : one.clusters) {
+    if (c.drive.strut < 0) continue;
+    const DrivenStroke stroke(one.struts[idx(c.drive.strut)], c.joint);
+    const auto is_behind = [&](const Simulation& of) { return stroke.sine(of.stepped_state()[c.q]) < 0.0; };
+    if (is_behind(first) == is_behind(run)) continue;
+    return "joint '" + model.elements[idx(c.element)].name + "' is on different sides of a dead centre";
+  }
+  return "";
+}
+
 std::string kept_apart(const Simulation& first, const Simulation& run) {
   const std::string other = difference(*first.model(), *run.model());
   if (!other.empty()) return "the lifts differ in what lanes share: in " + other;
@@ -78,7 +100,7 @@ std::string kept_apart(const Simulation& first, const Simulation& run) {
   if (run.time() != first.time()) return "the runs begin at different times";
   if (run.inputs() != first.inputs()) return "the runs have different inputs";
   if (run.state_size() != first.state_size()) return "the runs have different states";
-  return "";
+  return difference_of_sides(first, run);
 }
 
 std::vector<Simulation*> side_by_side(std::vector<Simulation*> runs, std::size_t lanes) {

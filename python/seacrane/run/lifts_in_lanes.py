@@ -44,7 +44,7 @@ class LiftsInLanes:
             now = min(run.core.time for run in self._runs.values())
             kind = next(self._kinds[lift] for lift, run in self._runs.items() if run.core.time == now)
             alike = {lift: run for lift, run in self._runs.items() if self._kinds[lift] == kind}
-            here = {lift: run for lift, run in alike.items() if run.core.time == now}
+            here = _together({lift: run for lift, run in alike.items() if run.core.time == now})
             stop = min(run.t_end for run in here.values())
             stop = min([stop, *(run.core.time for run in alike.values() if run.core.time > now)])
             going = self._beside(here, stop) if len(here) > 1 else self._alone(*here.popitem(), stop)
@@ -104,6 +104,12 @@ class LiftsInLanes:
         except Exception:  # the lift meets it again as it steps what is left, and tells it as its own
             self._ask(lift)
             return True
+
+
+def _together(runs: Mapping[int, Run]) -> dict[int, Run]:
+    """Those that can be stepped beside the first: of one model, they may still stand on different sides."""
+    first = next(iter(runs.values()))
+    return {lift: run for lift, run in runs.items() if not _core.kept_apart([first.core, run.core])}
 
 
 def _note_alone(run: Run, why: str) -> None:
