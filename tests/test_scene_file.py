@@ -302,8 +302,8 @@ def test_a_truncated_file_names_its_line(tmp_path: Path, text: str) -> None:
 
 BROKEN: list[tuple[str, Callable[[dict[str, Any]], Any], tuple[str, ...]]] = [
     ("not a scene", lambda d: d.pop("format"), ("is not a scene file",)),
-    ("later version", lambda d: d.update(version=2), ("version 2", "reads version 1")),
-    ("version a text", lambda d: d.update(version="1"), ("version is '1'",)),
+    ("another version", lambda d: d.update(version="0.5"), ("file version '0.5'", "version '0.4'; make")),
+    ("version a number", lambda d: d.update(version=1), ("is of file version 1", "file version '0.4'")),
     ("missing section", lambda d: d.pop("springs"), ("has no 'springs'",)),
     ("unknown section", lambda d: d.update(sprngs=[]), ("unknown entry 'sprngs'", "springs")),
     ("section not a list", lambda d: d.update(bodies={}), ("bodies is {}", "give a list")),
@@ -360,7 +360,11 @@ def test_numbers_that_are_none(tmp_path: Path, text: str, entry: str) -> None:
 
 
 def test_a_key_given_twice(tmp_path: Path, text: str) -> None:
-    refused(tmp_path, text.replace('"version": 1,', '"version": 1, "version": 1,'), "'version' occurs twice")
+    refused(
+        tmp_path,
+        text.replace('"version": "0.4",', '"version": "0.4", "version": "0.4",'),
+        "'version' occurs twice",
+    )
 
 
 @pytest.mark.parametrize(
