@@ -190,20 +190,6 @@ def test_saving_a_loaded_scene_gives_the_same_file(tmp_path: Path) -> None:
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
-def test_a_file_from_before_several_hulls_reads_as_the_same_scene(tmp_path: Path) -> None:
-    save_scene(every_kind(), tmp_path / "scene.json")
-    data = json.loads((tmp_path / "scene.json").read_text())
-    (hull,) = data["waves"].pop("hulls")
-    del hull["heading"]
-    data["waves"] |= hull
-    (tmp_path / "old.json").write_text(json.dumps(data))
-    old = Scene.load(tmp_path / "old.json").waves
-    assert old is not None
-    expected = every_kind().waves
-    assert expected is not None
-    assert plain(old.changed(heading=-THIRD)) == plain(expected)
-
-
 def test_water_depth(tmp_path: Path) -> None:
     for depth in (math.inf, 40.0):
         scene = every_kind()

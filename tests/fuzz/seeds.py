@@ -237,6 +237,9 @@ def scene_seeds(folder: Path) -> None:
     hull |= {"force_by_heading": {"heading": headings, "real": zero, "imaginary": zero}, "drift": zero[0]}
     hull |= {"drift_by_heading": {"heading": headings, "real": zero}}
     put("scene", "hull-of-all-headings", json.dumps(data).encode())
+    data["vessels"][0]["memory"] = {"step": 0.1, "kernel": np.zeros((3, 6, 6)).tolist()}
+    data["waves"]["current"] = {"depth": [0.0, 20.0], "speed": [1.0, 0.5], "direction_deg": [30.0, 40.0]}
+    put("scene", "convolution-and-current", json.dumps(data).encode())
     put("scene", "every-load", json.dumps(scene_file.described(every_load())).encode())
 
 
