@@ -32,7 +32,6 @@ from seacrane import (
     response_statistics,
     shipped_database,
     simulate,
-    trade,
 )
 from seacrane.accuracy import model_error
 from seacrane.description.databases import without_databases
@@ -215,28 +214,6 @@ def test_the_same_database_read_again_is_no_other() -> None:
     scene, same = afloat(), replace(shipped_database())
     given = {"omega": [0.5, 0.7], "direction": 1.0, "body": "vessel"}
     np.testing.assert_array_equal(motion_rao(scene, **given), motion_rao(scene, database=same, **given))
-
-
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda scene, database: scene.add_sea(database, hs=1.0),
-        lambda scene, database: scene.add_sea(database=database, hs=1.0),
-        lambda scene, database: scene.add_drift(database),
-        lambda scene, database: scene.use_actual_position(database),
-        lambda scene, database: scene.use_slow_position(database=database),
-        lambda scene, database: ensemble(scene, over={"seed": [1]}, keep=HEAVE, database=database),
-        lambda scene, database: trade(scene, 1.0, database=database),
-        lambda scene, database: plot_rao(scene, body="vessel", database=database),
-        lambda scene, database: model_error(scene, body="vessel", times=[0, 1], database=database),
-        lambda scene, database: LinearControl(scene, database=database, channel="heel[vessel]", t_end=9.0),
-        lambda scene, database: HookLoadControl(scene, database=database, t_end=9.0),
-        lambda scene, database: allowable_hs(scene, criteria=[], tp=8, direction_deg=0, database=database),
-    ],
-)  # fmt: skip
-def test_scripts_of_0_2_are_told_that_the_scene_keeps_it(call: Callable[..., Any]) -> None:
-    with pytest.raises(TypeError, match=r"since 0\.3; the scene keeps the database of each vessel"):
-        call(afloat(), shipped_database())
 
 
 # Nothing asks for one.

@@ -92,6 +92,7 @@ def _made(data: Mapping[str, Any]) -> About:
         kind = dict if isinstance(getattr(About(), name), dict) else list
         if not isinstance(value, kind):
             raise TypeError(f"{name} is a {type(value).__name__}")
+        given[name] = value if kind is dict else tuple(value)
     stages = tuple(StageSpan(**one) for one in given.pop("stages"))
     limit_states = tuple(LimitState(**one) for one in given.pop("limit_states"))
     return About(**given, stages=stages, limit_states=limit_states)
