@@ -1,4 +1,4 @@
-"""What a result holds beside numbers and words: typed, in its files, and read from those of 0.2."""
+"""What a result holds beside numbers and words: typed, and in its files."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ def result() -> Result:
     return simulate(limited(), t_end=0.5)
 
 
-def as_0_2_wrote_it(about: About) -> dict[str, str]:
-    """Each part that is there as a text of its own."""
-    told = about.to_attributes()
-    rest = json.loads(told.pop(ABOUT))
-    return told | {name: json.dumps(part) for name, part in rest.items()}
-
-
-def with_attributes(path: Path, attributes: dict[str, str]) -> Path:
-    """A result's file with these in the place of its own about."""
+def with_attributes(path: Path, attributes: dict[str, Any]) -> Path:
+    """A result's file with these attributes; None: without one of that name."""
     with netCDF4.Dataset(path, "a") as file:
-        file.delncattr(ABOUT)
-        file.setncatts(attributes)
+        for name, value in attributes.items():
+            file.delncattr(name)
+            if value is not None:
+                file.setncattr(name, value)
     return path
+
+
+def told(**parts: Any) -> dict[str, str]:
+    """An about with other parts."""
+    return {ABOUT: json.dumps(json.loads(About().to_attributes()[ABOUT]) | parts)}
 
 
 def test_what_is_structured_is_typed_and_no_part_of_the_stats(result: Result) -> None:
@@ -53,50 +53,20 @@ def test_what_is_structured_is_typed_and_no_part_of_the_stats(result: Result) ->
     assert result.about.bounds[0]["kind"] == "range"
 
 
-def test_a_script_that_reads_it_from_the_stats_is_told_where_it_is(result: Result) -> None:
-    with pytest.raises(KeyError, match=r"'settings' is not in stats; read result.about.settings"):
-        result.stats["settings"]
-    with pytest.raises(KeyError, match=r"^'no_such_stat'$"):
-        result.stats["no_such_stat"]
-
-
 def test_a_file_keeps_it(result: Result, tmp_path: Path) -> None:
     again = Result.load(result.save(tmp_path / "run.nc"))
     assert again.about.to_attributes() == result.about.to_attributes()
     assert again.about.limit_states == result.about.limit_states
 
 
-def test_a_file_of_0_2_tells_the_same(result: Result, tmp_path: Path) -> None:
-    old = with_attributes(result.save(tmp_path / "run.nc"), as_0_2_wrote_it(result.about))
-    again = Result.load(old)
-    assert again.about.to_attributes() == result.about.to_attributes()
-    assert dict(again.stats) == dict(result.stats)
-    assert again.utilisation == result.utilisation
-
-
-def test_a_run_in_progress_of_0_2_tells_the_same(result: Result) -> None:
-    piece = Piece(
-        arrays={"time": result.time}, coords={}, stats=dict(result.stats), about=result.about
-    )  # fmt: skip
-    body = piece.to_bytes()
-    end = body.index(b"\n")
-    header: dict[str, Any] = json.loads(body[:end])
-    del header["stats"][ABOUT]
-    header["stats"] |= as_0_2_wrote_it(result.about)
-    old = Piece.from_bytes(json.dumps(header).encode() + body[end:])
-    assert old.stats == dict(result.stats)
-    assert (
-        old.about.to_attributes()
-        == Piece.from_bytes(body).about.to_attributes()
-        == result.about.to_attributes()
-    )
-
-
-DAMAGED = {
-    "no JSON": {"bounds": "{"},
-    "another kind": {"outline": "[5]"},
-    "no stage": {"stages": '[{"title": "lift"}]'},
-    "a limit state of numbers": {"limit_states": "[1]"},
+DAMAGED: dict[str, dict[str, Any]] = {
+    "no JSON": {ABOUT: "{"},
+    "no about": {ABOUT: None},
+    "no settings": {"settings": None},
+    "a missing part": {ABOUT: "{}"},
+    "another kind": told(outline=[5]),
+    "no stage": told(stages=[{"title": "lift"}]),
+    "a limit state of numbers": told(limit_states=[1]),
     "an about that is none": {ABOUT: "[1]"},
     "an about without end": {ABOUT: "[" * 100_000},
 }
@@ -107,3 +77,33 @@ def test_notes_that_no_run_writes_are_refused_by_name(case: str, result: Result,
     path = with_attributes(result.save(tmp_path / "run.nc"), DAMAGED[case])
     with pytest.raises(FileFormatError, match=r"run\.nc is not a seacrane result: its notes are none"):
         Result.load(path)
+
+
+VERSIONS = {
+    "another": (
+        "0.3",
+        r"is of file version '0\.3', and seacrane .* reads and writes file version '0\.4'; make",
+    ),
+    "a number": (4, r"is of file version .*4\)?, and"),
+    "none": (None, "names no version of files, and"),
+}
+
+
+@pytest.mark.parametrize("case", VERSIONS)
+def test_a_file_of_another_version_is_refused_with_both(case: str, result: Result, tmp_path: Path) -> None:
+    version, message = VERSIONS[case]
+    path = with_attributes(result.save(tmp_path / "run.nc"), {"file_version": version})
+    with pytest.raises(FileFormatError, match=rf"run\.nc: {message}"):
+        Result.load(path)
+
+
+@pytest.mark.parametrize("case", VERSIONS)
+def test_a_run_in_progress_of_another_version_is_refused_with_both(case: str, result: Result) -> None:
+    piece = Piece(arrays={"time": result.time}, coords={}, stats=dict(result.stats), about=result.about)
+    head, rest = piece.to_bytes().split(b"\n", 1)
+    assert Piece.from_bytes(head + b"\n" + rest, "run").about.to_attributes() == result.about.to_attributes()
+    version, message = VERSIONS[case]
+    header = json.loads(head)
+    header["stats"]["file_version"] = version
+    with pytest.raises(FileFormatError, match=f"run: {message}"):
+        Piece.from_bytes(json.dumps(header).encode() + b"\n" + rest, "run")

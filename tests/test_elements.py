@@ -6,6 +6,7 @@ import copy
 import json
 import pickle
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from numpy.testing import assert_allclose
 from test_scene_file import every_kind
 
 from seacrane import Scene, SceneError, _core
-from seacrane.description.file import _CLASSES, described
+from seacrane.description.file import described, scene_from_bytes
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 
@@ -191,61 +192,37 @@ def every_load() -> Scene:
     return scene
 
 
-IN_FILES_OF_LINES = {"EA": "stiffness", "rung": "stretch"}
+def objects(data: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+    """Every object of a file whose entries the program names, with its place."""
+    if isinstance(data, dict):
+        yield path, data
+    inside = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in inside:
+        if key not in ("notes", "parameters", "names", "provenance"):  # whose entries the user names, or none
+            yield from objects(value, f"{path}[{key}]" if isinstance(key, int) else f"{path}.{key}")
 
 
-def older_files() -> list[Any]:
-    """(file, place in it, field) of all that elements may leave out."""
-    data = described(every_load())
-    places = [((section, i), type_) for section, type_ in _CLASSES.items()
-              for i in range(len(data.get(section, ())))]  # fmt: skip
-    places += [(("loads", i), LOAD_KINDS[load["kind"]]) for i, load in enumerate(data["loads"])]
-    frames = [((*place, key), _core.Frame) for place, type_ in places if type_ is _core.Joint
-              for key in ("first_frame", "second_frame")]  # fmt: skip
-    return [(data, place, field) for place, type_ in [*places, *frames]
-            for field in type_.FIELDS if not field.required]  # fmt: skip
-
-
-def at(data: Any, place: tuple[Any, ...]) -> Any:
-    for key in place:
-        data = data[key]
-    return data
-
-
-@pytest.mark.parametrize(
-    ("data", "place", "field"),
-    [pytest.param(*case, id=f"{'.'.join(map(str, case[1]))}.{case[2].name}") for case in older_files()],
-)
-def test_a_file_from_before_an_entry_loads_with_its_default(
-    data: dict[str, Any], place: tuple[Any, ...], field: _core.Field, tmp_path: Path
-) -> None:
-    older = copy.deepcopy(data)
-    line = at(older, place).get("kind") == "line"
-    key = IN_FILES_OF_LINES.get(field.name, field.name) if line else field.name
-    del at(older, place)[key]
-    (tmp_path / "older.json").write_text(json.dumps(older))
-    back = described(Scene.load(tmp_path / "older.json"))
-    usual = field.default.to_pieces() if field.type == "curve" else field.default
-    usual = np.asarray(usual).tolist() if field.type == "array" else usual
-    whole = at(back, place).pop(key, usual)
-    assert np.array_equal(np.asarray(whole, dtype=object), np.asarray(usual, dtype=object)) or np.array_equal(
-        whole, usual
-    )
-    del at(older, place[:-1])[place[-1]], at(back, place[:-1])[place[-1]]
-    assert back == older  # nothing else has changed
-
-
-def test_a_joints_length_is_read_where_older_files_have_it(tmp_path: Path) -> None:
-    scene = every_kind()
-    older = described(scene)
-    for joint in older["joints"]:
-        joint["length"] = joint.pop("parameters").get("length", 0.0)
-    (tmp_path / "older.json").write_text(json.dumps(older))
-    assert Scene.load(tmp_path / "older.json") == scene
-    older["joints"][0]["length"] = 2.0
-    (tmp_path / "older.json").write_text(json.dumps(older))
-    with pytest.raises(FileFormatError, match=r"joints\[0\]: joint .pin.: length belongs to"):
-        Scene.load(tmp_path / "older.json")
+def test_a_file_without_one_of_its_entries_is_refused_by_its_name() -> None:
+    """The first object of each kind, entry by entry."""
+    data = json.loads(json.dumps(described(every_load())))
+    seen = set()
+    for path, one in objects(data):
+        kind = (re.sub(r"\d+", "", path), one.get("kind"), *one)
+        if kind in seen:
+            continue
+        seen.add(kind)
+        for key in [*one]:
+            kept = dict(one)
+            del one[key]
+            told = {"version": "names no version", "format": "is not a scene"}.get(
+                key, f"has no {key!r}; add"
+            )
+            with pytest.raises(FileFormatError, match=told):
+                scene_from_bytes(json.dumps(data).encode(), "scene.json", Scene())
+            one.clear()
+            one.update(kept)  # in their order
+    assert len(seen) > 25
+    assert scene_from_bytes(json.dumps(data).encode(), "scene.json", Scene()) == every_load()
 
 
 def test_the_usual_coordinate_is_one_that_the_joint_offers() -> None:

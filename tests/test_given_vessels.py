@@ -452,7 +452,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "drift": (lambda: in_sea(given(shipped_database()), drift=True), "leave out drift"),
     "no RAOs": (
         lambda: in_sea(without_databases(given(shipped_database()))),
-        "'vessel' is from an older file",
+        "'vessel' has no RAOs; give it those",
     ),
     "linear": (
         lambda: response_summed(afloat_and_given(), body="vessel"),

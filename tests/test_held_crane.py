@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from seacrane import Curve, Lift, Scene, SceneError, equilibrium, simulate, statics
+from seacrane import Curve, Scene, SceneError, equilibrium, simulate, statics
 from seacrane.crane import Payload, load_crane, shipped_cranes
 from seacrane.description.file import scene_digest
 from seacrane.description.holding import with_holds
@@ -95,27 +94,15 @@ def test_a_crane_that_is_free_is_told_of() -> None:
         simulate(crane(held=False), t_end=0.1)
 
 
-def test_files_say_whether_a_crane_is_held_and_those_of_before_mean_a_free_one(tmp_path: Path) -> None:
-    path = tmp_path / "scene.json"
-    crane().save(path)
-    assert Scene.load(path) == crane() and Scene.load(path).roles[""].held
-    data = json.loads(path.read_text())
-    del data["roles"][0]["held"]  # as 0.2 wrote it
-    path.write_text(json.dumps(data))
-    with pytest.warns(FreeCraneWarning):
-        simulate(Scene.load(path), t_end=0.1)
+@pytest.mark.parametrize("held", [True, False])
+def test_files_say_whether_a_crane_is_held(held: bool, tmp_path: Path) -> None:
+    scene = crane(held=held)
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+    assert Scene.load(tmp_path / "scene.json").roles[""].held == held
 
 
-def test_a_lift_file_of_version_1_means_a_free_crane_too(tmp_path: Path) -> None:
-    held = []
-    for version in (1, 2):
-        path = tmp_path / f"{version}.toml"
-        path.write_text(f'format = "seacrane lift"\nversion = {version}\n[[crane]]\nbase = "ground"\n')
-        held.append(Lift.load(path).scene().roles[""].held)
-    assert held == [False, True]
-
-
-def test_a_crane_that_is_driven_has_the_digest_that_it_had_before() -> None:
+def test_a_crane_that_is_driven_has_one_digest_held_or_not() -> None:
     driven, free = crane(held=True), crane(held=False)
     for driver in driven.drivers.values():
         free.add_driver(driver.joint, curve=driver.curve)

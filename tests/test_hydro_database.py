@@ -283,13 +283,17 @@ def test_a_netcdf_file_without_a_variable_is_refused(missing: str, tmp_path: Pat
         load_database(tmp_path / "whole.nc")
 
 
-def test_a_newer_format_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version", [0, 99])
+def test_another_format_is_refused_with_both(version: int, tmp_path: Path) -> None:
     import netCDF4
 
     small().save(tmp_path / "newer.nc")
     with netCDF4.Dataset(tmp_path / "newer.nc", "a") as file:
-        file.format_version = 99
-    with pytest.raises(FileFormatError, match="99 is newer"):
+        file.format_version = version
+    with pytest.raises(
+        FileFormatError,
+        match=rf"is of format version {version}, and this seacrane reads format version 1; save",
+    ):
         load_database(tmp_path / "newer.nc")
 
 

@@ -247,13 +247,6 @@ def test_the_reference_of_the_orders_stands() -> None:
     assert np.linalg.norm(run(integrator="dop853", rtol=1e-12)["position"][-1, -1] - exact()) < 1e-9
 
 
-def test_a_method_of_an_earlier_version_is_refused_with_the_one_to_take() -> None:
-    with pytest.raises(
-        SceneError, match=r'unknown integrator "heun21"; .* take "bs32", or choose one of semi'
-    ):
-        simulate(tumbling(), t_end=1.0, integrator="heun21")
-
-
 def test_the_documents_table_is_that_of_the_core() -> None:
     page = (Path(__file__).parents[1] / "docs" / "integrators.md").read_text(encoding="utf-8")
     assert page.count(integrator_table()) == 1, "run: python tests/integrator_table.py"

@@ -12,7 +12,6 @@ from import_graph import Import, circles, imports, modules, room
 # Rooms from the ground up: each may import from those on lines above its own.
 FLOORS = """
     errors warnings version one_thread
-    renamed
     lazy
     inputs
     plotting sea

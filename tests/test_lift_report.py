@@ -158,7 +158,7 @@ def test_curves_that_are_rounding_are_not_stated() -> None:
 @pytest.mark.parametrize(
     "result",
     [vessel_result(t_end=5.0), crane_result(t_end=5.0), crane_result(payload=False, t_end=5.0)],
-    ids=["vessel", "of 0.1", "no payload"],
+    ids=["vessel", "crane", "no payload"],
 )
 def test_any_result_has_a_report(result: Result) -> None:
     page = report(result)

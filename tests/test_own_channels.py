@@ -148,7 +148,7 @@ def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
     scene = tumbling()
     digest, path = scene_digest(scene), tmp_path / "scene.json"
     scene.save(path)
-    assert '"channels"' not in path.read_text()
+    assert not Scene.load(path).channels
     described(scene)
     assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
     scene.save(path)

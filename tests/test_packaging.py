@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from importlib import metadata, resources
 from pathlib import Path
 
@@ -21,6 +22,11 @@ def run_python(code: str) -> str:
 def test_package_is_installed_not_imported_from_the_source_tree(repository: Path) -> None:
     located = Path(run_python("import seacrane; print(seacrane.__file__)").strip())
     assert not located.is_relative_to(repository / "python")
+
+
+def test_the_version_is_that_of_the_project(repository: Path) -> None:
+    project = tomllib.loads((repository / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert run_python("import seacrane; print(seacrane.__version__)").strip() == project["version"]
 
 
 def test_import_leaves_the_heavy_libraries_alone() -> None:

@@ -6,6 +6,7 @@ import ctypes
 import json
 import re
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +31,6 @@ from seacrane.result import kept_scene
 from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.result.result_file import SCENE, SCENE_DIMENSION
 from seacrane.result.stream import ResultFile
-
-OLD = Path(__file__).with_name("files_0_1")
 
 
 def pendulum() -> Scene:
@@ -110,8 +109,13 @@ def test_a_scene_from_a_file_runs_as_it_ran(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again["position"], result["position"])
 
 
-def test_a_file_of_version_0_1_says_that_it_holds_no_scene() -> None:
-    result = Result.load(OLD / "chain.nc")
+def without_scene(path: Path) -> Path:
+    """A file of a run whose scene was too large for one."""
+    return replace(alone(), kept_scene=None).save(path)
+
+
+def test_a_file_without_a_scene_says_so(tmp_path: Path) -> None:
+    result = Result.load(without_scene(tmp_path / "bare.nc"))
     assert result.scene is None
     with pytest.raises(
         SceneError, match=r"file that holds no scene; give its scene with view\(result, scene="
@@ -235,7 +239,7 @@ def test_the_command_writes_the_page_of_a_result(tmp_path: Path, capsys: pytest.
 
 def test_the_command_says_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     page = tmp_path / "page.html"
-    assert main(["view", str(OLD / "chain.nc"), "--out", str(page)]) == 1
+    assert main(["view", str(without_scene(tmp_path / "bare.nc")), "--out", str(page)]) == 1
     assert "holds no scene" in capsys.readouterr().err
     few = simulate(cases.vessel(), 1.0, channels=["vessel_motion"]).save(tmp_path / "few.nc")
     assert main(["view", str(few), "--out", str(page)]) == 1

@@ -1,16 +1,14 @@
-"""A rope is one element with rungs: what each makes, that it is what 0.2 made, and what it refuses."""
+"""A rope is one element with rungs: what each makes, and what it refuses."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from seacrane import (
-    Lift,
     Run,
     Scene,
     SceneError,
@@ -20,9 +18,8 @@ from seacrane import (
     simulate,
 )
 from seacrane.errors import LineSlackError
-from seacrane.warnings import LineRungWarning, RenamedKeysWarning
+from seacrane.warnings import LineRungWarning
 
-OF_0_2 = Path(__file__).with_name("files_0_2")
 G = 9.80665
 
 
@@ -58,8 +55,8 @@ def chain() -> Scene:
     return scene
 
 
-# By the method of 0.2: the scene's file, the tension (N) of the first line and the load's x, y, z (m) at 3 s.
-OLDER: dict[str, tuple[Callable[[], Scene], str, float, tuple[float, float, float]]] = {
+# The tension (N) of the first line and the load's x, y, z (m) at 3 s.
+KNOWN: dict[str, tuple[Callable[[], Scene], str, float, tuple[float, float, float]]] = {
     "wire": (wire, "tension", 198326.008491, (-0.118620040802, 0, -10.0037957439)),
     "elastic": (
         lambda: stretching("elastic", **THROWN), "line_tension",
@@ -74,15 +71,12 @@ OLDER: dict[str, tuple[Callable[[], Scene], str, float, tuple[float, float, floa
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", OLDER)
-def test_each_rung_is_the_scene_and_the_run_of_0_2(kind: str) -> None:
-    make, channel, tension, place = OLDER[kind]
-    older = Scene.load(OF_0_2 / f"line_{kind}.json")
-    assert older == make()
-    was, now = (simulate(scene, 3.0) for scene in (older, make()))
-    assert np.array_equal(was[channel], now[channel]) and np.array_equal(was["position"], now["position"])
-    assert now[channel][-1].ravel()[0] == pytest.approx(tension, rel=1e-9)
-    assert now.select("position", body="load")[-1] == pytest.approx(place, rel=1e-9, abs=1e-9)
+@pytest.mark.parametrize("kind", KNOWN)
+def test_each_rung_runs_as_it_did(kind: str) -> None:
+    make, channel, tension, place = KNOWN[kind]
+    result = simulate(make(), 3.0)
+    assert result[channel][-1].ravel()[0] == pytest.approx(tension, rel=1e-9)
+    assert result.select("position", body="load")[-1] == pytest.approx(place, rel=1e-9, abs=1e-9)
 
 
 def test_a_line_of_two_bodies_runs_as_it_stands() -> None:
@@ -164,100 +158,11 @@ def test_a_rigid_line_takes_no_winch() -> None:
         wire().add_winch(line="hoist")
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda s: s.add_line(**BETWEEN, stiffness=1e7), "has no keyword 'stiffness' since 0.3; it is 'EA'"),
-        (lambda s: s.add_line(**BETWEEN, EA=1e7, stretch="auto"), "'stretch' since 0.3; it is 'rung'"),
-        (lambda s: s.add_wire(joint="link"), r"no 'add_wire' since 0.3; write add_line\(joint=..., rung='ri"),
-        (lambda s: s.add_heavy_line(**BETWEEN), "no 'add_heavy_line' since 0.3; write .*rung='with mass'"),
-        (lambda s: s.add_bridle(name="sling", stiffnesses=1e7), "'stiffnesses' since 0.3; it is 'EA'"),
-    ],
-)
-def test_a_script_of_0_2_is_told_the_new_word(call: Any, message: str) -> None:
-    with pytest.raises((TypeError, AttributeError), match=message):
-        call(with_load())
-
-
-def test_a_described_line_is_changed_by_its_new_words_alone() -> None:
+def test_a_described_line_is_changed_by_the_words_that_it_has() -> None:
     scene = stretching("elastic")
-    with pytest.raises(SceneError, match=r"cannot change 'stretch'; since 0\.3 it is 'rung'"):
+    with pytest.raises(SceneError, match=r"cannot change 'stretch'; it has .*EA.* rung"):
         scene.replace("hoist", stretch="auto")
     assert scene.replace("hoist", rung="auto").rung == "auto"
-
-
-LIFT_OF_0_2 = """format = "seacrane lift"
-version = 1
-
-[[body]]
-name = "load"
-mass_kg = 20e3
-inertia_kg_m2 = [1e4, 1e4, 1e4]
-position_m = [0, 0, -10]
-
-[[body]]
-name = "box"
-mass_kg = 1e3
-inertia_kg_m2 = [1e3, 1e3, 1e3]
-position_m = [0, 0, -15]
-
-[joint]
-kind = "distance"
-name = "rope"
-first = "load"
-second = "box"
-point_m = [0, 0, -10]
-second_point_m = [0, 0, -15]
-
-[line]
-name = "hoist"
-bodies = ["ground", "load"]
-points_m = [[0, 0, 0], [0, 0, 0]]
-stiffness_N = 1e9
-stretch = "auto"
-
-[heavy_line]
-name = "chain"
-bodies = ["ground", "box"]
-points_m = [[20, 0, 0], [0, 0, 0]]
-stiffness_N = 1e8
-length_m = 30
-mass_per_length_kg_per_m = 5
-segments = 3
-stretch = "quasi-static"
-
-[wire]
-joint = "rope"
-"""
-
-
-def test_a_lift_file_of_0_2_makes_the_same_lines_with_one_warning(tmp_path: Path) -> None:
-    (tmp_path / "lift.toml").write_text(LIFT_OF_0_2)
-    with pytest.warns(RenamedKeysWarning) as caught:
-        scene = Lift.load(tmp_path / "lift.toml").scene()
-    assert len(caught) == 1
-    for words in (
-        "stiffness_N of [line] is EA_N",
-        "stretch of [heavy_line] is segment_rung",
-        "[wire] is [line]",
-    ):
-        assert words in str(caught[0].message)
-    expected = Scene()
-    for name, mass, inertia, depth in (("load", 20e3, 1e4, 10.0), ("box", 1e3, 1e3, 15.0)):
-        expected.add_body(name=name, mass=mass, inertia=np.full(3, inertia), position=(0, 0, -depth))
-    expected.add_joint(
-        kind="distance", name="rope", first="load", second="box", point=(0, 0, -10),
-        second_point=(0, 0, -15),
-    )  # fmt: skip
-    expected.add_line(**BETWEEN, EA=1e9, rung="auto")
-    expected.add_line(joint="rope", rung="rigid")
-    expected.add_line(
-        name="chain", rung="with mass", first="ground", second="box", first_point=(20, 0, 0), EA=1e8,
-        length=30.0, mass_per_length=5.0, segments=3, segment_rung="quasi-static",
-    )  # fmt: skip
-    assert {name: str(load) for name, load in scene.loads.items()} == {
-        name: str(load) for name, load in expected.loads.items()
-    }
 
 
 def over_the_top() -> Scene:

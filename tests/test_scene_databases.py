@@ -32,7 +32,6 @@ from seacrane import (
     response_statistics,
     shipped_database,
     simulate,
-    trade,
 )
 from seacrane.accuracy import model_error
 from seacrane.description.databases import without_databases
@@ -156,9 +155,6 @@ def test_a_given_ship_keeps_what_moves_it(tmp_path: Path) -> None:
 
 
 def test_digests_of_scenes_do_not_know_the_database() -> None:
-    """Those of 0.2, by which stores and partial results go on."""
-    kept = Scene.load(Path(__file__).parent / "files_0_2" / "case2.json")
-    assert scene_digest(kept) == "7a1b0b0cd572eef3b5ca47c99ec1bcfa66cc9571787d17a676a9a1178b680342"
     scene = cases.vessel(memory="none")
     assert scene_digest(scene) == scene_digest(without_databases(scene))
     assert scene != without_databases(scene)
@@ -218,28 +214,6 @@ def test_the_same_database_read_again_is_no_other() -> None:
     scene, same = afloat(), replace(shipped_database())
     given = {"omega": [0.5, 0.7], "direction": 1.0, "body": "vessel"}
     np.testing.assert_array_equal(motion_rao(scene, **given), motion_rao(scene, database=same, **given))
-
-
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda scene, database: scene.add_sea(database, hs=1.0),
-        lambda scene, database: scene.add_sea(database=database, hs=1.0),
-        lambda scene, database: scene.add_drift(database),
-        lambda scene, database: scene.use_actual_position(database),
-        lambda scene, database: scene.use_slow_position(database=database),
-        lambda scene, database: ensemble(scene, over={"seed": [1]}, keep=HEAVE, database=database),
-        lambda scene, database: trade(scene, 1.0, database=database),
-        lambda scene, database: plot_rao(scene, body="vessel", database=database),
-        lambda scene, database: model_error(scene, body="vessel", times=[0, 1], database=database),
-        lambda scene, database: LinearControl(scene, database=database, channel="heel[vessel]", t_end=9.0),
-        lambda scene, database: HookLoadControl(scene, database=database, t_end=9.0),
-        lambda scene, database: allowable_hs(scene, criteria=[], tp=8, direction_deg=0, database=database),
-    ],
-)  # fmt: skip
-def test_scripts_of_0_2_are_told_that_the_scene_keeps_it(call: Callable[..., Any]) -> None:
-    with pytest.raises(TypeError, match=r"since 0\.3; the scene keeps the database of each vessel"):
-        call(afloat(), shipped_database())
 
 
 # Nothing asks for one.
@@ -352,18 +326,8 @@ def test_a_lift_and_a_result_hold_the_database_too(tmp_path: Path) -> None:
 # Scenes without one.
 
 
-def older(scene: Scene, folder: Path, *lacking: str) -> Scene:
-    """As a file of 0.2 holds it, or one of 0.1, which lacks more."""
-    scene.save(folder / "new.json")
-    data = json.loads((folder / "new.json").read_text())
-    for key in ("databases", *lacking):
-        data.pop(key, None)
-    (folder / "old.json").write_text(json.dumps(data))
-    return Scene.load(folder / "old.json")
-
-
-def test_a_file_of_0_2_loads_and_says_what_to_do(tmp_path: Path) -> None:
-    scene = older(afloat(), tmp_path)
+def test_a_vessel_without_its_database_says_what_to_do() -> None:
+    scene = without_databases(afloat())
     assert scene.vessels["vessel"].database is None
     simulate(scene, 1.0)
     told = r"has no database, which .* needs; .* scene\.replace\('vessel', kind='vessel', database=database\)"
@@ -381,13 +345,6 @@ def test_a_file_of_0_2_loads_and_says_what_to_do(tmp_path: Path) -> None:
     scene.replace("vessel", kind="vessel", database=shipped_database())
     assert scene == afloat()
     assert ensemble(scene, over={"seed": [2]}, keep=HEAVE, t_end=1.0).dataset.heave.size == 1
-
-
-def test_a_file_of_0_1_loads_and_takes_its_database(tmp_path: Path) -> None:
-    scene = older(afloat(), tmp_path, "provenance", "roles", "points", "ranges")
-    assert scene.vessels["vessel"].database is None and not scene.provenance
-    scene.replace("vessel", kind="vessel", database=shipped_database())
-    assert np.abs(motion_rao(scene, omega=0.5, direction=0.0, body="vessel")).max() > 0.1
 
 
 def test_a_vessel_of_matrices_takes_a_database_for_its_waves() -> None:

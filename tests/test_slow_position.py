@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -209,7 +208,7 @@ def test_any_memory_goes_with_it(memory: str) -> None:
     assert np.abs(motions[0] - motions[1]).max() < limit * np.abs(motions[1]).max()
 
 
-def test_a_scene_file_keeps_the_cut_off_and_older_ones_have_none(tmp_path: Path) -> None:
+def test_a_scene_file_keeps_the_cut_off(tmp_path: Path) -> None:
     scene = afloat("slow")
     scene.save(tmp_path / "scene.json")
     again = Scene.load(tmp_path / "scene.json")
@@ -218,15 +217,6 @@ def test_a_scene_file_keeps_the_cut_off_and_older_ones_have_none(tmp_path: Path)
     assert again.waves.hull().cutoff == scene.waves.hull().cutoff > 0.0
     first, second = (simulate(s, t_end=3.0, dt_out=1.0)["vessel_motion"] for s in (scene, again))
     np.testing.assert_array_equal(first, second)
-    afloat("actual").save(tmp_path / "older.json")
-    older = (tmp_path / "older.json").read_text()
-    data = json.loads(older)
-    for entry in data["waves"]["hulls"]:
-        assert entry.pop("cutoff") == 0.0
-    (tmp_path / "older.json").write_text(json.dumps(data))
-    loaded = Scene.load(tmp_path / "older.json").waves
-    assert loaded is not None
-    assert loaded.hull().cutoff == 0.0
 
 
 def test_the_actual_position_after_the_slow_one_has_no_filter_left() -> None:

@@ -213,7 +213,10 @@ HEADERS: dict[str, tuple[dict[str, Any], str]] = {
     "twice": ({"arrays": [["values", 8], ["values", 8]]}, "does not fit"),
     "too little": ({"arrays": [["values", 8]]}, "do not fill"),
     "no list": ({"arrays": 3}, "unreadable header"),
-    "later": ({"version": 2}, "version 2.*reads version 1"),
+    "later": (
+        {"version": "0.5"},
+        "is of file version '0.5', and seacrane .* file version '0.4'; make it again",
+    ),
     "histories": ({"intervals": [1, 2]}, "is not a state"),
     "intervals": ({"intervals": [-1]}, "is not a state"),
     "parts": ({"parts": [1]}, "is not a state"),

@@ -230,14 +230,22 @@ def test_a_pack_of_a_giant_number_is_refused(store: Path) -> None:
         Ensemble.load(store)
 
 
-@pytest.mark.parametrize("draft", [".study.json.9d166c1e.tmp", "ours"])
+@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
+def test_a_store_of_another_version_is_refused_with_both(store: Path) -> None:
+    path = next(store.rglob("study.json"))
+    data = json.loads(path.read_text())
+    for version, told in (("0.3", "is of file version '0.3'"), (None, "names no version of files")):
+        path.write_text(json.dumps(data | {"version": version}))
+        for call in (lambda: Ensemble.load(store), lambda: ensemble(**GIVEN, store=store)):
+            with pytest.raises(FileFormatError, match=rf"study\.json: {told}, and .* version '0\.4'; make"):
+                call()
+
+
 @pytest.mark.parametrize("name", ["a", "a.zarr", "a.zarr/seacrane-study"])
-def test_a_store_that_was_killed_as_it_was_made_goes_on(
-    name: str, draft: str, tmp_path: Path, whole: Ensemble
-) -> None:
+def test_a_store_that_was_killed_as_it_was_made_goes_on(name: str, tmp_path: Path, whole: Ensemble) -> None:
     folder = tmp_path / name
     folder.mkdir(parents=True)
-    left = draft_of(folder / "study.json") if draft == "ours" else folder / draft
+    left = draft_of(folder / "study.json")
     left.write_text('{"ver')
     store = tmp_path / name.partition("/")[0]
     assert ensemble(**GIVEN, store=store).dataset.identical(whole.dataset)

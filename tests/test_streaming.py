@@ -26,7 +26,6 @@ from seacrane import (
     simulate_to_file,
 )
 from seacrane.result import stream
-from seacrane.result.about import About
 from seacrane.result.partial_file import PartialFile, Piece
 from seacrane.warnings import LargeHeelWarning, SteepSeaWarning
 
@@ -453,17 +452,6 @@ def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_pa
     with pytest.raises(kind, match=words):
         simulate_to_file(spinner(), tmp_path / "run.nc", resume=True, **{"t_end": 3.0} | change)
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
-
-
-def test_what_version_0_1_wrote_as_zero_is_a_setting_left_out() -> None:
-    """So that its files can be gone on with; a step that was given is still compared."""
-    stats = {stream.DIGEST: "of the scene", "formulation": "recursive", "integrator": "rk4"}
-    before = {"t_end": 1.0, "dt_out": 0.1, "rtol": 1e-6, "dt": 0.0, "maximum_step": 0.0, "baumgarte": 0.0}
-    now = {name: value for name, value in before.items() if name not in ("dt", "maximum_step")}
-    given = {**before, "dt": 0.05}
-    old, new, other = (stream.Told(stats=stats, about=About(settings=one)) for one in (before, now, given))
-    assert stream.difference(old, new) == ""
-    assert stream.difference(other, new) == "has dt 0.05, this run None"
 
 
 def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:

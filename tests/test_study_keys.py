@@ -15,7 +15,6 @@ from seacrane.lift.lift import LIFTS
 from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
-from seacrane.warnings import RenamedKeysWarning
 
 BALANCED = """format = "seacrane lift"
 version = 2
@@ -177,22 +176,6 @@ def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, stud
     with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
         run_study(study, study.parent / "out")
     assert not (study.parent / "out").exists()
-
-
-def test_a_quantity_of_0_2_is_read_by_its_new_name(tmp_path: Path) -> None:
-    (tmp_path / "held.toml").write_text(BALANCED)
-    text = STUDY.replace("version = 2", "version = 1").replace(
-        "[run]", "[accuracy]\nhook_tension = 10.0\n[run]"
-    )
-    (tmp_path / "older.toml").write_text(text)
-    with pytest.warns(RenamedKeysWarning, match=r"hook_tension of \[accuracy\] is hook_load"):
-        study = StudyFile.load(tmp_path / "older.toml")
-    assert study.accuracy == {"hook_load": 10.0}
-    (tmp_path / "older.toml").write_text(text.replace("version = 1", "version = 2"))
-    with pytest.raises(
-        FileFormatError, match=r"line 16: hook_tension of \[accuracy\] is hook_load since 0\.3"
-    ):
-        StudyFile.load(tmp_path / "older.toml")
 
 
 def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

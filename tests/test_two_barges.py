@@ -104,6 +104,10 @@ def test_a_group_is_kept_without_loss(tmp_path: Path) -> None:
         (lambda data: data[:-20], "damaged group of seacrane"),
         (lambda data: data[:200] + bytes(50) + data[250:], "damaged group of seacrane"),
         (lambda data: data[:23], "damaged group of seacrane"),
+        (
+            lambda data: data.replace(b"group 1\n", b"group 2\n", 1),
+            "is of format version '2', and this seacrane reads format version 1; save it again",
+        ),
     ],
 )
 def test_a_file_that_is_none_is_refused_by_name(damage: object, message: str, tmp_path: Path) -> None:

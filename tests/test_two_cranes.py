@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -159,43 +157,3 @@ def test_roles_of_a_crane_by_hand() -> None:
     np.testing.assert_array_equal(result.select("stroke", cylinder="lift"), result["coordinate"][:, 0])
     with pytest.raises(SceneError, match="prefix '' is used twice"):
         scene.add_roles(cylinders={"lift": "hoist"})
-
-
-def test_a_file_without_roles_takes_those_of_the_papers_names(tmp_path: Path) -> None:
-    """As version 0.1 wrote them: notes hold what is provenance now."""
-    scene = cases.case2(memory="passive", count=20)
-    scene.notes["mine"] = "kept"
-    scene.save(tmp_path / "new.json")
-    data = json.loads((tmp_path / "new.json").read_text())
-    (vessel,), sea = data.pop("provenance"), data["waves"].pop("provenance")
-    del data["roles"]
-    realised = ("seed", "realised_hs", "wave_components", "repeat_period_s", "repeat_found")
-    data["waves"]["information"] = {key: sea.pop(key) for key in realised} | {"from": "elsewhere"}
-    for share in ("wave_energy_without_load", "load_variance_without_load"):
-        data["waves"]["information"][share] = sea.pop(share)
-    data["notes"] |= sea | {
-        "database": vessel["database"], "database_omega": vessel["omega"], "memory": vessel["memory"],
-        "kinematics": "yaw_following", "waves_relative_bound": 1e-9,
-    }  # fmt: skip
-    (tmp_path / "old.json").write_text(json.dumps(data))
-    old = Scene.load(tmp_path / "old.json")
-    assert not old.roles[""].held
-    old.roles[""] = replace(old.roles[""], held=True)
-    assert old == scene
-    assert old.notes == {"mine": "kept"}
-    assert old.provenance["vessel"].memory == "passive"
-    result = simulate(old, t_end=0.2)
-    assert {"slew_angle", "stroke", "cylinder_force", "link_tension"} <= set(result)
-    settings = result.settings
-    assert settings["hs"] == 2.0 and settings["memory"] == "passive" and settings["notes"] == old.notes
-
-
-def test_notes_of_an_old_file_that_the_user_changed_stay_notes(tmp_path: Path) -> None:
-    scene = falling_slide("A")
-    scene.save(tmp_path / "scene.json")
-    data = json.loads((tmp_path / "scene.json").read_text())
-    del data["roles"], data["provenance"]
-    data["notes"] = {"hs": "high", "database": 3}
-    (tmp_path / "old.json").write_text(json.dumps(data))
-    old = Scene.load(tmp_path / "old.json")
-    assert old.notes == data["notes"] and not old.provenance and not old.roles

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -83,13 +85,9 @@ def test_what_heave_restores_floats_as_before() -> None:
     assert heaved(floats=False).min() < -0.5  # its weight comes on top
 
 
-def test_files_without_the_word_float(tmp_path) -> None:
-    """Files of before, whatever their restoring; and a floating body's file is that of before."""
-    scene = submerged(floats=True)
-    scene.save(tmp_path / "old.json")
-    assert "floats" not in (tmp_path / "old.json").read_text()
-    assert Scene.load(tmp_path / "old.json").vessels["load"].floats
-    weighing = submerged()
-    weighing.save(tmp_path / "new.json")
-    assert Scene.load(tmp_path / "new.json") == weighing
-    assert not Scene.load(tmp_path / "new.json").vessels["load"].floats
+@pytest.mark.parametrize("floats", [True, False])
+def test_files_say_whether_it_floats(floats: bool, tmp_path: Path) -> None:
+    scene = submerged(floats=floats)
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+    assert Scene.load(tmp_path / "scene.json").vessels["load"].floats == floats

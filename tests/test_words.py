@@ -13,7 +13,6 @@ from typing import Any
 import pytest
 
 import seacrane
-from seacrane import renamed
 from seacrane.lift.keys import Key
 from seacrane.lift.study_keys import DESIGN, KEEP, RANGE, STATISTICS
 from seacrane.lift.tables import TABLES
@@ -101,25 +100,3 @@ def test_words_stay_only_where_they_are(refused: dict[str, list[str]]) -> None:
 def test_a_start_of_a_run_is_a_state() -> None:
     for call in (seacrane.simulate, seacrane.Run):
         assert inspect.signature(call).parameters["start"].annotation == "Start", call
-
-
-def test_every_old_keyword_is_refused_where_it_was() -> None:
-    """Whatever stands in the table of old names is carried by the call of that name."""
-    scene = seacrane.Scene()
-    of_scenes = ("Line", "LuffingRope")  # elements, which Scene.replace looks up: tests/test_rungs.py
-    for name, older in renamed.KEYWORDS.items():
-        if name in of_scenes:
-            continue
-        outer, _, inner = name.partition(".")
-        call: Any = next(
-            getattr(module, outer)
-            for module in (scene, seacrane, seacrane.sea, seacrane.hydro, seacrane.crane, seacrane.cases,
-                           *(getattr(seacrane, n) for n in dir(seacrane)))
-            if hasattr(module, outer)
-        )  # fmt: skip
-        call = getattr(call, inner) if inner else call
-        for old, new in older.items():
-            with pytest.raises(TypeError, match=re.escape(f"has no keyword {old!r} since 0.3")):
-                call(**{old: None})
-            if " " not in new and not isinstance(call, type):
-                assert new in inspect.signature(call).parameters, (name, new)

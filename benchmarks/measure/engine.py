@@ -69,7 +69,7 @@ def words(table: Path) -> str:
     """The same for a reader."""
     told = measured(table)
     if told is None:
-        return "Engine and machine not recorded: of before version 0.3, or of several."
+        return "Engine and machine not recorded, or of several."
     return f"seacrane {told['seacrane']}, engine {told['engine']}, {told['machine']}, {told['day']}."
 
 

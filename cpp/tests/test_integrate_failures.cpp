@@ -231,12 +231,6 @@ TEST_CASE("options and calls that make no sense are refused with a reason") {
   CHECK_THROWS_WITH_AS(make_integrator(problem(system), options),
                        ("unknown integrator \"euler\"; choose one of " + known).c_str(),
                        std::invalid_argument);
-  options.name = "heun21";
-  CHECK_THROWS_WITH_AS(
-      make_integrator(problem(system), options),
-      ("unknown integrator \"heun21\"; earlier versions had it: take \"bs32\", or choose one of " + known)
-          .c_str(),
-      std::invalid_argument);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const IntegratorProperties& method : integrators()) {

@@ -16,8 +16,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from seacrane.renamed import NAMES
-
 TOP = __name__.partition(".")[0]
 
 
@@ -49,11 +47,11 @@ class Face(ModuleType):
         within = any((Path(path) / f"{name}.py").exists() for path in self.__path__)
         if within or name.startswith("_"):
             return AttributeError(text)
-        now, near = _address(name), get_close_matches(name, self.homes, 1)
-        if now:
+        public, near = _address(name), get_close_matches(name, self.homes, 1)
+        if public:
             asked_by = sys._getframe(2).f_code.co_name
             kind = ImportError if asked_by == "_handle_fromlist" else AttributeError
-            return kind(f"{text}; it is {now}")
+            return kind(f"{text}; it is {public}")
         return AttributeError(text + (f"; did you mean {near[0]!r}?" if near else ""))
 
 
@@ -77,11 +75,11 @@ def _homes(stub: str) -> dict[str, str]:
 
 
 def _address(name: str) -> str | None:
-    """Where a name is public now, or what it is called: at the top before other modules."""
+    """Where a name is public: at the top before other modules."""
     folder = Path(__file__).parent
     top = _homes(str(folder / "__init__.pyi"))
-    if name in NAMES or name in top:
-        return f"{TOP}.{NAMES.get(name, name)}"
+    if name in top:
+        return f"{TOP}.{name}"
     modules = [module for module, home in top.items() if home == TOP]
     return next((f"{TOP}.{one}.{name}" for one in modules if name in _offered(folder / one)), None)
 

@@ -280,14 +280,6 @@ class DriverImpulseWarning(SceneWarning):
     """
 
 
-class RenamedKeysWarning(SceneWarning):
-    """A lift or study file has `version = 1`, of before 0.3, and keys that are called otherwise now.
-
-    It is read as it was meant. The message lists the old keys and the new ones: change them, and write
-    `version = 2`.
-    """
-
-
 class AngleUnitWarning(SceneWarning):
     """An angle looks like degrees where radians are due, or the other way round.
 
@@ -362,9 +354,9 @@ class FreeCraneWarning(SceneWarning):
     """A crane's slew drive, or one of its cylinders or luffs, has no driver, no actuator, no other load on
     its joint, no spring beside it and no luffing rope: its jibs fall from the start.
 
-    It was added with `held=False`, described by hand, or comes from a file of before 0.3. Without
-    `held=False`, `add_crane` holds what nothing acts on; `add_driver` and `add_actuator` move it. Scenes
-    with C functions, which may hold anything, are not judged.
+    It was added with `held=False`, or described by hand. Without `held=False`, `add_crane` holds what nothing
+    acts on; `add_driver` and `add_actuator` move it. Scenes with C functions, which may hold anything, are
+    not judged.
     """
 
 

@@ -231,31 +231,16 @@ def scene_seeds(folder: Path) -> None:
     scene_file.save_scene(every_kind(), folder / "scene.json")
     data = json.loads((folder / "scene.json").read_bytes())
     put("scene", "every-kind", json.dumps(data).encode())
-    put("scene", "of-version-0.1", json.dumps(of_version_0_1(data)).encode())
     zero = np.zeros((2, 3, 6)).tolist()
     headings = [0.0, 3.0]
     hull = data["waves"]["hulls"][0]
     hull |= {"force_by_heading": {"heading": headings, "real": zero, "imaginary": zero}, "drift": zero[0]}
     hull |= {"drift_by_heading": {"heading": headings, "real": zero}}
     put("scene", "hull-of-all-headings", json.dumps(data).encode())
-    del data["waves"]["hulls"]
-    data["waves"] |= {key: value for key, value in hull.items() if key != "heading"}
-    put("scene", "from-before-several-hulls", json.dumps(data).encode())
+    data["vessels"][0]["memory"] = {"step": 0.1, "kernel": np.zeros((3, 6, 6)).tolist()}
+    data["waves"]["current"] = {"depth": [0.0, 20.0], "speed": [1.0, 0.5], "direction_deg": [30.0, 40.0]}
+    put("scene", "convolution-and-current", json.dumps(data).encode())
     put("scene", "every-load", json.dumps(scene_file.described(every_load())).encode())
-
-
-def of_version_0_1(data: dict[str, Any]) -> dict[str, Any]:
-    """The same scene as it was written then: no roles, and notes in place of provenance."""
-    old = json.loads(json.dumps(data))
-    del old["roles"], old["provenance"]
-    old["waves"]["information"] = old["waves"].pop("provenance")
-    old["notes"] |= {"database": {"hull": "ship"}, "database_omega": [0.1, 3], "memory": "none"}
-    for joint in old["joints"]:
-        joint["name"] = {"pin": "A", "wire": "link"}.get(joint["name"], joint["name"])
-    for table in ("actuators", "recorded"):
-        for element in old[table]:
-            element["joint"] = {"pin": "A"}.get(element["joint"], element["joint"])
-    return dict(old)
 
 
 def nemoh_seeds(folder: Path) -> None:

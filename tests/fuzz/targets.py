@@ -293,7 +293,6 @@ _SCENE = (
     "description/file_waves.py",
     "description/file_text.py",
     "description/file_origin.py",
-    "description/old_files.py",
     "inputs/plain_data.py",
     "description/file_elements.py",
 )

@@ -23,26 +23,13 @@ std::vector<Registration> all() {
   return out;
 }
 
-/// Methods of earlier versions, and what to take in their place.
-constexpr struct {
-  const char *name, *instead;
-} former[] = {
-    {"rk4-exact-memory", "rk4"}, {"heun21", "bs32"},
-    {"rk43", "dopri5"},          {"generalized-alpha-index2", "generalized-alpha"},
-    {"ark-erk", "dopri5"},       {"ark-imex", "rosenbrock"},
-    {"ark-mri", "cvode-bdf"},
-};
-
 [[noreturn]] void refuse(const std::string& name) {
-  std::string hint, known;
-  for (const auto& [old, instead] : former) {
-    if (name == old) hint = "earlier versions had it: take \"" + std::string(instead) + "\", or ";
-  }
+  std::string known;
   for (const Registration& method : all()) {
     known += known.empty() ? "" : ", ";
     known += method.properties->name;
   }
-  throw std::invalid_argument("unknown integrator \"" + name + "\"; " + hint + "choose one of " + known);
+  throw std::invalid_argument("unknown integrator \"" + name + "\"; choose one of " + known);
 }
 
 Registration find(const std::string& name) {

@@ -27,7 +27,6 @@ from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
-from seacrane.renamed import refusing
 from seacrane.warnings import ModelErrorWarning
 
 if TYPE_CHECKING:
@@ -67,7 +66,6 @@ class ModelError:
         return np.asarray(np.abs(self.error).max(axis=0))
 
 
-@refusing
 def model_error(
     scene: Scene,
     *,

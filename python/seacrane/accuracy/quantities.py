@@ -17,7 +17,6 @@ from seacrane.description.pick import pick_of
 from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
-from seacrane.renamed import QUANTITIES
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -87,8 +86,6 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
     channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
     out = {}
     for name in names:
-        if name in QUANTITIES:
-            raise SceneError(f"quantity {name!r} is {QUANTITIES[name]!r} since 0.3")
         found = offered[name] if name in offered else _picked(name)
         if name not in offered and not set(found.channels) <= set(channels):
             raise SceneError(

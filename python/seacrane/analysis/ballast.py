@@ -25,7 +25,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
 from seacrane.plotting.text import text_table
-from seacrane.renamed import refusing
 from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
@@ -81,7 +80,6 @@ class Ballast:
         return f"{told}\n{text_table(['tank', 'content [t]', 'change [t]'], rows, right=(1, 2))}"
 
 
-@refusing
 def add_ballast(
     scene: Description,
     *,

@@ -20,7 +20,6 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
 from seacrane.one_thread import one_thread
-from seacrane.renamed import refusing
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -29,7 +28,6 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-@refusing
 @one_thread
 def motion_rao(
     scene: Description | LinearModel,

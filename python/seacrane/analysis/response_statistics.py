@@ -32,7 +32,6 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
-from seacrane.renamed import refusing
 from seacrane.sea.crossings import level_crossed
 from seacrane.sea.spreading import Spreading
 from seacrane.warnings import EncounterFrequencyWarning
@@ -128,7 +127,6 @@ class ResponseStatistics:
         return np.asarray(self.std * levels)
 
 
-@refusing
 @one_thread
 def response_statistics(
     scene: Description | LinearModel,

@@ -11,8 +11,8 @@ from seacrane.answers.registry import SECTIONS
 from seacrane.answers.section import compose
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.earlier import GENERATOR, check_replaceable
 from seacrane.inputs.frames import AXES_NOTE
+from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.result import Result
 
 HEIGHT = 640  # pixels of the frame in a notebook

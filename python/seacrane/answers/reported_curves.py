@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.suspension import ROD
 from seacrane.description.wet_parts import immersed_depths, immersed_parts, wet_names
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.pictures.overview import payload_bodies
 from seacrane.result import Result
 from seacrane.result.traces import NO_ENERGY, NO_MOTION, Trace, beyond_rounding, traces
 from seacrane.run.hanging import swing_of
@@ -271,23 +269,8 @@ def hanging_vectors(result: Result) -> dict[str, Array]:
 
 
 def hung_in(result: Result) -> list[Mapping[str, Any]]:
-    """What hangs, as the run noted it; of results of before 0.3 what hangs on one link."""
-    if result.about.hung:
-        return list(result.about.hung)
-    found: list[Mapping[str, Any]] = []
-    for body in payload_bodies(result):
-        own = [link for link in result.about.outline.get("links", []) if link[2] == body]
-        crane = next((one for one in result.about.cranes if one["payload"] == body and one["link"]), None)
-        if len(own) == 1:
-            first, first_point, _, point = own[0]
-            link = "" if crane is None else str(crane["link"])
-            found.append({
-                "label": "" if crane is None else f"{crane['prefix']}hook",
-                "crane": None if crane is None else crane["prefix"],
-                "suspension": link, "top": link, "parts": [link], "rung": ROD, "load": body,
-                "from": [first, first_point], "to": [body, point],
-            })  # fmt: skip
-    return found
+    """What hangs, as the run noted it."""
+    return list(result.about.hung)
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:

@@ -8,7 +8,7 @@ from html import escape
 from typing import Generic, TypeVar
 
 from seacrane.errors import FileFormatError
-from seacrane.inputs.earlier import GENERATOR
+from seacrane.inputs.replaceable import GENERATOR
 
 Subject = TypeVar("Subject")
 STYLE = """

@@ -21,7 +21,6 @@ from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
-from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.utilisation import Utilisation
 
@@ -197,7 +196,6 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
-@refusing
 def summary(
     result: Result,
     *,

@@ -32,7 +32,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, positive_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 
 Array = npt.NDArray[np.float64]
 PAYLOAD = "payload"
@@ -41,7 +40,6 @@ POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
 
-@refusing
 def add_crane(
     scene: Description,
     crane: KnuckleBoomCrane | JointedCrane | None = None,

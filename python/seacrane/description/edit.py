@@ -14,7 +14,6 @@ from seacrane.description.range import Range
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import KEYWORDS
 
 EDITED = (
     *ELEMENTS,
@@ -59,9 +58,8 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     unknown = [argument for argument in changes if argument not in arguments]
     if unknown or "name" in changes:
         known = ", ".join(argument for argument in arguments if argument != "name")
-        first, older = [*unknown, "name"][0], KEYWORDS.get(type(old).__name__, {})
-        has = f"since 0.3 it is {older[first]!r}" if first in older else f"it has {known}"
-        raise SceneError(f"{what}: cannot change {first!r}; {has}")
+        first = [*unknown, "name"][0]
+        raise SceneError(f"{what}: cannot change {first!r}; it has {known}")
     if changes.get("database") is not None:
         require_alike(scene, old, changes["database"])
     for argument, value in changes.items():

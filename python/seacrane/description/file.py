@@ -1,9 +1,9 @@
 """Scene files: a scene as JSON. Data only; reading one runs no code and takes bounded memory.
 
 A file is an object with "format", "version" and one entry per field of `Scene`; elements are lists of
-objects with the FIELDS of the core's classes, in the order in which they were added; what is missing takes
-its default. SI units, radians, the frames of `Scene`. Numbers are written with as many digits as it takes
-to read back the same double.
+objects with the FIELDS of the core's classes, in the order in which they were added. Every entry is there:
+one that is missing is refused. SI units, radians, the frames of `Scene`. Numbers are written with as many
+digits as it takes to read back the same double.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from seacrane.description.file_elements import (
 )
 from seacrane.description.file_origin import (
     provenance_from_node,
-    provenance_to_data,
     roles_from_node,
     roles_to_data,
 )
@@ -43,7 +42,6 @@ from seacrane.description.joints import add_joint
 from seacrane.description.lift_factors import lift_factors_from_node, lift_factors_to_data
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
-from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.own_channels import own_channels_from_node, own_channels_to_data
 from seacrane.description.ratings import ratings_from_node, ratings_to_data
 from seacrane.description.recorded import add_point, add_range, record_coordinate
@@ -51,11 +49,11 @@ from seacrane.description.relatives import relatives_from_node, relatives_to_dat
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import notes_from_node, plain_data
 
 FORMAT = "seacrane scene"
-VERSION = 1
 
 _CLASSES: dict[str, type] = {
     "bodies": _core.Body,
@@ -81,22 +79,6 @@ _ADD: dict[str, Callable[..., Any]] = {
     "groups": add_group,
     "points": add_point,
 }
-_ADDED_LATER: dict[str, Any] = {
-    "loads": [],
-    "groups": [],
-    "points": [],
-    "ranges": [],
-    "limit_states": [],
-    "clearances": [],
-    "relatives": [],
-    "channels": [],
-    "ratings": [],
-    "lift_factors": [],
-    "roles": None,
-    "provenance": None,
-    "meshes": [],
-    "databases": [],
-}  # what older files of this version lack
 UNMOVING = (
     "notes", "provenance", "limit_states", "clearances", "ratings", "lift_factors", "meshes",
 )  # tables  # fmt: skip
@@ -127,7 +109,7 @@ def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
         )
     try:
         text = json.dumps(described(scene), indent=1, allow_nan=False)
-        written = _ADDED_LATER | json.loads(text) | {"databases": []}  # checked when they were made
+        written = json.loads(text) | {"databases": []}  # checked when they were made
         _scene(Node(written, f"scene {scene.name!r}"), Description())
     except SceneError:
         raise
@@ -176,10 +158,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
     root = Node(parsed(data, place), place)
     if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
         raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
-    version = root.at("version").whole()
-    if version != VERSION:
-        raise FileFormatError(f"{place}: is of version {version}; this seacrane reads version {VERSION}")
-    root = Node({**_ADDED_LATER, **root.value}, place)
+    require_file_version(place, root.value.get("version"))
     fields = (
         "format",
         "version",
@@ -217,7 +196,7 @@ def scene_digest(scene: Description) -> str:
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
         if not free_drives(scene, scene.roles[roles["prefix"]]):
-            roles.pop("held", None)  # nothing is, and scenes of before 0.3 have no such entry
+            roles.pop("held", None)  # nothing is, whether it would be or not
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -255,43 +234,27 @@ def _scene(root: Node, scene: Some) -> Some:
     for node in root.at("meshes").items():
         mesh_from_node(node, scene)
     scene.notes = notes_from_node(root.at("notes"))
-    _origin(root, scene)
+    roles_from_node(root.at("roles"), scene)
+    provenance_from_node(root.at("provenance"), scene)
     databases_from_node(root.at("databases"), scene)
     return scene
 
 
-def _origin(root: Node, scene: Description) -> None:
-    """Roles and provenance; of files without them, what their names and notes tell."""
-    roles, provenance = root.at("roles"), root.at("provenance")
-    if roles.value is None:
-        roles_by_name(scene)
-    else:
-        roles_from_node(roles, scene)
-    if provenance.value is None:
-        provenance_from_notes(scene)
-    else:
-        provenance_from_node(provenance, scene)
-
-
 def described(scene: Description) -> dict[str, Any]:
     """The scene as plain data."""
-    databases = databases_to_data(scene)
-    return _elements(scene) | ({"databases": databases} if databases else {})
+    return _elements(scene) | {"databases": databases_to_data(scene)}
 
 
 def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
     out: dict[str, Any] = {
         "format": FORMAT,
-        "version": VERSION,
+        "version": FILE_VERSION,
         "name": scene.name,
         "orientation": scene.orientation,
     }
     out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
-    for kind in _CLASSES:
-        # Digests of scenes without groups and points are those of older versions.
-        if kind not in ("groups", "points") or getattr(scene, kind):
-            out[kind] = [element_to_data(element) for element in getattr(scene, kind).values()]
+    out |= {kind: [element_to_data(one) for one in getattr(scene, kind).values()] for kind in _CLASSES}
     for data, joint in zip(out["joints"], scene.joints.values(), strict=True):
         data["parameters"] = joint.parameters
     out["loads"] = [load_to_data(element) for element in scene.loads.values()]
@@ -301,20 +264,15 @@ def _elements(scene: Description) -> dict[str, Any]:
         for name, (joint, coordinate) in scene.recorded.items()
     ]
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
+    out["limit_states"] = limit_states_to_data(scene)
+    out["clearances"] = clearances_to_data(scene)
+    out["relatives"] = relatives_to_data(scene)
+    out["channels"] = own_channels_to_data(scene)
+    out["ratings"] = ratings_to_data(scene)
+    out["lift_factors"] = lift_factors_to_data(scene)
     out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
-    out["provenance"] = [
-        {"name": name, **provenance_to_data(known)} for name, known in scene.provenance.items()
-    ]
-    later = {
-        "limit_states": limit_states_to_data(scene),
-        "clearances": clearances_to_data(scene),
-        "relatives": relatives_to_data(scene),
-        "channels": own_channels_to_data(scene),
-        "ratings": ratings_to_data(scene),
-        "lift_factors": lift_factors_to_data(scene),
-        "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
-    }
-    out |= {key: value for key, value in later.items() if value}  # as for points
+    out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
+    out["meshes"] = [mesh_to_data(mesh) for mesh in scene.meshes.values()]
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 
@@ -331,15 +289,9 @@ def _add(scene: Description, kind: str, node: Node) -> None:
 
 
 def _parameters(node: Node, entries: dict[str, Any]) -> dict[str, float]:
-    """Takes a joint's own numbers out of its entries; in older files every joint has a "length"."""
-    if "length" in entries:
-        length = node.at("length").number()
-        del entries["length"]
-        return {"length": length} if length or entries.get("kind") == "distance" else {}
-    if "parameters" not in entries:
-        return {}
-    del entries["parameters"]
+    """Takes a joint's own numbers out of its entries."""
     given = node.at("parameters")
+    del entries["parameters"]
     if not isinstance(given.value, dict):
         given.fail("give an object with numbers")
     return {key: given.at(key).number() for key in given.value}

@@ -9,47 +9,24 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.loads import LOAD_KINDS, kind_of
-from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError
 from seacrane.inputs.node import Node
-
-# Entries that came after files with elements of their kind: written where they are not as usual, so that
-# older scenes keep their digests.
-_ADDED_LATER: Mapping[type, frozenset[str]] = {
-    _core.Body: frozenset(("size",)),
-    VesselHydrodynamics: frozenset(("floats",)),
-    _core.Line: frozenset(
-        ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",
-         "maximum_power", "brake", "brake_capacity", "brake_give", "radii", "axes", "turns", "efficiencies",
-         "frictions", "slip_speed", "strains", "tensions")
-    ),
-}  # fmt: skip
-# Entries that files name as 0.2 did: scenes keep their digests, and 0.2 reads them.
-_IN_FILES: Mapping[type, Mapping[str, str]] = {_core.Line: {"EA": "stiffness", "rung": "stretch"}}
 
 
 def element_to_data(element: Any) -> dict[str, Any]:
     """An element's entries as plain data."""
-    later, keys = _ADDED_LATER.get(type(element), frozenset()), _IN_FILES.get(type(element), {})
-    values = {field: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
-    return {
-        keys.get(field.name, field.name): value
-        for field, value in values.items()
-        if field.name not in later or value != _plain(field.default)
-    }
+    return {field.name: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
 
 
 def element_from_node(kind: type, node: Node, keys: Mapping[str, str] | None = None) -> dict[str, Any]:
-    """The arguments of an element from what `element_to_data` wrote; what is missing takes its default.
+    """The arguments of an element from what `element_to_data` wrote.
 
     `keys`: entries of the file that are named otherwise than the arguments. Raises FileFormatError.
     """
-    spelt = {**_IN_FILES.get(kind, {}), **(keys or {})}
+    spelt = keys or {}
     fields = {spelt.get(field.name, field.name): field for field in kind.FIELDS}  # type: ignore[attr-defined]
-    node.expect(
-        [k for k, f in fields.items() if f.required], [k for k, f in fields.items() if not f.required]
-    )
-    return {f.name: _value(node.at(k), f) for k, f in fields.items() if k in node.value}
+    node.expect([*fields])
+    return {field.name: _value(node.at(key), field) for key, field in fields.items()}
 
 
 def load_to_data(element: Any) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import fields
 from typing import Any
 
 from seacrane.description.crane_parts import add_roles
@@ -15,69 +15,54 @@ from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
-# older files lack them
-_NEWER = ("memory_error", "free_surface", "slack_tanks", "record")  # not in files of older versions
-_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", *_NEWER))
-TEXTS = ("line", "structure")  # roles that are there or not
-_ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
+_TEXTS = ("link", "line", "payload", "structure")  # roles that are there or not
+_ROLES = (
+    "prefix", "slew", "cylinders", "tip", "capacity", "areas", "luffs", "ropes", "held", "design_factor",
+    *_TEXTS,
+)  # fmt: skip
+_VESSEL = tuple(one.name for one in fields(VesselProvenance))
 
 
 def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
     """As plain data."""
     slew, tip = roles.slew, roles.tip
-    more: dict[str, Any] = {"capacity": [list(row) for row in roles.capacity]} if roles.capacity else {}
-    if roles.areas:
-        more["areas"] = [{"name": name, "areas": list(pair)} for name, pair in roles.areas.items()]
-    if roles.luffs:
-        more["luffs"] = [
-            {"name": name, "joint": joint, "coordinate": coordinate}
-            for name, (joint, coordinate) in roles.luffs.items()
-        ]
-    if roles.ropes:
-        more["ropes"] = [{"luff": label, **_rope_to_data(rope)} for label, rope in roles.ropes.items()]
-    if roles.held:
-        more["held"] = True
-    if roles.design_factor != 1.0:
-        more["design_factor"] = roles.design_factor
-    more |= {key: name for key in TEXTS if (name := getattr(roles, key))}
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
         "cylinders": [{"name": name, "joint": joint} for name, joint in roles.cylinders.items()],
-        "link": roles.link,
-        "payload": roles.payload,
         "tip": None if tip is None else {"body": tip[0], "point": list(tip[1])},
-    } | more  # what is not there is not written: digests of older scenes stay
+        "capacity": [list(row) for row in roles.capacity],
+        "areas": [{"name": name, "areas": list(pair)} for name, pair in roles.areas.items()],
+        "luffs": [
+            {"name": name, "joint": joint, "coordinate": coordinate}
+            for name, (joint, coordinate) in roles.luffs.items()
+        ],
+        "ropes": [{"luff": label, **_rope_to_data(rope)} for label, rope in roles.ropes.items()],
+        "held": roles.held,
+        "design_factor": roles.design_factor,
+        **{key: getattr(roles, key) for key in _TEXTS},
+    }
 
 
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(
-            _ROLES, optional=("capacity", "areas", "luffs", "ropes", "held", "design_factor", *TEXTS)
-        )
-        parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
+        entry.expect(_ROLES)
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
-        found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
-        if parts["slew"] is not None:
-            found["slew"] = tuple(_texts(parts["slew"], "joint", "coordinate"))
-        if parts["tip"] is not None:
-            parts["tip"].expect(("body", "point"))
-            found["tip"] = (parts["tip"].at("body").text(), parts["tip"].at("point").array((3,)))
-        if "capacity" in entry.value:  # which files of 0.1 lack
+        found |= {key: part.text() for key in _TEXTS if (part := _optional(entry, key)) is not None}
+        if (slew := _optional(entry, "slew")) is not None:
+            found["slew"] = tuple(_texts(slew, "joint", "coordinate"))
+        if (tip := _optional(entry, "tip")) is not None:
+            tip.expect(("body", "point"))
+            found["tip"] = (tip.at("body").text(), tip.at("point").array((3,)))
+        if entry.at("capacity").values():
             found["capacity"] = entry.at("capacity").array((-1, 2))
-        if "areas" in entry.value:
-            found["areas"] = _areas(entry)
-        if "luffs" in entry.value:
-            rows = [_texts(one, "name", "joint", "coordinate") for one in entry.at("luffs").items()]
-            found["luffs"] = {name: (joint, coordinate) for name, joint, coordinate in rows}
-        if "ropes" in entry.value:
-            found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
-        found |= {key: entry.at(key).text() for key in TEXTS if key in entry.value}
-        if "design_factor" in entry.value:
-            found["design_factor"] = entry.at("design_factor").number()
-        if "held" in entry.value:  # files of before 0.3 lack it: a crane that nothing held was free
-            found["held"] = entry.at("held").flag()
+        rows = [_texts(one, "name", "joint", "coordinate") for one in entry.at("luffs").items()]
+        found["luffs"] = {name: (joint, coordinate) for name, joint, coordinate in rows}
+        found["areas"] = _areas(entry)
+        found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
+        found["design_factor"] = entry.at("design_factor").number()
+        found["held"] = entry.at("held").flag()
         with entry.scene_errors():
             add_roles(scene, **found)
 
@@ -107,7 +92,7 @@ def _areas(node: Node) -> dict[str, Any]:
 
 def _rope_to_data(rope: LuffingRope) -> dict[str, Any]:
     ends = {key: {"body": body, "point": list(point)} for key, (body, point) in _ends(rope).items()}
-    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.EA} | ends
+    return {"name": rope.name, "falls": rope.falls, "EA": rope.EA} | ends
 
 
 def _ends(rope: LuffingRope) -> dict[str, tuple[str, Vector]]:
@@ -116,28 +101,21 @@ def _ends(rope: LuffingRope) -> dict[str, tuple[str, Vector]]:
 
 def _rope_from_node(node: Node) -> tuple[str, LuffingRope]:
     """The hinge's label, and the rope."""
-    node.expect(("luff", "name", "falls", "stiffness", "first", "second"))
+    node.expect(("luff", "name", "falls", "EA", "first", "second"))
     ends = {}
     for key in ("first", "second"):
         node.at(key).expect(("body", "point"))
         x, y, z = node.at(key).at("point").array((3,)).tolist()
         ends[key] = (node.at(key).at("body").text(), (x, y, z))
-    falls, axial = (node.at(key).number() for key in ("falls", "stiffness"))
+    falls, axial = (node.at(key).number() for key in ("falls", "EA"))
     rope = LuffingRope(name=node.at("name").text(), falls=int(falls), EA=axial, **ends)
     return node.at("luff").text(), rope
-
-
-def provenance_to_data(known: VesselProvenance) -> dict[str, Any]:
-    """Its entries; newer ones only where they are known, as files of older versions have none."""
-    return {key: value for key, value in asdict(known).items() if value is not None or key not in _NEWER}
 
 
 def provenance_from_node(node: Node, scene: Description) -> None:
     """Give a scene's vessels the provenance that a file holds; raises FileFormatError."""
     for entry in node.items():
-        if isinstance(entry.value, dict):
-            entry = Node({**_GIVEN, **entry.value}, entry.path)
-        entry.expect(("name", "database", "omega", "memory", *_GIVEN))
+        entry.expect(("name", *_VESSEL))
         known: dict[str, Any] = {}
         for key, count in (("omega", 2), ("size", 3), ("free_surface", 3), ("slack_tanks", 2)):
             row = _optional(entry, key)

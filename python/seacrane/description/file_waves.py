@@ -9,43 +9,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.file_origin import sea_from_node, sea_to_data
-from seacrane.description.old_files import sea_of
-from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.inputs.node import Node
-from seacrane.inputs.plain_data import notes_from_node
 from seacrane.sea.current import Current
 
-OLD = "information"  # what version 0.1 calls the provenance
 _ARRAYS = ("omega", "amplitude", "phase", "direction")
 _TRANSFER = ("transfer_real", "transfer_imaginary")
-# Entries that older files do not have.
-_ADDED_LATER: dict[str, Any] = {
-    "evaluation": "table",
-    "negligible": 1e-9,
-    "current": None,
-    "stretching": "wheeler",
-}
+_WAVES = (
+    "relative_bound", "depth", "evaluation", "negligible", "current", "stretching", *_ARRAYS, "hulls",
+    "provenance",
+)  # fmt: skip
 _CURRENT = ("depth", "speed", "direction_deg")
-_HULL_ADDED_LATER: dict[str, Any] = {
-    "heading": 0.0,
-    "force_by_heading": None,
-    "drift": None,
-    "drift_by_heading": None,
-    "cutoff": 0.0,
-}
-_HULL = ("body", "position", *_TRANSFER, *_HULL_ADDED_LATER)
+_HULL = (
+    "body", "position", "heading", "cutoff", *_TRANSFER, "force_by_heading", "drift", "drift_by_heading",
+)  # fmt: skip
 
 
 def waves_to_data(waves: Waves) -> dict[str, Any]:
-    """As plain data; what 0.2 did not know stands there where it is said, so that digests stay."""
+    """As plain data."""
     out: dict[str, Any] = {"relative_bound": float(waves.relative_bound)}
     out["depth"] = None if waves.depth == math.inf else float(waves.depth)
     out["evaluation"], out["negligible"] = waves.evaluation, float(waves.negligible)
-    if waves.current is not None:
-        out["current"] = {key: np.asarray(getattr(waves.current, key)).tolist() for key in _CURRENT}
-    if waves.stretching != _ADDED_LATER["stretching"]:
-        out["stretching"] = waves.stretching
+    current = waves.current
+    out["current"] = None if current is None else {
+        key: np.asarray(getattr(current, key)).tolist() for key in _CURRENT
+    }  # fmt: skip
+    out["stretching"] = waves.stretching
     out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS}
     out["hulls"] = [_hull_to_data(body, hull) for body, hull in waves.hulls.items()]
     out["provenance"] = sea_to_data(waves.provenance)
@@ -58,6 +47,7 @@ def _hull_to_data(body: str, hull: HullLoads) -> dict[str, Any]:
     out["heading"], out["cutoff"] = float(hull.heading), float(hull.cutoff)
     out |= {"transfer_real": transfer.real.tolist(), "transfer_imaginary": transfer.imag.tolist()}
     force, drift = hull.force_by_heading, hull.drift_by_heading
+    out |= dict.fromkeys(("force_by_heading", "drift", "drift_by_heading"))
     if force is not None:
         values = np.asarray(force.values, dtype=complex)
         parts = {"real": values.real.tolist(), "imaginary": values.imag.tolist()}
@@ -67,34 +57,29 @@ def _hull_to_data(body: str, hull: HullLoads) -> dict[str, Any]:
     if drift is not None:
         heading, values = np.asarray(drift.heading), np.asarray(drift.values, dtype=float)
         out["drift_by_heading"] = {"heading": heading.tolist(), "real": values.tolist()}
-    return {**_HULL_ADDED_LATER, **out}
+    return out
 
 
 def waves_from_node(node: Node) -> Waves:
     """What `waves_to_data` wrote; raises FileFormatError."""
-    if isinstance(node.value, dict):
-        node = Node({**_ADDED_LATER, **_one_hull_as_list(node.value)}, node.path)
-    told = OLD if isinstance(node.value, dict) and OLD in node.value else "provenance"
-    node.expect(("relative_bound", "depth", *_ARRAYS, *_ADDED_LATER, "hulls", told))
+    node.expect(_WAVES)
     depth, count = node.at("depth"), len(node.at("omega").values())
     hulls: dict[str, HullLoads] = {}
     for entry in node.at("hulls").items():
-        if isinstance(entry.value, dict):
-            entry = Node({**_HULL_ADDED_LATER, **entry.value}, entry.path)
         entry.expect(_HULL)
         body = entry.at("body").text()
         if body in hulls:
             entry.at("body").fail("is in the list twice; give every vessel once")
         hulls[body] = _hull_from_node(entry, count)
-    tables: dict[str, Any] = _tables(node.at("relative_bound").number(), node.at("evaluation").text())
     arrays: dict[str, Any] = {key: node.at(key).array((count,)) for key in _ARRAYS}
     return Waves(
         depth=math.inf if depth.value is None else depth.number(),
-        **tables,
+        relative_bound=node.at("relative_bound").number(),
+        evaluation=node.at("evaluation").text(),
         negligible=node.at("negligible").number(),
         current=_current_from_node(node.at("current")),
         stretching=node.at("stretching").text(),
-        provenance=_provenance(node.at(told), told),
+        provenance=sea_from_node(node.at("provenance")),
         hulls=hulls,
         **arrays,
     )
@@ -105,24 +90,6 @@ def _current_from_node(node: Node) -> Current | None:
         return None
     node.expect(_CURRENT)
     return Current(**{key: node.at(key).array((-1,)) for key in _CURRENT})
-
-
-def _provenance(node: Node, told: str) -> SeaProvenance:
-    return sea_of(notes_from_node(node)) if told == OLD else sea_from_node(node)
-
-
-def _tables(bound: float, evaluation: str) -> dict[str, Any]:
-    """Older files have a bound of 0 for an exact sum."""
-    return {"evaluation": "exact"} if bound == 0.0 else {"relative_bound": bound, "evaluation": evaluation}
-
-
-def _one_hull_as_list(data: dict[str, Any]) -> dict[str, Any]:
-    """Older files have the loads of one vessel among the sea's entries."""
-    if "hulls" in data:
-        return data
-    out = {key: value for key, value in data.items() if key not in _HULL}
-    out["hulls"] = [{key: data[key] for key in _HULL if key in data}]
-    return out
 
 
 def _hull_from_node(node: Node, count: int) -> HullLoads:

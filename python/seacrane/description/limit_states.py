@@ -14,14 +14,12 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 
 KEYS = ("name", "channel", "maximum", "minimum")
 SLACK = "slack"  # in place of a channel: the margin that marine operations are planned with
 SLACK_MARGIN = 0.1  # of the static tension: 10 % as DNV-RP-N103 is quoted to ask for; unverified
 
 
-@refusing
 def add_limit_state(
     scene: Description,
     channel: str,
@@ -97,11 +95,9 @@ def limit_states_to_data(scene: Description) -> list[dict[str, Any]]:
 def limit_states_from_node(node: Node, scene: Description) -> None:
     """Give a scene the limit states that `limit_states_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        older = isinstance(entry.value, dict) and "where" in entry.value  # of before 0.3
-        named = "where" if older else "names"
-        entry.expect((*KEYS, named))
+        entry.expect((*KEYS, "names"))
         bounds = {key: entry.at(key).number_or_none() for key in ("maximum", "minimum")}
-        names = entry.at(named)
+        names = entry.at("names")
         if not isinstance(names.value, dict):
             names.fail("give an object with names")
         given = {dim: names.at(dim).text() for dim in names.value}

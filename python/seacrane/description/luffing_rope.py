@@ -7,14 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.renamed import refusing
-
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Block = tuple[str, Vector]
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True)
 class LuffingRope:
     """A rope of several falls between blocks on both sides of a hinge.

@@ -38,7 +38,6 @@ from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -151,7 +150,6 @@ class Ensemble:
         return _ensemble(members, store.dataset(members), lanes_in(data))
 
 
-@refusing
 def ensemble(
     source: Source,
     *,

@@ -15,7 +15,6 @@ from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.result import Result
 
 NUMBERS: Mapping[str, Callable[..., Any]] = {
@@ -34,7 +33,6 @@ TEXTS = {
 }
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True)
 class Kept:
     """One channel of a run, or a number for it.

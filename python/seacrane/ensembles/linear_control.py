@@ -16,7 +16,6 @@ from seacrane.ensembles.linear_motions import LinearMotions, Motion, motion_of
 from seacrane.ensembles.members import Value
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -44,7 +43,6 @@ class _Control(ABC):
         return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
 
 
-@refusing
 class LinearControl(_Control):
     """A motion of the linearised scene, from rest, in the waves of any seed.
 
@@ -95,7 +93,6 @@ class LinearControl(_Control):
         return np.asarray(self._motions.series(seed)[0])
 
 
-@refusing
 class HookLoadControl(_Control):
     """The load in a link by the linear motions of its ends, to second order in the swing.
 

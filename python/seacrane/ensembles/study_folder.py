@@ -13,6 +13,7 @@ from typing import Any
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.drafts import is_draft, remove_all
+from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.json_text import json_of
 from seacrane.inputs.sole_writer import claim, opened
 from seacrane.inputs.whole_file import read_whole
@@ -82,6 +83,7 @@ def study_in(folder: Path) -> dict[str, Any]:
     data = json_of(read_whole(path, LARGEST_STUDY, "it is no study of ours"), str(path))
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise FileFormatError(f'{path}: is no study, it has no "format": "{FORMAT}"')
+    require_file_version(path, data.get("version"))
     return data
 
 
@@ -91,7 +93,7 @@ def _holds_files(folder: Path) -> bool:
 
 def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
-    whole = {"format": FORMAT, **study}
+    whole = {"format": FORMAT, "version": FILE_VERSION, **study}
     path = records_of(folder) / STUDY
     if not path.exists():
         with atomic_write(path, tidy=False) as draft:

@@ -76,18 +76,18 @@ def mark_text(indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]]) -> 
     return {"members": list(indices), "chunks": {name: list(each) for name, each in chunks.items()}}
 
 
-def read_mark(path: Path) -> tuple[list[int], dict[str, list[Noted]] | None]:
-    """Members of a pack, and what it left of each; None in a mark that tells no chunks.
+def read_mark(path: Path) -> tuple[list[int], dict[str, list[Noted]]]:
+    """Members of a pack, and what it left of each.
 
     Raises FileFormatError if it is no mark.
     """
     found = json_of(read_whole(path, LARGEST_MARK, "no mark of a pack is"), str(path))
-    members = found.get("members") if isinstance(found, dict) else found
-    chunks = found.get("chunks", {}) if isinstance(found, dict) else None
+    told: dict[str, Any] = found if isinstance(found, dict) else {}
+    members, chunks = told.get("members"), told.get("chunks")
     sound = isinstance(members, list) and all(type(one) is int and one >= 0 for one in members)
-    if not (sound and members and (chunks is None or _are_noted(chunks, len(members)))):
+    if not (members and sound and _are_noted(chunks, len(members))):
         raise FileFormatError(f"{path}: is no mark of a pack")
-    return members, chunks
+    return list(members), dict(chunks or {})
 
 
 def _are_noted(chunks: Any, count: int) -> bool:

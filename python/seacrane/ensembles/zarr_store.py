@@ -91,8 +91,8 @@ class ZarrStore:
     def lost(self, pack: int, indices: Sequence[int]) -> str:
         try:
             members, chunks = read_mark(self._mark(pack))
-            if members != list(indices) or chunks is None:
-                return f"{self._mark(pack)}: is of other members, or tells no chunks"
+            if members != list(indices):
+                return f"{self._mark(pack)}: is of other members"
             return next((f"{file} {what}" for _, file, what in self._wrong(members, chunks, read=True)), "")
         except DAMAGED as error:
             return str(error)[:200]
@@ -185,7 +185,7 @@ class ZarrStore:
             members, chunks = read_mark(self._mark(pack))
             if max(members) >= self._room:
                 raise ValueError(f"pack {pack} is of members that are not there")
-            for index, file, what in self._wrong(members, chunks or {}, read=False):
+            for index, file, what in self._wrong(members, chunks, read=False):
                 if what != MISSING:
                     raise ValueError(f"{file} {what}")
                 if index < count:
@@ -201,7 +201,7 @@ class ZarrStore:
         self, indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]], *, read: bool
     ) -> Iterator[tuple[int, str, str]]:
         """Members, their chunks that are not as a mark tells, and why."""
-        for name, files in self._files(indices) if chunks else ():
+        for name, files in self._files(indices):
             told = chunks.get(name, [None] * len(indices))
             for index, file, there in zip(indices, files, told, strict=True):
                 if what := wrong(file, there, read=read):

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 
-# Machine, process and chance; those of 0.1 tell chance alone.
-_DRAFT = re.compile(r"\.(?P<target>.+)\.(?:(?P<here>[0-9a-f]{6})-(?P<process>[0-9a-f]+)-)?[0-9a-f]{8}\.tmp")
+# Machine, process and chance.
+_DRAFT = re.compile(r"\.(?P<target>.+)\.(?P<here>[0-9a-f]{6})-(?P<process>[0-9a-f]+)-[0-9a-f]{8}\.tmp")
 
 
 def draft_of(target: Path) -> Path:
@@ -46,7 +46,7 @@ def _remove(folder: Path, wanted: Callable[[re.Match[str]], bool]) -> None:
 
 
 def _is_gone(name: re.Match[str]) -> bool:
-    if os.name == "nt" or name["process"] is None or name["here"] != _here():
+    if os.name == "nt" or name["here"] != _here():
         return False
     try:
         os.kill(int(name["process"], 16), 0)

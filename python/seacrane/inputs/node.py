@@ -37,18 +37,17 @@ class Node:
         except (SceneError, TypeError) as error:
             raise FileFormatError(f"{self.path}: {error}") from error
 
-    def expect(self, keys: Sequence[str], optional: Sequence[str] = ()) -> None:
-        """Fail unless this is an object with these keys, and no others than the optional ones."""
-        known = (*keys, *optional)
+    def expect(self, keys: Sequence[str]) -> None:
+        """Fail unless this is an object with these keys, and no others."""
         if not isinstance(self.value, dict):
-            self.fail(f"give an object with {', '.join(known)}")
+            self.fail(f"give an object with {', '.join(keys)}")
         missing = [key for key in keys if key not in self.value]
-        unknown = [key for key in self.value if key not in known]
+        unknown = [key for key in self.value if key not in keys]
         if missing:
             raise FileFormatError(f"{self.path}: has no {missing[0]!r}; add it")
         if unknown:
             raise FileFormatError(
-                f"{self.path}: has an unknown entry {shown(unknown[0])}; known are {', '.join(known)}"
+                f"{self.path}: has an unknown entry {shown(unknown[0])}; known are {', '.join(keys)}"
             )
 
     def at(self, key: str) -> Node:

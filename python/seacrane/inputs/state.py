@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state_parts import require_parts
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane state\n"
-VERSION = 1
 DIGEST = hashlib.sha256().digest_size
 LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
@@ -84,7 +84,7 @@ def state_to_bytes(state: _core.State) -> bytes:
         }
     flat = {name: np.asarray(values, dtype="<f8").ravel() for name, values in arrays.items()}
     header = {
-        "version": VERSION,
+        "version": FILE_VERSION,
         "formulation": steps.formulation,
         "integrator": steps.integrator,
         "parts": state.parts,
@@ -112,7 +112,7 @@ def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None)
     FileNotFoundError
         If there is no such file.
     FileFormatError
-        If it is not a state file, is truncated or damaged, is of a later version, or belongs to a scene of
+        If it is not a state file, is truncated or damaged, is of another version, or belongs to a scene of
         other bodies, memory or inputs than `scene`.
     """
     path = Path(path)
@@ -148,7 +148,11 @@ def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]
     end = data.find(b"\n", len(MAGIC), len(MAGIC) + LARGEST_HEADER)
     try:
         header = json.loads(data[len(MAGIC) : end] if end > 0 else b"")
+        if isinstance(header, dict):
+            require_file_version(path, header.get("version"))
         counts = _counts(header, len(body) - end - 1)
+    except FileFormatError:
+        raise
     except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise FileFormatError(f"{path}: has an unreadable header: {error}; save the state again") from error
     arrays, at = {}, end + 1
@@ -166,9 +170,6 @@ def _counts(header: Any, room: int) -> dict[str, int]:
     """Numbers in each array; ValueError unless they fill the room of so many bytes."""
     if not isinstance(header, dict):
         raise ValueError("it is not an object")
-    version = header["version"]
-    if version != VERSION:
-        raise ValueError(f"version {shown(version)}, and this seacrane reads version {VERSION}")
     counts: dict[str, int] = {}
     for name, count in header["arrays"]:
         if not isinstance(name, str) or name in counts or type(count) is not int or not 0 <= count <= room:

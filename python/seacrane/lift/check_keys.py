@@ -11,17 +11,13 @@ from types import MappingProxyType
 from typing import Any
 
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
-from seacrane.lift.document import VERSION, Document
+from seacrane.lift.document import Document
 from seacrane.lift.keys import Key
 from seacrane.lift.tables import CURVES, FROM, TABLES, Table
 from seacrane.lift.text_lines import Place
-from seacrane.lift.toml_text import toml_value
-from seacrane.renamed import LIFT_DEFAULTS, LIFT_KEYS, LIFT_TABLES, new_spelling
-from seacrane.warnings import RenamedKeysWarning
 
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 SHIPPED = ("hull_115",)  # databases that come with the package, by their names
@@ -56,28 +52,22 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
     Raises FileFormatError with file, line, key and the nearest name.
     """
     document.require_version()
-    checker = Checker(document, folder, LIFT_KEYS)
+    checker = Checker(document, folder)
     known = ("format", "version", *TABLES)
     for name in document.data:
         if name not in known:
-            checker.require_older_table(name)
-    entries = tuple(entry for table in TABLES.values() for entry in _entries(checker, table))
-    checker.tell()
-    return entries
+            document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, tuple(TABLES))}")
+    return tuple(
+        Entry(table, checker.table(path, table.keys, given), path)
+        for table in TABLES.values()
+        if table.name in document.data
+        for path, given in _given(document, table)
+    )
 
 
-def _entries(checker: Checker, table: Table) -> Iterable[Entry]:
-    """The entries of a table, and of those that were called otherwise."""
-    older = {old: more for old, (new, more) in LIFT_TABLES.items() if new == table.name}
-    names: dict[str, dict[str, Any]] = {table.name: {}, **older}
-    for name, more in names.items():
-        if name in checker.document.data:
-            for path, given in _given(checker.document, table, name):
-                yield Entry(table, checker.table(path, table.keys, given, more), path)
-
-
-def _given(document: Document, table: Table, name: str) -> Iterable[tuple[Place, Any]]:
+def _given(document: Document, table: Table) -> Iterable[tuple[Place, Any]]:
     """Each of the tables of a name, with its place."""
+    name = table.name
     given = document.data[name]
     if isinstance(given, Mapping):
         yield (name,), given
@@ -90,74 +80,30 @@ def _given(document: Document, table: Table, name: str) -> Iterable[tuple[Place,
 
 @dataclass(frozen=True)
 class Checker:
-    """Tables of a document, checked key by key; paths of files are taken from a folder.
-
-    Attributes
-    ----------
-    renamed : Keys that were called otherwise, by table.
-    older : Those that were found, with what they are now.
-    """
+    """Tables of a document, checked key by key; paths of files are taken from a folder."""
 
     document: Document
     folder: Path
-    renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    older: dict[str, str] = field(default_factory=dict)
 
-    def require_older_table(self, name: str) -> None:
-        """Refuse a table that is none, and one of a file of now that was called so."""
-        if name not in LIFT_TABLES:
-            self.document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, tuple(TABLES))}")
-        table, more = LIFT_TABLES[name]
-        new = f"[{table}]" + "".join(f" with {key} = {toml_value(value)}" for key, value in more.items())
-        self.renamed_key((name,), f"[{name}]", new)
-
-    def tell(self) -> None:
-        """Warn once of all that was called otherwise."""
-        if self.older and not self.document.told:
-            listed = ", ".join(f"{old} is {new}" for old, new in self.older.items())
-            warn_caller(
-                f"{self.document.source}: is of before 0.3; since then {listed}. Change these and write "
-                f"version = {VERSION}",
-                RenamedKeysWarning,
-            )
-
-    def renamed_key(self, path: Place, old: str, new: str) -> None:
-        """Note a key of 0.2 with what it is now; a FileFormatError in a file of this version."""
-        if not self.document.older:
-            self.document.fail(path, f"{old} is {new} since 0.3")
-        self.older[old] = new
-
-    def table(
-        self, path: Place, keys: Iterable[Key], given: Any, more: Mapping[str, Any] = MappingProxyType({})
-    ) -> Mapping[str, Any]:
-        """The table with what it holds checked, and more keys that its old name says."""
+    def table(self, path: Place, keys: Iterable[Key], given: Any) -> Mapping[str, Any]:
+        """The table with what it holds checked."""
         if not isinstance(given, Mapping):
             self.document.fail(path, f"{titled(path)} is {shown(given)}; give a table of keys and values")
         keys = tuple(keys)
         if any(key.type == "notes" for key in keys):
             return self._notes(path, given)
         spelled = {spelling: key for key in keys for spelling in key.spellings}
-        found: dict[str, Any] = dict(more)
-        name = ".".join(part for part in path if isinstance(part, str))
+        found: dict[str, Any] = {}
         for spelling, value in given.items():
-            new = spelling if spelling in spelled else self._new_spelling(path, name, spelling, spelled)
-            if new in found:
-                self.document.fail((*path, spelling), f"{spelling} stands beside {new}; leave it out")
-            found[new] = self._value((*path, spelling), spelled[new], value)
-        if self.document.older:
-            found = LIFT_DEFAULTS.get(name, {}) | found
+            if spelling not in spelled:
+                near = nearest(spelling, tuple(spelled))
+                self.document.fail(
+                    (*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}"
+                )
+            found[spelling] = self._value((*path, spelling), spelled[spelling], value)
         for key in keys:
             self._once(path, key, found)
         return MappingProxyType(found)
-
-    def _new_spelling(self, path: Place, table: str, spelling: str, known: Mapping[str, Key]) -> str:
-        """What an old key is called now; a FileFormatError for one that never was."""
-        new = new_spelling(self.renamed, table, spelling, known)
-        if new is None:
-            near = nearest(spelling, tuple(known))
-            self.document.fail((*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}")
-        self.renamed_key((*path, spelling), f"{spelling} of [{table}]", new)
-        return new
 
     def _once(self, path: Place, key: Key, found: Mapping[str, Any]) -> None:
         """One of a key's spellings where it is required, and no two of them."""

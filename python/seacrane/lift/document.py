@@ -16,7 +16,6 @@ from seacrane.inputs.whole_file import read_whole
 from seacrane.lift.text_lines import Place, lines_of
 
 VERSION = 2
-READ = (1, VERSION)  # 1: of seacrane 0.1 and 0.2
 LARGEST_FILE = 512 * 2**10  # bytes; TOML's smallest tables take some 150 times their size when it is parsed
 MOST_PARTS = 8  # of a dotted key: parsing one takes time by the square of them
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
@@ -46,13 +45,11 @@ class Document:
     ----------
     source : Name of the file, as messages give it.
     lines : Line by path; empty where the tables come from no file.
-    told : Whether its old keys have been told.
     """
 
     source: str
     data: Mapping[str, Any]
     lines: Mapping[Place, int] = field(default_factory=dict)
-    told: bool = False
 
     def place(self, path: Place) -> str:
         """The file and the line of a key or table, or of the nearest thing around it."""
@@ -60,17 +57,12 @@ class Document:
         line = next((self.lines[one] for one in around if one in self.lines), None)
         return self.source if line is None else f"{self.source} line {line}"
 
-    @property
-    def older(self) -> bool:
-        """Whether its keys may be those of 0.1 and 0.2."""
-        return self.data.get("version") == 1
-
     def require_version(self) -> None:
-        """Raise a FileFormatError for a version that is not read."""
+        """Raise a FileFormatError for another version than the one that is read."""
         version = self.data.get("version")
-        if version not in READ or isinstance(version, bool):
+        if version != VERSION or isinstance(version, bool):
             told = "has no version" if version is None else f"version is {shown(version)}"
-            self.fail(("version",), f"{told}; this seacrane reads version = {VERSION}, and 1 of before 0.3")
+            self.fail(("version",), f"{told}; this seacrane reads version = {VERSION}")
 
     def fail(self, path: Place, text: str) -> NoReturn:
         """Raise a FileFormatError about a place."""

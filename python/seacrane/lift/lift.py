@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
@@ -170,7 +170,7 @@ class Lift:
         return f"<Lift: {', '.join(held) or 'empty'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return lift_of, (replace(self._document, told=True), self._folder)
+        return lift_of, (self._document, self._folder)
 
 
 def _span(t_end: float = T_END, start: Literal["rest"] | None = None) -> tuple[float, Literal["rest"] | None]:

@@ -28,7 +28,6 @@ from seacrane.lift.lift import LIFTS, Lift, lift_of
 from seacrane.lift.study_keys import DESIGN, FROM_LIFTS, KEEP, RANGE, STATISTICS, STUDY, TEXTS
 from seacrane.lift.tables import TABLES
 from seacrane.lift.text_lines import Place
-from seacrane.renamed import LIFT_KEYS, QUANTITIES, STUDY_KEYS
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -70,17 +69,14 @@ class StudyFile:
         document = read_document(Path(path), STUDY)
         folder = Path(path).absolute().parent
         _require_tables(document)
-        reader = _Reader(document, Checker(document, folder, STUDY_KEYS))
+        reader = _Reader(document, Checker(document, folder))
         over = reader.over()
         members, keep = reader.members(over), reader.keep()
-        beside = Checker(document, folder, LIFT_KEYS, older=reader.checker.older)
         for name in (name for name in FROM_LIFTS if name in document.data):
-            beside.table((name,), TABLES[name].keys, document.data[name])
-        accuracy = reader.accuracy()
-        reader.checker.tell()
+            reader.checker.table((name,), TABLES[name].keys, document.data[name])
         return cls(
             members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
-            accuracy=accuracy, _over=over, _document=document, _folder=folder,
+            accuracy=reader.accuracy(), _over=over, _document=document, _folder=folder,
         )  # fmt: skip
 
     @property
@@ -99,8 +95,7 @@ class StudyFile:
         """End time (s), start, method, outputs: those of the study where it has its own, else the lift's."""
         data = self._document.data
         tables = {name: data[name] for name in FROM_LIFTS if name in data}
-        head = {"format": LIFT.format, "version": data["version"]}
-        document = replace(self._document, data={**head, **tables}, told=True)
+        document = replace(self._document, data={"format": LIFT.format, "version": VERSION, **tables})
         if "t_end_s" in tables.get("run", {}) and lift.stages:
             self._document.fail(
                 ("run", "t_end_s"), "t_end_s is for lifts without stages, which tell their end; leave it out"
@@ -150,7 +145,7 @@ class StudyFile:
         if isinstance(given, Mapping):
             lines = {place[1:]: line for place, line in self._document.lines.items() if place[0] == "lift"}
             lines.pop((), None)
-            data = {"format": LIFT.format, "version": self._document.data["version"], **given}
+            data = {"format": LIFT.format, "version": VERSION, **given}
             return Document(self._document.source, data, lines), self._folder
         if given in LIFTS:
             tables = Lift.shipped(given).tables
@@ -263,9 +258,7 @@ class _Reader:
         given = self._table("accuracy")
         if not given:
             self.document.fail(("accuracy",), "[accuracy] is empty; name a quantity, or leave it out")
-        for name in given.keys() & QUANTITIES.keys():
-            self.checker.renamed_key(("accuracy", name), f"{name} of [accuracy]", QUANTITIES[name])
-        return {QUANTITIES.get(name, name): limit for name, limit in given.items()}
+        return dict(given)
 
     def exposure(self) -> float | None:
         """s."""

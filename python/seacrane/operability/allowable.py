@@ -32,7 +32,6 @@ from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.time_domain import Cell, Storms
-from seacrane.renamed import refusing
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -55,7 +54,6 @@ DELAY = 2.0  # s before a progress bar shows
 LARGEST_TURN = 0.2  # rad, of a body: what the linear model says of more is no state to start from
 
 
-@refusing
 def allowable_hs(
     scene: Scene,
     *,

@@ -12,7 +12,6 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, text_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.statistics.gaussian import THREE_HOURS
 
 MAXIMA = {"clumped": "clumped, Vanmarcke", "rayleigh": "Rayleigh, sqrt(2 ln N)"}
@@ -24,7 +23,6 @@ STATISTICS = {
 }
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """What a statistic of a channel may reach.

@@ -14,7 +14,6 @@ from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.pictures.overview import payload_bodies, resultants
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
-from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.history import marks_of, panels_of, title_of, wanted_traces
 from seacrane.result.traces import Trace
@@ -34,7 +33,6 @@ VIEWS = ((0, 1, "from above"), (0, 2, "from starboard"), (1, 2, "from ahead"))
 HEADINGS_DEG = (0.0, 45.0, 90.0, 135.0, 180.0)
 
 
-@refusing
 def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
     """Draw the variance of channels over frequency, by averaged periodograms (Welch).
 
@@ -221,7 +219,6 @@ def reaction_sheet(result: Result, *joints: str) -> Sheet:
     )  # fmt: skip
 
 
-@refusing
 def plot_rao(
     scene: Scene | LinearModel,
     *,

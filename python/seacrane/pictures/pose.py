@@ -78,7 +78,7 @@ def complete_skeleton(
 def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
     """Lines of every body by what the run noted of its scene: ships, boxes, lines through joints.
 
-    Empty where a result notes nothing, as those of 0.1, or has no poses.
+    Empty where a result notes nothing, or has no poses.
     """
     if not {"position", "quaternion"} <= set(result.channels):
         return {}
@@ -270,13 +270,13 @@ def plot_scene(result: Result) -> Figure:
     Raises
     ------
     ValueError
-        If the result holds no poses, or no outline of its bodies (files of 0.1).
+        If the result holds no poses, or no outline of its bodies.
     """
     skeleton = outlined_skeleton(result)
     if not skeleton:
         raise ValueError(
             f"the result of {result.stats['scene']!r} holds no poses or no outline to draw; record position "
-            "and quaternion, and run the scene with this version"
+            "and quaternion"
         )
     wires = {index: link_lines(result, index) for index in (0, -1)}
     return draw_poses(result, skeleton, wires, title=str(result.stats["scene"]))

@@ -25,7 +25,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import flag_of, number_of
-from seacrane.inputs.earlier import GENERATOR, check_replaceable
+from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.inputs.shown import shown
 from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.pictures.animated_gltf import gltf_of
@@ -152,7 +152,7 @@ def view(
     what : Result or Scene
         Of a scene, bodies stand at their assembled start, in a moving sea.
     scene : Scene, optional
-        That the result belongs to; needed for a result that holds none: a copy, a file of version 0.1.
+        That the result belongs to; needed for a result that holds none, such as a copy.
     channels : sequence, optional
         What is drawn over time, such as ``["link_tension", "roll", "position[payload, z]"]``. Default:
         tensions, roll and heave, and what else the result has of the usual; () for none.

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from seacrane import renamed
 from seacrane.description.limit_state import LimitState
+from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 
 SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
+VERSION = "file_version"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,55 +62,37 @@ class About:
 
     def to_attributes(self) -> dict[str, str]:
         """As files hold it; ValueError or TypeError for what no file can hold."""
-        rest = {name: value for name, value in vars(self).items() if value and name != SETTINGS}
-        return {SETTINGS: _json(self.settings), ABOUT: _json(rest)}
+        rest = {name: value for name, value in vars(self).items() if name != SETTINGS}
+        return {VERSION: FILE_VERSION, SETTINGS: _json(self.settings), ABOUT: _json(rest)}
 
 
 def _json(value: Mapping[str, Any]) -> str:
     return json.dumps(dict(value), default=vars, sort_keys=True, allow_nan=False)
 
 
-LINES = "line_weight"  # of results of before 0.3
 NAMES = tuple(one.name for one in fields(About))
 
 
-def parted(attributes: Mapping[str, Any]) -> tuple[dict[str, Any], About]:
+def parted(place: object, attributes: Mapping[str, Any]) -> tuple[dict[str, Any], About]:
     """The stats among a file's attributes, and the rest; ValueError for a rest that no run writes.
 
-    Files of 0.1 and 0.2 hold each part of the rest as a text of its own.
+    Raises FileFormatError for a file of another version.
     """
-    stats = {name: value for name, value in attributes.items() if name not in (ABOUT, *NAMES, LINES)}
+    require_file_version(place, attributes.get(VERSION))
+    stats = {name: value for name, value in attributes.items() if name not in (VERSION, SETTINGS, ABOUT)}
     try:
-        parts = {name: json.loads(attributes[name]) for name in (*NAMES, LINES) if name in attributes}
-        return stats, _made({**json.loads(attributes.get(ABOUT, "{}")), **parts})
+        return stats, _made({**json.loads(attributes[ABOUT]), SETTINGS: json.loads(attributes[SETTINGS])})
     except (LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
         raise ValueError(f"its notes are none that a run writes: {error}") from error
 
 
 def _made(data: Mapping[str, Any]) -> About:
-    given = {name: value for name, value in data.items() if name in NAMES}
-    given = _with_weights(given, data.get(LINES, {}))
+    given = {name: data[name] for name in NAMES}
     for name, value in given.items():
         kind = dict if isinstance(getattr(About(), name), dict) else list
         if not isinstance(value, kind):
             raise TypeError(f"{name} is a {type(value).__name__}")
-    settings = given.pop(SETTINGS, {})
-    given[SETTINGS] = {renamed.SETTINGS.get(name, name): value for name, value in settings.items()}
-    stages = tuple(StageSpan(**one) for one in given.pop("stages", ()))
-    limit_states = tuple(_limit_state(**one) for one in given.pop("limit_states", ()))
+        given[name] = value if kind is dict else tuple(value)
+    stages = tuple(StageSpan(**one) for one in given.pop("stages"))
+    limit_states = tuple(LimitState(**one) for one in given.pop("limit_states"))
     return About(**given, stages=stages, limit_states=limit_states)
-
-
-def _with_weights(given: dict[str, Any], on_lines: Mapping[str, Any]) -> dict[str, Any]:
-    """Results of before 0.3 hold the weights on links as numbers, and those on lines beside them."""
-    weights = given.get("hanging_weight", {})
-    if not isinstance(weights, dict) or not isinstance(on_lines, dict):
-        raise TypeError("weights are no mapping")
-    one = {name: [one, 1] if isinstance(one, int | float) else one for name, one in weights.items()}
-    lines = {f"{name} line" if name in weights else name: two for name, two in on_lines.items()}
-    return given | {"hanging_weight": one | lines} if one or lines else given
-
-
-def _limit_state(*, where: Mapping[str, str] | None = None, **known: Any) -> LimitState:
-    """Results of before 0.3 say `where` for its names."""
-    return LimitState(**known) if where is None else LimitState(names=where, **known)

@@ -17,13 +17,6 @@ Array = NDArray[np.float64]
 Stat = str | int | float
 
 
-class Stats(dict[str, Stat]):
-    """Numbers and words by name; of what was a text of 0.2, the error says where it is now."""
-
-    def __missing__(self, name: str) -> Stat:
-        raise KeyError(f"{name!r} is not in stats; read result.about.{name}" if name in NAMES else name)
-
-
 ALWAYS_STATED = [
     "seacrane_version",
     "scene",

@@ -89,8 +89,11 @@ class Piece:
         return b"".join([json.dumps(header).encode("ascii"), b"\n", *numbers, self.state, self.scene])
 
     @classmethod
-    def from_bytes(cls, body: bytes) -> Piece:
-        """What `to_bytes` made; ValueError, KeyError or TypeError for anything else."""
+    def from_bytes(cls, body: bytes, place: object) -> Piece:
+        """What `to_bytes` made, found at a place.
+
+        Raises FileFormatError for another version, ValueError, KeyError or TypeError for anything else.
+        """
         end = body.index(b"\n") + 1
         header = json.loads(body[:end])
         arrays = {}
@@ -100,8 +103,8 @@ class Piece:
                 raise ValueError(f"array {name!r} of shape {shape} does not fit")
             arrays[name] = np.frombuffer(body, "<f8", count, end).reshape(shape).astype(np.float64)
             end += 8 * count
-        stats, about = parted(header["stats"])
-        last, scene = end + header["state"], header.get("scene", 0)
+        stats, about = parted(place, header["stats"])
+        last, scene = end + header["state"], header["scene"]
         if last + scene != len(body) or min(last - end, scene) < 0:
             raise ValueError("arrays, state and scene do not fill the record")
         if len({len(array) for array in arrays.values()}) != 1:
@@ -152,7 +155,9 @@ def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
         if file.read(DIGEST) != hashlib.sha256(head + body).digest():
             return
         try:
-            piece = Piece.from_bytes(body)
+            piece = Piece.from_bytes(body, name)
+        except FileFormatError:
+            raise
         except (LookupError, TypeError, ValueError, RecursionError) as error:
             raise FileFormatError(f"{name}: holds a piece that no run wrote: {error}") from error
         del body

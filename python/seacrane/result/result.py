@@ -25,7 +25,6 @@ from seacrane.plotting.panel import draw
 from seacrane.result.about import About, StageSpan
 from seacrane.result.checked_parts import (
     Stat,
-    Stats,
     checked_array,
     checked_names,
     checked_stats,
@@ -102,7 +101,7 @@ class Result(Mapping[str, Array]):
     def __post_init__(self) -> None:
         object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
         object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
-        object.__setattr__(self, "stats", MappingProxyType(Stats(self.stats)))
+        object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
         object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
 
     def __repr__(self) -> str:
@@ -134,7 +133,7 @@ class Result(Mapping[str, Array]):
 
     @property
     def scene(self) -> Scene | None:
-        """What was run, without notes; None in copies, and where a file holds none (those of version 0.1).
+        """What was run, without notes; None in copies, and where a file could not hold it.
 
         Files hold it as the text of a scene file, which is read when it is first asked for: FileFormatError
         where it is damaged. C functions are not in it: `stats["scene_not_kept"]` names what is left out.

@@ -121,7 +121,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
     with open_netcdf(path, largest, fix) as file:
         if "time" not in file.variables:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
-        stats, about = parted({name: file.getncattr(name) for name in file.ncattrs()})
+        stats, about = parted(path, {name: file.getncattr(name) for name in file.ncattrs()})
         interrupted = bool(stats.pop("interrupted", 0))
         return {
             "time": np.asarray(file["time"][:]),

@@ -344,13 +344,10 @@ class Told:
 def difference(old: Told, new: Told) -> str:
     """What tells two runs apart, in words; empty: they are the same but for their ends."""
     if old.stats.get(DIGEST) != new.stats[DIGEST]:
-        version, own = old.stats.get("seacrane_version"), new.stats["seacrane_version"]
-        written = f" (or was written by seacrane {version}, this is {own})" if version != own else ""
-        return f"is of another scene{written}"
+        return "is of another scene"
     settings = [some.about.settings for some in (old, new)]
     pairs = {name: (old.stats.get(name), new.stats.get(name)) for name in METHOD}
-    # Version 0.1 wrote 0 for what was left to its default.
-    pairs |= {name: (settings[0].get(name) or None, settings[1].get(name) or None) for name in SETTINGS}
+    pairs |= {name: (settings[0].get(name), settings[1].get(name)) for name in SETTINGS}
     pairs["channels"] = (", ".join(sorted(old.channels)), ", ".join(sorted(new.channels)))
     for name, (there, here) in pairs.items():
         if there != here:
@@ -362,7 +359,7 @@ def _told(path: Path) -> tuple[Told, dict[str, list[str]]]:
     """What a result's file tells, and names along dimensions."""
     with open_netcdf(path, LARGEST) as file:
         attributes = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
-        stats, about = parted(attributes)
+        stats, about = parted(path, attributes)
         stats = {
             name: value.item() if isinstance(value, np.generic) else value for name, value in stats.items()
         }

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.renamed import refusing
 
 DEFAULT_INTERVAL = 0.1  # s
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True)
 class Outputs:
     """What a run records, and how often.

@@ -25,7 +25,6 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import About
 from seacrane.result.checked_parts import plain_stats
 from seacrane.result.events import Event
@@ -250,10 +249,9 @@ class Run:
         """The state at the start."""
         if self._given_start is None:
             return _core.initial_state(self.model)
-        start = with_present_inputs(self._given_start, self.model)
-        if self._differs_by_rungs(start):
-            return carried(start, compiled(self._given, merge=True), self.model)
-        return start
+        if self._differs_by_rungs(self._given_start):
+            return carried(self._given_start, compiled(self._given, merge=True), self.model)
+        return self._given_start
 
     def _differs_by_rungs(self, start: _core.State) -> bool:
         """Whether a state holds what the model has but for what the rungs of lines add."""

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any, TypedDict
 
 from seacrane.errors import SceneError
-from seacrane.renamed import SETTINGS, instead
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 
@@ -44,8 +43,6 @@ def settled(
         For a word that is none.
     """
     for word in shorthand:
-        if word in SETTINGS:
-            raise TypeError(f"there is no keyword {word!r} since 0.3; {instead(SETTINGS[word])}")
         if word not in METHOD_WORDS and word not in OUTPUT_WORDS:
             known = ", ".join([*METHOD_WORDS, *OUTPUT_WORDS])
             raise TypeError(f"unexpected keyword argument {word!r}; settings are method, outputs, {known}")

@@ -15,7 +15,6 @@ from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.state_parts import with_present_inputs
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -240,9 +239,8 @@ class StagedRun:
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
         _, model, formulation = stepped(self._scene, self._model, self.method)
-        start = with_present_inputs(self._state, model)
         options = core_options(self.method, formulation, channels=set(), times=[])
-        core = _core.Simulation(model=model, start=start, options=options)
+        core = _core.Simulation(model=model, start=self._state, options=options)
         now = counted(self._scene, model, core.snapshot())
         known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
         return {name: now.get(name, value) for name, value in known.items()}

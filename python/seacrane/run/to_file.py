@@ -32,7 +32,6 @@ from seacrane.run.sampled_controller import SampledController, checked_controlle
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.start import REST
 from seacrane.validity.left_range import Finding, as_text, warn_of
-from seacrane.version import __version__
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -186,8 +185,7 @@ def _begun(
         return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=start)
     old = Told(stats=left.piece.stats, about=left.piece.about)
     if old.stats.get(DIGEST) != digest:
-        own = {DIGEST: digest, "seacrane_version": __version__}
-        _refuse(left, difference(old, replace(old, stats={**old.stats, **own})))
+        _refuse(left, difference(old, replace(old, stats={**old.stats, DIGEST: digest})))
     state = state_from_bytes(left.piece.state, left.source)
     return Run(
         scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=state, outputs_from=left.first

@@ -12,7 +12,6 @@ from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
-from seacrane.renamed import refusing
 from seacrane.run.channel_names import all_names
 from seacrane.run.run import Run
 
@@ -112,7 +111,6 @@ class Until:
     """
 
     @staticmethod
-    @refusing
     def channel(
         channel: str, *, minimum: float | None = None, maximum: float | None = None, **names: str
     ) -> Level:
@@ -150,7 +148,6 @@ class Until:
         return Level(channel, tuple(sorted(names.items())), value, minimum is not None)
 
     @staticmethod
-    @refusing
     def tension(line: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
         """The tension of an elastic line, N. For a rigid link: ``Until.channel("tension", link=...)``."""
         return Until.channel(
@@ -158,7 +155,6 @@ class Until:
         )
 
     @staticmethod
-    @refusing
     def length(line: str, *, minimum: float | None = None, maximum: float | None = None) -> Level:
         """The unstretched length of an elastic line, m: what its winch has paid out."""
         return Until.channel(

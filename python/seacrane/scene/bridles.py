@@ -14,11 +14,9 @@ from seacrane.description.rungs import StretchingRung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, rows_of, shaped_of, text_of, vector_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.scene.lines import STRETCHING
 
 
-@refusing
 def add_bridle(
     scene: Description,
     name: str,

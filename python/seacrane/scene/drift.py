@@ -14,12 +14,10 @@ from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.renamed import refusing
 
 Array = NDArray[np.float64]
 
 
-@refusing
 def add_drift(
     scene: Description,
     *,

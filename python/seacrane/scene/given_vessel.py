@@ -128,8 +128,8 @@ def put_into_sea(
     if known.motion == "raos":
         if source is None:
             raise SceneError(
-                f"sea: vessel {vessel!r} is from an older file, which holds no RAOs; give it those that it "
-                f"was added with: scene.replace({vessel!r}, kind='vessel', database=raos)"
+                f"sea: vessel {vessel!r} has no RAOs; give it those that it was added with: "
+                f"scene.replace({vessel!r}, kind='vessel', database=raos)"
             )
         amplitude = motion_of_components(source, waves, place=place, heading=heading, gravity=scene.gravity)
         curves = curves_of_sum(

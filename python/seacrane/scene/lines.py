@@ -27,7 +27,6 @@ from seacrane.description.rungs import (
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.scene.heavy_line import chain_of_segments, on_a_winch
 from seacrane.scene.limits import STICKING_SPEED, add_wire
 from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid
@@ -51,7 +50,6 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
 }  # fmt: skip
 
 
-@refusing
 def add_line(
     scene: Description,
     name: str | None = None,

@@ -13,7 +13,6 @@ from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.excitation import with_limits
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.inputs.checked import number_of
-from seacrane.renamed import refusing
 from seacrane.scene.drift import drift_by_heading, sea_of
 from seacrane.validity.hull_range import peak_frequency
 
@@ -21,7 +20,6 @@ Array = NDArray[np.float64]
 SLOW_SHARE = 0.2  # of the peak frequency: motions below are slow
 
 
-@refusing
 def use_actual_position(scene: Description, *, vessel: str | None = None) -> None:
     """Take wave loads at the vessel's position and heading of the moment instead of the mean ones.
 
@@ -43,7 +41,6 @@ def use_actual_position(scene: Description, *, vessel: str | None = None) -> Non
     scene.waves = _with_headings(scene, sea_of(scene, "loads at the actual position"), vessel, cutoff=0.0)
 
 
-@refusing
 def use_slow_position(scene: Description, *, vessel: str | None = None, cutoff: float | None = None) -> None:
     """Take wave loads at the slow part of the vessel's position and heading.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
@@ -32,7 +32,6 @@ from seacrane.description import (
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
 from seacrane.plotting.html import notebook_table
-from seacrane.renamed import METHODS
 from seacrane.scene import (
     bridles,
     contact,
@@ -181,12 +180,6 @@ class Scene(Description):
             return NotImplemented
         alike = file.described(self) == file.described(other)
         return alike and self.function_forces == other.function_forces
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            gone = f" since 0.3; {METHODS[name]}" if name in METHODS else ""
-            raise AttributeError(f"{type(self).__name__} has no {name!r}{gone}", name=name, obj=self)
 
     __hash__ = None  # type: ignore[assignment]  # what changes has no hash
 

@@ -25,7 +25,6 @@ from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
 from seacrane.scene.position import use_actual_position, use_slow_position
@@ -46,7 +45,6 @@ SLIGHT = 1e-3  # of the variance that the same waves would give a load from its 
 LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
-@refusing
 def add_sea(
     scene: Description,
     *,

@@ -12,10 +12,8 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.renamed import refusing
 
 
-@refusing
 def add_slack_tank(
     scene: Description, *, moment: float, trim_moment: float = 0.0, vessel: str | None = None
 ) -> VesselHydrodynamics:

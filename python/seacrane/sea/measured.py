@@ -13,7 +13,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
-from seacrane.renamed import refusing
 from seacrane.sea.spectra import tabulated_spectrum
 
 if TYPE_CHECKING:
@@ -24,7 +23,6 @@ HIGHEST = 1e6  # m: no sea, and its squares do not overflow
 UNIFORM = 1e-3  # largest departure of a time from the uniform grid, over the step
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeasuredWaves:
     """Surface elevation measured at one point: a wave system whose waves reproduce the record there.

@@ -15,7 +15,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
@@ -26,7 +25,6 @@ MOST_COMPONENTS = 1_000_000
 DIRECTION_STREAM = 2  # of the three Philox streams of each system
 
 
-@refusing
 @dataclass(frozen=True, kw_only=True)
 class WaveSystem:
     """Waves of one spectrum about one direction.

@@ -13,7 +13,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
-from seacrane.renamed import refusing
 from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -130,7 +129,6 @@ class RecordExtremes:
         )
 
 
-@refusing
 def record_extremes(
     values: Any,
     *,

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
-from seacrane.renamed import refusing
 from seacrane.statistics.estimate import CONFIDENCE
 from seacrane.statistics.record import FEWEST_VALUES, positive, record_of
 
@@ -78,7 +77,6 @@ class SpectrumEstimate:
         return self.density * low, self.density * high
 
 
-@refusing
 def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS) -> SpectrumEstimate:
     """Estimate the spectrum of a record by Welch's method: half-overlapping Hann segments.
 

@@ -17,7 +17,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
-from seacrane.renamed import refusing
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
@@ -226,7 +225,6 @@ class Trade:
             self.plot().savefig(draft, format="png", dpi=110)
 
 
-@refusing
 def trade(
     scene: Scene,
     t_end: float = 100.0,

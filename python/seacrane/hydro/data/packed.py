@@ -45,10 +45,7 @@ def digest_of(source: Any) -> str:
 
 
 def packed(source: Any) -> bytes:
-    """A line of JSON, and after it the numbers of its arrays; an entry that is None is left out.
-
-    What is None counts as not there, so that a digest stays when an optional entry is added later.
-    """
+    """A line of JSON, and after it the numbers of its arrays; an entry that is None is left out."""
     arrays: list[bytes] = []
     told = json.dumps(_told(source, arrays))
     return b"".join([told.encode("ascii"), b"\n", *arrays])

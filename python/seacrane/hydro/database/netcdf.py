@@ -91,10 +91,10 @@ def load_database_file(kind: type[Data], path: str | PathLike[str]) -> Data:
                     f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
                     "HydroDatabase.save"
                 )
-            if int(file.format_version) > FORMAT_VERSION:
+            if int(file.format_version) != FORMAT_VERSION:
                 raise FileFormatError(
-                    f"{source}: format version {int(file.format_version)} is newer than this seacrane reads "
-                    f"({FORMAT_VERSION}); update seacrane"
+                    f"{source}: is of format version {int(file.format_version)}, and this seacrane reads "
+                    f"format version {FORMAT_VERSION}; save it again with HydroDatabase.save"
                 )
             return _read(kind, file)
     except FileFormatError:

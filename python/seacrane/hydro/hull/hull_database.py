@@ -19,7 +19,6 @@ from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import MOTIONS
-from seacrane.renamed import refusing
 from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
 LARGEST_CHANGE = 0.05  # of the largest of an entry
@@ -34,7 +33,6 @@ DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
 TRIM_LIMIT = 0.001  # rad
 
 
-@refusing
 def hydro_from_hull(
     hull: Hull | ParametricHull,
     *,
