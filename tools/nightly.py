@@ -29,7 +29,6 @@ ROWS = {
     ),
     "threads": ("cpp-tsan", "C++ tests of threads under ThreadSanitizer"),
     "bits": ("bits", "results kept in `bits.json`"),
-    "extremes": ("extremes EXTREMES_ARGS='--quick --overwrite'", "stability atlas, what must always hold"),
     "validation": ("validation", "every comparison of validation and measurements"),
     "site": ("docs", "the site, notebooks executed"),
     "wheel": ("wheel", "sdist and wheel with all notebooks, tried where no compiler is"),
