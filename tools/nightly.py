@@ -1,8 +1,8 @@
 """What runs by night, one row after the other: ``python tools/nightly.py [ROW ...]`` (``make nightly``).
 
 Each row is a target of the Makefile. A row that fails does not stop the next; what it printed is in
-``out/nightly/<row>.log``. ``docs/nightly.md`` gets a line of each row that ran, with commit and day, in the place
-of its last one; commit it. Exit code 1 if a row failed or was stopped.
+``out/nightly/<row>.log``. ``docs/nightly.md`` gets a line of each row that ran, with commit and day, in the
+place of its last one; commit it. Exit code 1 if a row failed or was stopped.
 """
 
 from __future__ import annotations
@@ -87,8 +87,8 @@ def document(new: list[tuple[str, ...]]) -> str:
     ordered = [lines[what] for _, what in ROWS.values() if what in lines]
     return (
         "# The last night\n\nWritten by `make nightly`, which runs what takes longer than `make test` may "
-        "([contributing](contributing.md#by-day-and-by-night)). Each line\ntells of the last time that it was "
-        f"run, on {os.cpu_count()} cores beside other work.\n\n{table(ordered)}\n"
+        "([contributing](contributing.md#by-day-and-by-night)). Each line\ntells of the last time that it "
+        f"was run, on {os.cpu_count()} cores beside other work.\n\n{table(ordered)}\n"
     )
 
 
