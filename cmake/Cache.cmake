@@ -7,7 +7,6 @@ if(SEACRANE_CCACHE AND SEACRANE_CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCH
   # Paths below the base folder are hashed relative to it, so that clones share objects. A compiler from a package of
   # Python (zig) has another date in each environment: its content decides.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content
-    CCACHE_SLOPPINESS=pch_defines,time_macros "${SEACRANE_CCACHE_PROGRAM}")
+    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content "${SEACRANE_CCACHE_PROGRAM}")
   set(CMAKE_C_COMPILER_LAUNCHER "${CMAKE_CXX_COMPILER_LAUNCHER}")
 endif()

@@ -6,6 +6,7 @@ import csv
 import os
 import signal
 import time
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -65,11 +66,37 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A slow test says why it is slow."""
+    """A slow test says why it is slow; warnings that a test provokes are no errors in it."""
     for item in items:
+        for name in [*_warned(item), *_warned(item, "sometimes")]:
+            item.add_marker(pytest.mark.filterwarnings(f"always::seacrane.warnings.{name}"))
         for mark in item.iter_markers("slow"):
             if len(mark.args) != 1 or not mark.args[0]:
                 raise pytest.UsageError(f'{item.nodeid}: say why it is slow: @pytest.mark.slow("why")')
+
+
+def _warned(item: pytest.Item, word: str = "") -> list[str]:
+    """Names of the warnings that the marks of an item expect, or expect in some of a function's items."""
+    marks = list(item.iter_markers("warns"))
+    return [name for mark in marks for name in (mark.kwargs.get(word, ()) if word else mark.args)]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Iterator[None]:
+    """A test gives the warnings that its mark names, and passes on all others."""
+    expected = _warned(pyfuncitem)
+    taken = {*expected, *_warned(pyfuncitem, "sometimes")}
+    if not taken:
+        return (yield)
+    with warnings.catch_warnings(record=True) as told:
+        result = yield
+    for one in told:
+        if one.category.__name__ not in taken:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+    came = {one.category.__name__ for one in told}
+    if missing := [name for name in expected if name not in came]:
+        pytest.fail(f"{', '.join(missing)} did not come, which the test's mark expects")
+    return result
 
 
 @pytest.hookimpl(wrapper=True)

@@ -179,6 +179,7 @@ def test_the_runs_file_holds_what_the_design_lists(
     assert "t_end" in result.settings
 
 
+@pytest.mark.slow("many processes")
 def test_show_prints_and_draws_a_result(
     lift: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path
 ) -> None:
@@ -243,6 +244,7 @@ def test_the_report_is_the_scenes_own() -> None:
     assert all(section in text for section in own)
 
 
+@pytest.mark.slow("many processes")
 def test_a_result_is_told_from_a_scene_by_its_content(
     lift: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path
 ) -> None:
@@ -309,6 +311,7 @@ def paper(
     return command_line("paper", "--out", folder), folder
 
 
+@pytest.mark.slow("many processes")
 def test_the_paper_command_writes_figures_data_runs_and_report(
     paper: tuple[subprocess.CompletedProcess[str], Path],
 ) -> None:
@@ -423,6 +426,7 @@ def test_ctrl_c_leaves_what_was_computed(tmp_path: Path) -> None:
     assert result.interrupted and 0 < result.time[-1] < 1e7
 
 
+@pytest.mark.slow("many processes")
 def test_hydro_prints_its_verdicts(shared: Path, tmp_path: Path) -> None:
     done = command_line("hydro", shared / "veres" / "supply", "--json", "--out", tmp_path / "plots")
     assert done.returncode == 0, done.stderr
@@ -446,6 +450,7 @@ def test_earlier_plots_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
 
 
+@pytest.mark.slow("many processes")
 def test_hydro_prints_a_table(shared: Path) -> None:
     done = command_line("hydro", shared / "veres" / "supply" / "input")
     assert done.returncode == 0, done.stderr
@@ -456,6 +461,7 @@ def test_hydro_prints_a_table(shared: Path) -> None:
     assert float(told["GM_of_C44_and_mass_m"]) == pytest.approx(2.14, abs=0.005)
 
 
+@pytest.mark.slow("many processes")
 def test_a_real_ships_files_run(shared: Path, tmp_path: Path) -> None:
     done = command_line(
         "run", "vessel", "--database", shared / "veres" / "supply", "--out", tmp_path, "--t-end", "5"

@@ -76,6 +76,7 @@ def test_the_package_with_every_example_compiles_and_passes_its_tests(tmp_path: 
         assert done.returncode == 0, f"{command}: {done.stdout[-5000:]}{done.stderr[-5000:]}"
 
 
+@pytest.mark.slow("compiles a file")
 @pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not there to compile a joint")
 def test_words_of_a_joint_may_be_one_letter(tmp_path: Path) -> None:
     """Compiled as the package is, optimised and with warnings as errors: some, only short texts raise."""

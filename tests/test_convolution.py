@@ -231,6 +231,7 @@ RESONANCE = (0.005, 0.005, 0.02, 0.015, 0.015, 0.005)
 OFF_RESONANCE = (0.005, 0.04, 0.04, 0.05, 0.015, 0.015)
 
 
+@pytest.mark.slow("hours of waves")
 @pytest.mark.parametrize(
     ("heading", "frequency", "limits"),
     [(5, 10, RESONANCE), (7, 26, RESONANCE), (13, 14, RESONANCE), (16, 29, OFF_RESONANCE)],

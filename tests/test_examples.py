@@ -37,7 +37,17 @@ def test_the_examples_of_the_issue_exist() -> None:
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+LONG = (
+    "deep_lowering", "subsea_lowering", "feeder_lift_two_ships", "splash_zone", "design_study", "operability",
+    "heave_compensation", "hull_to_database", "load_chart", "frequency_domain",
+)  # fmt: skip
+BY_NIGHT = pytest.mark.slow("a whole lift or study")
+
+
+@pytest.mark.parametrize(
+    "example",
+    [pytest.param(path, marks=BY_NIGHT if path.stem in LONG else [], id=path.stem) for path in EXAMPLES],
+)
 def test_example_prints_numbers_and_saves_one_picture(example: Path, tmp_path: Path) -> None:
     pictures, work = tmp_path / "pictures", tmp_path / "work"
     pictures.mkdir()
@@ -79,6 +89,7 @@ def test_two_cranes_share_their_load_as_levers_do(tmp_path: Path) -> None:
     assert found[-2:] == pytest.approx(by_hand[-2:], rel=0.12)  # in waves, to first order of the swing
 
 
+@pytest.mark.slow("a whole lift")
 def test_a_template_goes_through_the_waves_taut(tmp_path: Path) -> None:
     """And the simplified method, which takes the largest speeds at once, says less of it than any run."""
     told = run(FOLDER / "splash_zone.py", tmp_path).splitlines()
@@ -94,6 +105,7 @@ def test_a_template_goes_through_the_waves_taut(tmp_path: Path) -> None:
     assert all(share == pytest.approx(low / static, abs=0.01) for low, static, share in kinds["run"])
 
 
+@pytest.mark.slow("a whole lift")
 def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:
     """Archimedes, drag at the lowering rate, resonance over depth, and what compensation leaves."""
     told = run(FOLDER / "subsea_lowering.py", tmp_path).splitlines()
@@ -108,6 +120,7 @@ def test_a_template_is_lowered_to_the_seabed_as_by_hand(tmp_path: Path) -> None:
     assert all(0.1 < float(row[-1]) < 1.0 for row in kinds["hoist"])
 
 
+@pytest.mark.slow("a whole lift")
 def test_a_feeder_lift_tells_of_each_water(tmp_path: Path) -> None:
     """Ships that feel each other differ from such as do not, and two lids differ by less."""
     lines = run(FOLDER / "feeder_lift_two_ships.py", tmp_path).splitlines()

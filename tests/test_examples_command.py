@@ -79,6 +79,7 @@ def judge(notebook: nbformat.NotebookNode) -> None:
     assert not any("srcdoc" in str(out) for out in outputs)
 
 
+@pytest.mark.slow("runs a notebook")
 def test_a_notebook_is_kept_with_its_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(ROOT / "tools" / "wheel"))
     monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook

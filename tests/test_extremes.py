@@ -43,6 +43,7 @@ def rows_of(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
+@pytest.mark.slow("an atlas")
 def test_the_quick_atlas_keeps_every_promise(quick: Path) -> None:
     found = rows_of(quick)
     assert {row["axis"] for row in found} == set(AXES)

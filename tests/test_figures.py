@@ -351,6 +351,7 @@ def test_the_end_of_the_slew_is_found_despite_the_controls_ripple() -> None:
     assert smooth_step(np.array([stop]))[0] == pytest.approx(0.99, abs=6e-3)
 
 
+@pytest.mark.slow("draws all figures")
 def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
     from seacrane.hydro import motion_response, shipped_database
     from seacrane.hydro.database.figures import chosen_headings, save_hydro_figures

@@ -161,6 +161,7 @@ def test_modes_of_a_lift_are_all_there() -> None:
         assert mine == pytest.approx(other, rel=1e-3)
 
 
+@pytest.mark.slow("a real ship")
 def test_statistics_take_it_too() -> None:
     database = shipped_database()
     scene = cases.vessel(hs=0.0, memory="convolution")

@@ -106,6 +106,7 @@ def test_short_run(name: str, tmp_path: Path) -> None:
                 break
 
 
+@pytest.mark.slow("counts lines of readers")
 def test_the_corpus_reaches_the_readers_lines() -> None:
     """At least 90 % of the lines of every reader; prints the table."""
     pytest.importorskip("coverage", reason="needs the package 'coverage'")

@@ -54,6 +54,7 @@ def saved(database: HydroDatabase, folder: Path) -> HydroDatabase:
     return load_database(folder / "hull.nc")
 
 
+@pytest.mark.slow("real ships")
 def test_good_data_are_silent(shared: Path) -> None:
     with silence():
         for folder in (shared / "veres" / "supply", shared / "wamit"):

@@ -193,6 +193,7 @@ def test_saved_and_read_back(moving: HydroDatabase, tmp_path: Path) -> None:
         load_database(tmp_path / "moving.nc", speed=0.0)
 
 
+@pytest.mark.slow("a real ship")
 def test_command_line_reports_a_moving_ship(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     stem = VeresRun(speeds=(3.0,)).write(tmp_path)
     assert main(["hydro", str(stem), "--json", "--out", str(tmp_path / "out")]) == 0

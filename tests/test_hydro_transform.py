@@ -354,6 +354,7 @@ def test_a_point_is_three_finite_numbers(point: Any) -> None:
         full().at((1.0, 0.0, 0.0), net_lift=float("nan"))
 
 
+@pytest.mark.slow("real ships")
 def test_limits_of_the_closure_follow_the_motions_that_mix(shared: Path) -> None:
     base = load_database(shared / "veres" / "supply")
     there = base.at((0.0, 3.0, 0.0))  # heave there holds roll, which the files give with fewer digits

@@ -35,7 +35,13 @@ def test_a_job_is_short(job: Path) -> None:
     assert sum(bool(line.strip()) for line in job.read_text(encoding="utf-8").splitlines()) <= LONGEST
 
 
-@pytest.mark.parametrize("job", JOBS, ids=lambda path: path.stem)
+LONG = ("feeder_starts", "planning_sheet", "feeder_two_ships", "hypercube")
+BY_NIGHT = pytest.mark.slow("many runs")
+
+
+@pytest.mark.parametrize(
+    "job", [pytest.param(path, marks=BY_NIGHT if path.stem in LONG else [], id=path.stem) for path in JOBS]
+)
 def test_a_job_prints_what_its_document_shows(job: Path, tmp_path: Path) -> None:
     """Words exactly, numbers within 5 %: `python benchmarks/jobs.py --publish` writes the document anew."""
     done = subprocess.run(

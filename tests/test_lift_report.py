@@ -124,6 +124,7 @@ def test_the_page_is_whole_and_needs_nothing_outside(page: Report) -> None:
     assert "@media print" in page.html and "x forward, y to port, z up" in read.text
 
 
+@pytest.mark.slow("a whole report")
 def test_a_result_from_a_file_is_seen_and_one_without_its_scene_is_not(lift: Result, tmp_path: Path) -> None:
     lift.save(tmp_path / "lift.nc")
     assert "In three dimensions" in titles(report(Result.load(tmp_path / "lift.nc")))

@@ -21,7 +21,12 @@ def measurements(monkeypatch: pytest.MonkeyPatch) -> Any:
     return importlib.import_module("measurements")
 
 
-@pytest.mark.parametrize("name", SETS)
+LONG = pytest.mark.slow("a chain of many segments")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=LONG if name == "moordyn_chain" else []) for name in SETS]
+)
 def test_a_set_is_within_a_fifth_of_what_is_published(name: str, measurements: Any) -> None:
     folder = measurements.data_of(name)
     if folder is None:

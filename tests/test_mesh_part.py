@@ -74,6 +74,7 @@ def test_the_volume_below_a_level_is_that_of_the_clipped_polyhedron(seed: int) -
     assert volumes_below(shape.triangles, levels)[-1] == pytest.approx(ConvexHull(points).volume, rel=1e-12)
 
 
+@pytest.mark.slow("panels")
 def test_a_part_lies_at_half_height_on_the_centre_of_its_volume() -> None:
     """Of an upright wedge, moved and turned about z on its body."""
     section = [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]  # half a wedge: its centre is a third aside
@@ -119,6 +120,7 @@ def test_a_sphere_has_the_added_mass_of_hulme_in_both_limits() -> None:
     assert part.low_frequency_added_masses[-1] == pytest.approx(part.added_masses[-1], rel=1e-12)
 
 
+@pytest.mark.slow("panels")
 def test_a_long_cylinder_has_the_added_mass_of_greenhow_and_li_but_at_its_ends() -> None:
     """Half immersed, per length from the difference of two lengths: pi/2 of density R^2. The ends take
     what DNV-RP-C205 has of a cylinder in an unbounded fluid (unverified), which is twice this one."""
@@ -144,6 +146,7 @@ def double_wedge(deadrise: float) -> float:
     return float(np.pi * scale**2 * (2.0 - 2.0 * p) - np.tan(deadrise))
 
 
+@pytest.mark.slow("panels")
 def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_one_piled_up() -> None:
     assert double_wedge(1e-6) == pytest.approx(np.pi / 2.0, rel=1e-5)
     assert double_wedge(np.pi / 4.0) / (np.pi / 2.0) == pytest.approx(0.7566, rel=1e-4)

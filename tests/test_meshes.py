@@ -314,6 +314,7 @@ def refused(path: Path, message: str) -> None:
         tracemalloc.stop()
 
 
+@pytest.mark.slow("ten million triangles")
 def test_ten_million_triangles_are_refused_by_their_number(tmp_path: Path) -> None:
     """Before the 500 MB are read."""
     path = tmp_path / "scan.stl"

@@ -52,7 +52,15 @@ def test_what_opens_notebooks_can_be_installed_by_itself() -> None:
     assert wanted >= {"ipykernel", "ipywidgets", "jupyterlab", "jupytext", "pytest"}
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+# Those that take a second or two; the others run by night, all for the wheel and the site.
+BY_DAY = ("05_every_force", "06_extremes", "08_wires", "09_your_crane", "13_cranes_and_oil")
+BY_NIGHT = pytest.mark.slow("a whole notebook")
+
+
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=[] if path.stem in BY_DAY else BY_NIGHT, id=path.stem) for path in NOTEBOOKS],
+)
 def test_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook
     notebook = execute(path, tmp_path)

@@ -94,6 +94,7 @@ def database_of(scene: Scene, name: str = "vessel") -> HydroDatabase:
     return found
 
 
+@pytest.mark.slow("fits memories")
 def test_a_scene_gives_back_the_database_of_a_vessel() -> None:
     assert database_of(afloat(rich())) is rich()
 

@@ -119,6 +119,7 @@ def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -
     assert offline.outside(small_site / "out") == [], "the site opens without a network"
 
 
+@pytest.mark.slow("makes a site")
 def test_formulas_are_drawn_by_the_browser_itself(small_site: Path, offline: Any) -> None:
     text = "# Page\n\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
     (small_site / "docs" / "page.md").write_text(text, encoding="utf-8")
@@ -149,6 +150,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
     assert not re.search("SupportsArray|NestedSequence|TypeAlias|dtype", words)
 
 
+@pytest.mark.slow("makes a site")
 def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
     small_site: Path, offline: Any
 ) -> None:

@@ -292,6 +292,7 @@ def attempts(count: int, *kinds: str) -> None:
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr[-3000:]}"
 
 
+@pytest.mark.slow("many kills")
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_kill_at_any_file_operation_is_made_good(kind: str) -> None:
     attempts(6, kind)

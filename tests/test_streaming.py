@@ -483,6 +483,7 @@ print(peak[1] - peak[0])
 """
 
 
+@pytest.mark.slow("long files")
 def test_memory_does_not_grow_with_the_outputs(tmp_path: Path) -> None:
     """60,000 outputs more of 2 kB are 120 MB."""
     run = subprocess.run(

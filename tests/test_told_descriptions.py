@@ -36,6 +36,7 @@ def quietly(make: Callable[[], Any]) -> Any:
 WORDS = ("heading_deg is 0.785398 deg", "direction_deg is 2.35619 deg")
 
 
+@pytest.mark.slow("a whole lift")
 def test_a_report_lists_the_warnings_of_the_description(tmp_path) -> None:
     result = quietly(lambda: simulate(told_twice(), t_end=1.0))
     result.save(tmp_path / "run.nc")

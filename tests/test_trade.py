@@ -42,6 +42,7 @@ def measured(case2: Scene, folder: Path) -> Trade:
     return trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
 
 
+@pytest.mark.slow("a trade study")
 def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
     assert list(measured.quantities) == [
         "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load",

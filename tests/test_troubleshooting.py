@@ -28,6 +28,7 @@ WARNINGS = {
 SITES = {**stops_of_cpp(), **stops_of_python()}
 
 
+@pytest.mark.slow("reads all sources")
 def test_the_sources_are_read() -> None:
     """The scan must see stops known to exist, in every form of a throw."""
     words = "\n".join(SITES.values())

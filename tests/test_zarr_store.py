@@ -108,6 +108,7 @@ ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(100)]}, keep={"
 """
 
 
+@pytest.mark.slow("kills processes")
 def test_a_killed_ensemble_goes_on_to_the_same_bits(tmp_path: Path) -> None:
     store = tmp_path / "a.zarr"
     path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])

@@ -1,8 +1,8 @@
 """What runs by night, one row after the other: ``python tools/nightly.py [ROW ...]`` (``make nightly``).
 
 Each row is a target of the Makefile. A row that fails does not stop the next; what it printed is in
-``out/nightly/<row>.log``. The table of all rows, with commit and date, goes to ``docs/nightly.md``, to be
-committed; a call that names rows only prints its own. Exit code 1 if a row failed.
+``out/nightly/<row>.log``. ``docs/nightly.md`` gets a line of each row that ran, with commit and day, in the
+place of its last one; commit it. Exit code 1 if a row failed or was stopped.
 """
 
 from __future__ import annotations
@@ -29,11 +29,13 @@ ROWS = {
     ),
     "threads": ("cpp-tsan", "C++ tests of threads under ThreadSanitizer"),
     "bits": ("bits", "results kept in `bits.json`"),
-    "extremes": ("extremes EXTREMES_ARGS='--quick --overwrite'", "stability atlas, what must always hold"),
     "validation": ("validation", "every comparison of validation and measurements"),
     "site": ("docs", "the site, notebooks executed"),
     "wheel": ("wheel", "sdist and wheel with all notebooks, tried where no compiler is"),
 }
+
+
+HEAD = ("what", "CPU s", "wall s", "passed", "commit", "day")
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,11 @@ class Outcome:
     cpu: float
     wall: float
     code: int
+
+    def cells(self, commit: str, day: str) -> tuple[str, ...]:
+        """Its line of the table."""
+        passed = "yes" if self.code == 0 else f"**no**, exit code {self.code}"
+        return ROWS[self.row][1], f"{self.cpu:.0f}", f"{self.wall:.0f}", passed, commit, day
 
 
 def run(row: str) -> Outcome:
@@ -62,37 +69,34 @@ def run(row: str) -> Outcome:
     return Outcome(row, usage.ru_utime + usage.ru_stime, time.monotonic() - began, child.returncode)
 
 
-def table(outcomes: list[Outcome]) -> str:
-    """The table in Markdown."""
-    lines = ["| what | CPU s | wall s | passed |", "| --- | --- | --- | --- |"]
-    for one in outcomes:
-        passed = "yes" if one.code == 0 else f"**no**, exit code {one.code}"
-        lines.append(f"| {ROWS[one.row][1]} | {one.cpu:.0f} | {one.wall:.0f} | {passed} |")
-    cpu, wall = sum(one.cpu for one in outcomes), sum(one.wall for one in outcomes)
-    return "\n".join(
-        [*lines, f"| all | {cpu:.0f} | {wall:.0f} | {'yes' if passed_all(outcomes) else '**no**'} |"]
+def table(lines: list[tuple[str, ...]]) -> str:
+    """In Markdown."""
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in (HEAD, ("---",) * len(HEAD), *lines))
+
+
+def kept() -> dict[str, tuple[str, ...]]:
+    """Lines of the present document, by what they tell of."""
+    text = TABLE.read_text(encoding="utf-8") if TABLE.exists() else ""
+    lines = [tuple(cell.strip() for cell in line.strip("| ").split("|")) for line in text.splitlines()]
+    return {cells[0]: cells for cells in lines if len(cells) == len(HEAD)}
+
+
+def document(new: list[tuple[str, ...]]) -> str:
+    """The page of the last nights: new lines in the place of older ones."""
+    lines = kept() | {cells[0]: cells for cells in new}
+    ordered = [lines[what] for _, what in ROWS.values() if what in lines]
+    return (
+        "# The last night\n\nWritten by `make nightly`, which runs what takes longer than `make test` may "
+        "([contributing](contributing.md#by-day-and-by-night)). Each line\ntells of the last time that it "
+        f"was run, on {os.cpu_count()} cores beside other work.\n\n{table(ordered)}\n"
     )
-
-
-def passed_all(outcomes: list[Outcome]) -> bool:
-    """Whether every row passed."""
-    return all(one.code == 0 for one in outcomes)
 
 
 def commit() -> str:
-    """The commit that was run, and whether files differ from it."""
+    """The commit that is run, and whether files differ from it."""
     found = _git("rev-parse", "--short=10", "HEAD")
-    return f"{found} with changes" if _git("status", "--porcelain") else found
-
-
-def document(outcomes: list[Outcome], commit: str) -> str:
-    """The page of the last night."""
-    day = datetime.date.today().isoformat()
-    return (
-        "# The last night\n\nWritten by `make nightly`, which runs what takes longer than `make test` may "
-        f"([contributing](contributing.md#by-day-and-by-night)).\n\nCommit {commit}, {day}, "
-        f"{os.cpu_count()} cores.\n\n{table(outcomes)}\n"
-    )
+    changed = _git("status", "--porcelain", "--", ".", f":!{TABLE.relative_to(ROOT)}", ":!.ci/sanitized.txt")
+    return f"{found} with changes" if changed else found
 
 
 def _git(*words: str) -> str:
@@ -101,7 +105,7 @@ def _git(*words: str) -> str:
 
 
 def main() -> int:
-    """Run the rows that are asked for, print their table, keep it where all were."""
+    """Run the rows that are asked for, keep and print their lines."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -110,24 +114,22 @@ def main() -> int:
     if unknown := sorted(set(asked) - ROWS.keys()):
         parser.error(f"no row {', '.join(unknown)}; there are {', '.join(ROWS)}")
     outcomes: list[Outcome] = []
-    state = commit()
-    try:
-        for row in asked:
-            print(f"{len(outcomes) + 1} of {len(asked)}, {row}: {ROWS[row][1]}", flush=True)
+    lines: list[tuple[str, ...]] = []
+    for row in asked:
+        print(f"{len(lines) + 1} of {len(asked)}, {row}: {ROWS[row][1]}", flush=True)
+        state, day = commit(), datetime.date.today().isoformat()
+        try:
             outcomes.append(run(row))
-            print(
-                f"    {outcomes[-1].wall:.0f} s, {'passed' if outcomes[-1].code == 0 else 'FAILED'}",
-                flush=True,
-            )
-    except KeyboardInterrupt:
-        print(f"stopped in {asked[len(outcomes)]}; what ran:")
-        print(table(outcomes))
-        return 130
-    print(table(outcomes))
-    if asked == list(ROWS):
-        TABLE.write_text(document(outcomes, state), encoding="utf-8")
-        print(f"written to {TABLE.relative_to(ROOT)}: commit it")
-    return 0 if passed_all(outcomes) else 1
+        except KeyboardInterrupt:
+            print(f"stopped in {row}")
+            break
+        lines.append(outcomes[-1].cells(state, day))
+        TABLE.write_text(document(lines), encoding="utf-8")
+        print(
+            f"    {outcomes[-1].wall:.0f} s, {'passed' if outcomes[-1].code == 0 else 'FAILED'}", flush=True
+        )
+    print(f"{table(lines)}\nwritten to {TABLE.relative_to(ROOT)}: commit it")
+    return int(len(lines) < len(asked) or any(one.code for one in outcomes))
 
 
 if __name__ == "__main__":
