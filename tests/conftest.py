@@ -66,8 +66,10 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A slow test says why it is slow; warnings that a test provokes are no errors in it."""
+    """A slow test says why it is slow; warnings that a test provokes are no errors in it, by night no others."""
     for item in items:
+        if item.get_closest_marker("slow"):
+            item.add_marker(pytest.mark.filterwarnings("default::UserWarning"))
         for name in [*_warned(item), *_warned(item, "sometimes")]:
             item.add_marker(pytest.mark.filterwarnings(f"always::seacrane.warnings.{name}"))
         for mark in item.iter_markers("slow"):
@@ -125,24 +127,30 @@ def _seconds() -> tuple[float, float]:
 
 
 class TimesTable:
-    """Writes a table of what each item costs, the dearest first."""
+    """Writes a table of what items cost, the dearest first; those below SHOWN s together."""
+
+    SHOWN = 0.2
 
     def __init__(self, file: Path) -> None:
         self.file = file
-        self.rows: list[tuple[str, str, str]] = []
+        self.rows: list[tuple[str, float, float]] = []
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Take the seconds of an item from its last report."""
         for name, value in report.user_properties:
             if name == "seconds":
-                self.rows.append((report.nodeid, *(f"{seconds:.2f}" for seconds in value)))
+                self.rows.append((report.nodeid, *value))
 
     def pytest_sessionfinish(self) -> None:
         """Write, when all have run."""
-        self.rows.sort(key=lambda row: -float(row[1]))
+        self.rows.sort(key=lambda row: -row[1])
+        shown = [row for row in self.rows if row[1] >= self.SHOWN]
+        rest = self.rows[len(shown) :]
+        sums = [(f"{len(rest)} others", *(sum(row[k] for row in rest) for k in (1, 2)))]
+        lines = [(name, f"{cpu:.2f}", f"{wall:.2f}") for name, cpu, wall in shown + sums]
         self.file.parent.mkdir(parents=True, exist_ok=True)
         with self.file.open("w", newline="", encoding="utf-8") as out:
-            csv.writer(out, lineterminator="\n").writerows([("item", "cpu_s", "wall_s"), *self.rows])
+            csv.writer(out, lineterminator="\n").writerows([("item", "cpu_s", "wall_s"), *lines])
 
 
 class Tenths:
