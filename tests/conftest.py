@@ -66,7 +66,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A slow test says why it is slow; warnings that a test provokes are no errors in it, by night no others."""
+    """A slow test says why it is slow. Warnings that a test expects are no errors, by night no others."""
     for item in items:
         if item.get_closest_marker("slow"):
             item.add_marker(pytest.mark.filterwarnings("default::UserWarning"))
