@@ -165,6 +165,7 @@ def relative(difference: float, values: Array) -> float:
     return difference / float(np.max(np.abs(values)))
 
 
+@pytest.mark.warns("LargeSwingWarning", "PushingLinkWarning")
 def test_reference_counts_the_same(both: tuple[Any, Any, System]) -> None:
     ours, _, system = both
     assert MOVE_END < SWITCH < T_END
@@ -209,6 +210,7 @@ def test_actuators_and_waves_agree(both: tuple[Any, Any, System]) -> None:
         np.testing.assert_array_less(error, 1e-8)
 
 
+@pytest.mark.warns("LargeSwingWarning", "PushingLinkWarning")
 def test_driven_run_agrees() -> None:
     """Strokes and slew prescribed: the drivers' loads are the cylinder forces and the slew torque needed."""
     scene = quick_case2()

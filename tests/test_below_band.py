@@ -43,6 +43,7 @@ def test_the_band_of_strip_theory_begins_with_waves_as_long_as_the_ship() -> Non
     assert band is not None and band[0] == pytest.approx(np.sqrt(2.0 * np.pi * 9.81 / 115.0), rel=1e-3)
 
 
+@pytest.mark.warns("MemoryFitWarning")
 def test_a_resonance_below_the_band_is_named() -> None:
     at = natural_frequency(strip(), 3)
     assert at is not None and at < 0.73
@@ -71,6 +72,7 @@ def test_a_band_of_ones_own_is_believed() -> None:
         Scene().add_vessel(shipped_database(), memory="none")
 
 
+@pytest.mark.warns("MemoryFitWarning")
 @pytest.mark.parametrize(("tp", "named"), [(6.0, False), (12.0, True)])
 def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
     scene = vessel(strip())
@@ -84,6 +86,7 @@ def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
     assert all("0.73" in one and "method='capytaine'" in one for one in told)
 
 
+@pytest.mark.warns("MemoryFitWarning")
 def test_other_sources_are_not_sent_to_another_method() -> None:
     scene = vessel(replace(strip(), source="a table"))
     with pytest.warns(BelowBandWarning, match="covers these frequencies"):

@@ -66,6 +66,7 @@ def test_every_channel_carries_the_names_of_the_scene(make: Any) -> None:
         assert result.coords.get(dim, ()) == tuple(names), dim
 
 
+@pytest.mark.warns("UnitWarning")
 def test_several_vessels_are_told_apart_by_name() -> None:
     scene = cases.vessel(hs=0.0, memory="none")
     there = next(iter(scene.vessels.values()))

@@ -544,7 +544,7 @@ def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> 
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     told = [line for line in done.stderr.splitlines() if "redundant" in line]
-    start = "seacrane run: UserWarning: scene 'door': constraints"
+    start = "seacrane run: RedundantJointsWarning: scene 'door': constraints"
     assert told and all(line.startswith(start) for line in told)
     assert f"{script}:8: UserWarning: look here" in done.stderr
 

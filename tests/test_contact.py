@@ -48,6 +48,7 @@ def test_a_ball_rebounds_as_the_law_of_the_surface_says(
     assert np.abs(result["energy_balance"]).max() < 1e-6 * 0.5 * MASS * speed**2
 
 
+@pytest.mark.warns("UnitWarning")
 def test_a_block_slides_on_a_shaken_plate_as_in_closed_form() -> None:
     mu, omega = 0.3, np.pi
     share = mu * GRAVITY / omega**2
@@ -163,6 +164,7 @@ def test_a_run_that_continues_is_the_run_that_was_not_stopped(stop: float) -> No
     assert [event for event in rest.events() if event.time > stop] == later
 
 
+@pytest.mark.warns("UnitWarning")
 def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
     from scipy.integrate import solve_ivp
     from scipy.optimize import brentq

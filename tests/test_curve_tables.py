@@ -104,6 +104,7 @@ def pushed(t: np.ndarray) -> np.ndarray:
     return np.array([found[one] for one in t])
 
 
+@pytest.mark.warns("MassUnitWarning")
 @pytest.mark.parametrize("integrator", ["dopri5", "tsit5", "verner65", "rk4"])
 def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks(integrator: str) -> None:
     """The motion is a cubic between kinks, which each of these methods steps exactly if it meets them."""
@@ -114,6 +115,7 @@ def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks
     assert_allclose(result["position"][:, 0, 0], pushed(result.time), atol=2e-12)
 
 
+@pytest.mark.warns("EnergyErrorWarning", "MassUnitWarning")
 def test_a_driver_follows_a_linear_table_and_the_jumps_of_its_rate_are_told() -> None:
     from seacrane.warnings import DriverImpulseWarning
 
@@ -125,6 +127,7 @@ def test_a_driver_follows_a_linear_table_and_the_jumps_of_its_rate_are_told() ->
     assert_allclose(result["position"][:, 0, 0], where, atol=1e-12)
 
 
+@pytest.mark.warns("MassUnitWarning")
 def test_a_driver_follows_a_cubic_table_without_an_impulse() -> None:
     scene = slider()
     curve = Curve.table([0.0, 1.0, 3.0], [0.0, 0.5, 2.0], between="cubic")
@@ -135,6 +138,7 @@ def test_a_driver_follows_a_cubic_table_without_an_impulse() -> None:
     assert_allclose(result["position"][:, 0, 0], curve.evaluate(result.time)[:, 0], atol=1e-12)
 
 
+@pytest.mark.warns("MassUnitWarning")
 def test_a_record_of_a_run_drives_another_one() -> None:
     scene = slider()
     scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
@@ -145,6 +149,7 @@ def test_a_record_of_a_run_drives_another_one() -> None:
     assert_allclose(result["position"][:, 0, 0], record["position"][:, 0, 0], atol=1e-12)
 
 
+@pytest.mark.warns("MassUnitWarning")
 def test_a_scene_with_a_table_is_read_back_from_its_file(tmp_path: object) -> None:
     scene = slider()
     scene.add_actuator("rail", feed_forward=Curve.table(TIMES, VALUES, between="cubic"))

@@ -144,6 +144,7 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
 
 
+@pytest.mark.warns(sometimes=["UnitWarning"])
 @pytest.mark.parametrize(
     "kind", ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
 )

@@ -158,6 +158,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
     )
 
 
+@pytest.mark.warns("MeanHeadingWarning")
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
     scene.add_drift()

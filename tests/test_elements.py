@@ -202,6 +202,7 @@ def objects(data: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
             yield from objects(value, f"{path}[{key}]" if isinstance(key, int) else f"{path}.{key}")
 
 
+@pytest.mark.warns("MassUnitWarning")
 def test_a_file_without_one_of_its_entries_is_refused_by_its_name() -> None:
     """The first object of each kind, entry by entry."""
     data = json.loads(json.dumps(described(every_load())))

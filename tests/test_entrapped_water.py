@@ -198,6 +198,7 @@ def test_a_compartment_that_comes_out_in_troughs_keeps_its_bounds_and_its_steps(
     assert np.max(np.abs(result["energy_balance"])) < 1e-5 * np.max(result["absolute_work"])
 
 
+@pytest.mark.warns("UnitWarning")
 def test_inside_the_water_follows_the_pressure_at_the_opening_which_falls_with_depth() -> None:
     period, depth = 9.0, 15.0
     scene = standing(-depth, ((0.0, 0.0, 0.0), 2.0), height=20.0, initial=AREA * depth)
@@ -500,6 +501,7 @@ def test_lanes_hold_water_each_its_own() -> None:
     assert apart.max() < 1e-11
 
 
+@pytest.mark.warns("AssemblyWarning")
 def test_a_load_welded_on_a_body_brings_its_water_to_the_carrier() -> None:
     def scene() -> Scene:
         out = Scene(name="welded", gravity=G)

@@ -294,6 +294,7 @@ def test_a_state_with_limits_of_another_scene_is_refused() -> None:
         Run(pendulum(), t_end=1.0, start=wrong)
 
 
+@pytest.mark.warns(sometimes=["EnergyErrorWarning"])
 @pytest.mark.parametrize("restitution", [0.3, 0.9])
 @pytest.mark.parametrize("make", [ball, pendulum])
 def test_rebounds_shorter_than_a_step_neither_sink_into_a_limit_nor_end_the_run(

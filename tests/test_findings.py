@@ -52,6 +52,7 @@ def five_seconds(first: Result, second: Result) -> dict[str, float]:
     return {name: amplitude_at(first.time, values, **settings) for name, values in change.items()}
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_every_finding_is_reproduced(runs: PaperRuns) -> None:
     findings = paper_findings(runs)
     assert len(findings) == 7

@@ -404,6 +404,7 @@ def chosen(scene: Scene) -> str:
         return Run(scene, t_end=1.0).formulation
 
 
+@pytest.mark.warns("RedundantJointsWarning")
 def test_a_chain_beside_a_door_on_two_hinges_moves_as_it_does_alone() -> None:
     """Of many rows those of the door that the others hold are left out: neither form is dense."""
     alone, beside = hanging_chain(30), hanging_chain(30, door=True)

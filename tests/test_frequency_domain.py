@@ -130,6 +130,7 @@ def test_crane_and_payload_in_low_seas_follow_the_summed_response() -> None:
     assert payload[2] / lower_payload[2] == pytest.approx(2.5, rel=0.02)
 
 
+@pytest.mark.warns("MeanPositionWarning")
 def test_phase_and_place_of_the_waves() -> None:
     """A vessel whose waves have their phase elsewhere: the summed response shifts as the exact load does."""
     scene = cases.vessel(hs=0.05, count=20)

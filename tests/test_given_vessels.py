@@ -119,6 +119,7 @@ def test_a_table_of_raos_moves_the_ship_as_its_database(database: HydroDatabase)
     assert np.all(np.abs(result["vessel_motion"] - expected)[full] < 5e-3 * size)
 
 
+@pytest.mark.warns("RaoPhaseWarning")
 def test_a_database_with_raos_of_its_own_moves_the_ship_by_these(database: HydroDatabase) -> None:
     own = np.zeros((database.heading.size, database.omega.size, 6), dtype=complex)
     own[:, :, 2] = 0.5j
@@ -331,6 +332,7 @@ t_end_s = 5
 """
 
 
+@pytest.mark.warns("RaoPhaseWarning")
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.OutsideRaosWarning")
 def test_lift_files_hold_given_ships(database: HydroDatabase, tmp_path: Path) -> None:
     (tmp_path / "lift.toml").write_text(LIFT)
@@ -363,6 +365,7 @@ MISTAKES_IN_LIFTS = {
 }
 
 
+@pytest.mark.warns(sometimes=["RaoPhaseWarning"])
 @pytest.mark.parametrize("case", MISTAKES_IN_LIFTS)
 def test_mistakes_in_lift_files_are_told(case: str, tmp_path: Path) -> None:
     text = LIFT.replace(*MISTAKES_IN_LIFTS[case])
@@ -468,6 +471,7 @@ def afloat_and_given() -> Scene:
     return scene
 
 
+@pytest.mark.warns(sometimes=["RaoPhaseWarning"])
 @pytest.mark.parametrize("case", BAD)
 def test_bad_input_is_told_by_name(case: str) -> None:
     call, message = BAD[case]
@@ -482,6 +486,7 @@ def test_a_history_in_degrees_is_told() -> None:
         history(motion=motion)
 
 
+@pytest.mark.warns("RaoPhaseWarning")
 def test_a_sea_outside_the_table_is_told(database: HydroDatabase) -> None:
     scene = given(raos())
     with pytest.warns(seacrane.warnings.OutsideRaosWarning, match="of the energy of the waves is outside"):

@@ -110,6 +110,7 @@ def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept
     assert result.interrupted
 
 
+@pytest.mark.warns("EnergyErrorWarning")
 def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> None:
     """100 rad/s: rk4 is stable up to sqrt(8) / 100 = 0.028 s."""
     for dt in (0.025, 0.027):
@@ -124,6 +125,7 @@ def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> 
 STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to}
 
 
+@pytest.mark.warns("EnergyErrorWarning")
 @pytest.mark.parametrize("method", sorted(STABLE_UP_TO))
 def test_the_limits_told_are_those_of_the_methods(method: str) -> None:
     """Energy over 2000 steps of an undamped oscillator, a little below and above the limit."""

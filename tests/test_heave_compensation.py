@@ -113,7 +113,7 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
 
     fine = np.linspace(0.0, 20.0, 8001)
     x = solve_ivp(
-        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, maximum_step=5e-3
+        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, max_step=5e-3
     ).y
     assert_allclose(stroke, x[2][::20], atol=2e-6)
     wanted = (x[0] - x[1]) / 0.2 + (x[1] - x[2]) / 0.3
@@ -147,6 +147,7 @@ def test_bounds_are_in_files_and_in_a_continued_run(tmp_path: Path) -> None:
     assert [e.name for e in (*half.events, *rest.events)] == [e.name for e in whole.events]
 
 
+@pytest.mark.warns(sometimes=["UnitWarning"])
 @pytest.mark.parametrize("settings", [{"lag": 1e-3}, {"maximum_stroke": 1e-6, "lag": 0.1}])
 def test_extremes(settings: dict[str, Any]) -> None:
     scene = compensated(**settings, heave={"omega": OMEGA})

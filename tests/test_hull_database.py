@@ -108,6 +108,7 @@ def test_the_memory_of_a_strip_database_has_no_surge(kind: str) -> None:
     assert all(row.r2_added_mass > 0.98 and row.r2_damping > 0.98 for row in model.rows), model.rows
 
 
+@pytest.mark.warns("BelowBandWarning")
 def test_a_run_in_a_low_sea_follows_the_summed_response() -> None:
     scene = Scene(name="hull")
     scene.add_vessel(replace(ship_database(), memory=ship_memory("passive")), memory="passive")

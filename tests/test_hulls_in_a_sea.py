@@ -176,6 +176,7 @@ def compare_with_single_runs(seed: int) -> None:
         same(alone, moved, tolerance=1e-6)
 
 
+@pytest.mark.warns(sometimes=["CompassDirectionWarning"])
 @pytest.mark.parametrize("seed", range(6))
 def test_hulls_together_are_as_alone_and_as_at_the_origin_of_a_moved_sea(seed: int) -> None:
     compare_with_single_runs(seed)
@@ -358,6 +359,7 @@ def carried(pose: Pose) -> Scene:
     return scene
 
 
+@pytest.mark.warns("BallastWarning", "OutsideRangeWarning")
 def test_a_crane_stands_on_its_vessel_wherever_that_is() -> None:
     pose = Pose(120.0, -40.0, 130.0)
     here, there = carried(Pose(0.0, 0.0, 0.0)), carried(pose)

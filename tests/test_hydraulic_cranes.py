@@ -30,6 +30,7 @@ def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:
     return scene
 
 
+@pytest.mark.warns("PushingLinkWarning")
 def test_a_stroke_has_one_name_whatever_drives_it() -> None:
     """Held, led by a driver, pushed by an actuator or by oil: counted from the described pose."""
     oil = simulate(crane(), 1.0, dt_out=0.5)

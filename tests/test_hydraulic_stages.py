@@ -49,6 +49,7 @@ def test_a_stage_opens_the_spool() -> None:
     assert np.max(spool) == pytest.approx(0.3, rel=1e-3) and spool[-1] == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.warns("BoilingOilWarning")
 def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
     """The instant is located; from there it is the run whose hose bursts at that time."""
     shut = Curve.quintic(start_time=0.5, end_time=0.51, start=0.6, end=0.0)
@@ -168,6 +169,7 @@ commands = [{{ name = "ram.rupture", value_m2 = 4e-6 }}, {{ name = "ram.command"
 )
 
 
+@pytest.mark.warns("BoilingOilWarning")
 def test_a_lift_file_commands_oil(tmp_path: Path) -> None:
     path = tmp_path / "lift.toml"
     path.write_text(FILE, encoding="utf-8")

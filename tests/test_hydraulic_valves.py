@@ -92,6 +92,7 @@ def test_a_relief_valve_opens_at_its_pressure_and_passes_its_flow() -> None:
     assert fine["hydraulic_pressure"][-1, 0, 0] == pytest.approx(5e6, rel=1e-5)
 
 
+@pytest.mark.warns("BoilingOilWarning")
 def test_oil_that_boils_is_told() -> None:
     result = simulate(raised(**CLOSED, **BURST), 3.0, dt_out=0.05, rtol=1e-6)
     assert "ram.vapour_rod" in [event.name for event in result.events]

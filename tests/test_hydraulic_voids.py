@@ -38,7 +38,8 @@ def quietly(scene: Scene, t_end: float, **settings: Any) -> dict[str, Array]:
 def compressibility(p: float, air: float) -> float:
     bulk = 1.0 / SET["oil_modulus"] + 1.0 / SET["cylinder_modulus"]
     liquid = np.exp(-p * bulk)
-    gas = air * (ATMOSPHERE / p) ** (1.0 / 1.4)
+    with np.errstate(invalid="ignore"):  # a trial step of SciPy's may leave the pressures that there are
+        gas = air * (ATMOSPHERE / p) ** (1.0 / 1.4)
     return float((liquid * bulk + gas / (1.4 * p)) / (liquid + gas))
 
 
@@ -125,6 +126,7 @@ def test_no_pressure_falls_below_the_vapours_and_the_energy_closes(integrator: s
     assert np.max(np.abs(out["energy_balance"])) < 2e-6 * out["absolute_work"][-1]
 
 
+@pytest.mark.warns("AssemblyWarning")
 def test_a_closed_chamber_gets_its_oil_back() -> None:
     """Thrown up, the load sucks its closed full side empty, and comes down on the same oil."""
     scene = raised(velocity=1.0, **CLOSED)

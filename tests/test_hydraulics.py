@@ -116,6 +116,7 @@ def test_oil_is_neither_lost_nor_made() -> None:
         assert content[-1] - content[0] == pytest.approx(taken_in, abs=1e-6 * np.ptp(content))
 
 
+@pytest.mark.warns("UnitWarning")
 def test_a_stiffer_oil_comes_to_the_ideal_cylinder() -> None:
     """Which moves by the flows over the areas: s' = C u sqrt(...) of both edges in series."""
     errors = []

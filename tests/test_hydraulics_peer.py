@@ -18,6 +18,7 @@ def hydraulics(monkeypatch: pytest.MonkeyPatch, repository: Path) -> Any:
     return importlib.import_module("compared.hydraulics")
 
 
+@pytest.mark.warns("UnitWarning")
 def test_the_engine_agrees_with_the_record(hydraulics: Any) -> None:
     rows = list(hydraulics.exudyn(np.array(hydraulics.recorded())))
     assert rows

@@ -105,6 +105,7 @@ def coupled_too_strongly() -> HydroDatabase:
     return hull(damping=damping)
 
 
+@pytest.mark.warns(sometimes=["MemoryMismatchWarning", "RollDampingWarning"])
 @pytest.mark.parametrize(
     ("build", "message"),
     [
@@ -289,6 +290,7 @@ def louder(model: MemoryModel, factor: float) -> MemoryModel:
     return dataclasses.replace(model, blocks=blocks)
 
 
+@pytest.mark.warns("MemoryMismatchWarning")
 def test_a_memory_that_feeds_the_motions_is_named() -> None:
     base = shipped_database()
     assert base.memory is not None
@@ -300,6 +302,7 @@ def test_a_memory_that_feeds_the_motions_is_named() -> None:
     assert "of the largest at" in text and told[0].filename == __file__
 
 
+@pytest.mark.warns("MemoryMismatchWarning")
 def test_growth_of_the_free_vessel_is_named() -> None:
     """Heave whose memory pushes in place of damping."""
     base = shipped_database()

@@ -347,6 +347,7 @@ def barge_dataset() -> xarray.Dataset:
     return solved_barge(0.0, 0.0)
 
 
+@pytest.mark.warns("DampingWarning", "HeadingGapWarning")
 def test_a_fresh_capytaine_run(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
     """Energy relation (signs of the couplings included), long waves, and a mesh placed elsewhere."""
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
@@ -369,6 +370,7 @@ def test_a_fresh_capytaine_run(barge_dataset: xarray.Dataset, tmp_path: Path) ->
     assert np.all(np.abs(moved.added_mass - found.added_mass) <= 1e-4 * np.abs(found.added_mass).max())
 
 
+@pytest.mark.warns("DampingWarning")
 def test_what_capytaine_exports_as_wamit_files(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
     """A set without .out: the caller gives volume and gravity. Digits are those of the export."""
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")

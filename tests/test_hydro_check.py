@@ -24,6 +24,7 @@ def rows_of(database: HydroDatabase) -> dict[str, CheckRow]:
     return {row.check: row for row in database.check()}
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_the_supply_vessel_closes(supply: HydroDatabase) -> None:
     rows = rows_of(supply)
     for motion in ("surge", "sway", "heave", "roll", "pitch", "yaw"):
@@ -39,6 +40,7 @@ def test_few_frequencies_are_checked_without_a_memory(supply: HydroDatabase) -> 
     assert not [name for name in rows_of(narrow) if name.startswith("memory")]
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 @pytest.mark.parametrize(
     ("damage", "motions"),
     [

@@ -227,6 +227,7 @@ def equal(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
+@pytest.mark.warns(sometimes=["DampingWarning", "HeadingGapWarning", "RaoPhaseWarning"])
 @pytest.mark.parametrize("build", [small, everything, shipped_database])
 def test_netcdf_round_trip_loses_nothing(build: Any, tmp_path: Path) -> None:
     database = build()

@@ -110,6 +110,7 @@ def test_readers_of_one_body_name_the_reader_of_several(pair: HydroGroup, tmp_pa
         read_wamit(wamit_files(pair, tmp_path) / "pair")
 
 
+@pytest.mark.warns("AssumedInertiaWarning")
 def test_masses_are_guessed_aloud(pair: HydroGroup, tmp_path: Path) -> None:
     with pytest.warns(AssumedInertiaWarning, match="no mass matrix of feeder, give read_bemio_group"):
         found = read_bemio_group(bemio_file(pair, tmp_path))

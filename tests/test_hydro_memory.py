@@ -113,6 +113,7 @@ def test_unstable_denominators_are_refused() -> None:
         realise(np.array([1.0, 0.0]), np.array([1.0, -0.2, 1.0]), output=0, input=0, cause=RADIATION)
 
 
+@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 @pytest.mark.parametrize("which", ["shipped", "supply"])
 def test_every_entry_follows_the_data(which: str, request: pytest.FixtureRequest) -> None:
     database = shipped_database() if which == "shipped" else request.getfixturevalue("supply")

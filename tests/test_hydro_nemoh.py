@@ -120,6 +120,7 @@ def test_what_was_written_comes_back(inside: str, tmp_path: Path) -> None:
     assert found.mass_matrix[0, 4] == pytest.approx(1.5 * found.mass_matrix[0, 0])
 
 
+@pytest.mark.warns("DampingWarning")
 def test_what_capytaine_exports(tmp_path: Path) -> None:
     """No Nemoh.cal: water and rotation centre are the caller's. Seven digits are written."""
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")

@@ -85,6 +85,7 @@ def with_dampers(block: MemoryBlock, change: Array) -> MemoryBlock:
     return dataclasses.replace(block, A=a)
 
 
+@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 def test_the_damping_is_positive_far_beyond_the_band(ship: tuple[HydroDatabase, MemoryModel]) -> None:
     """Re K(i w) >= margin w^2 / (1 + w^2)^2 at every frequency from 1e-3 to 1e3 rad/s."""
     _, model = ship
@@ -134,6 +135,7 @@ def test_the_hamiltonian_has_no_imaginary_eigenvalue(ship: tuple[HydroDatabase, 
         assert np.min(np.abs(middle.real) / np.abs(middle)) > 1e-3
 
 
+@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 def test_every_pair_follows_the_data_with_fewer_states(ship: tuple[HydroDatabase, MemoryModel]) -> None:
     database, model = ship
     inside = (database.omega >= model.band[0] - 1e-9) & (database.omega <= model.band[1] + 1e-9)
@@ -349,6 +351,7 @@ def test_a_weak_pair_is_judged_by_the_motions() -> None:
     assert all(row.accepted for row in model.rows)
 
 
+@pytest.mark.warns("DampingWarning")
 def test_data_that_cannot_be_passive_warn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pair 35 made larger than its diagonals allow: still a passive model, and a warning with numbers."""
     monkeypatch.setattr(passive, "MOST_MASSES", 1)

@@ -44,6 +44,7 @@ def test_the_shipped_vessel() -> None:
     assert vessel.memory is shipped_database().memory
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_mass_matrix_is_split_and_rebuilt(supply: HydroDatabase) -> None:
     for database in (shipped_database(), supply):
         vessel = vessel_parameters(database)

@@ -357,6 +357,7 @@ def hanging(seed: int) -> Scene:
     return scene
 
 
+@pytest.mark.warns(sometimes=["DragAxesWarning"])
 @pytest.mark.parametrize("seed", range(3))
 def test_both_formulations_move_random_parts_alike_and_the_ledger_closes(seed: int) -> None:
     scene = hanging(seed)
@@ -448,6 +449,7 @@ def test_lanes_evaluate_wet_bodies_each_by_its_own_mass() -> None:
     assert apart.max() < 1e-11
 
 
+@pytest.mark.warns("AssemblyWarning")
 def test_a_load_welded_on_a_body_brings_its_added_mass_to_the_carrier() -> None:
     def scene() -> Scene:
         out = Scene(name="welded", gravity=G)

@@ -90,6 +90,7 @@ def fast_crank(speed: float, *, crank: float = 0.01, rod: float = 0.03) -> Scene
     return scene
 
 
+@pytest.mark.warns("UnitWarning")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize(("integrator", "rtol", "limit"), [
     ("cvode-bdf", 1e-7, 1e-8),
@@ -142,7 +143,7 @@ def test_dense_output_equals_that_of_scipy(integrator: str, method: type[RungeKu
     own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, maximum_step=h,
               channels=["position", "velocity", "angular_velocity"])  # fmt: skip
     y = np.array(own.core.state.values)
-    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, maximum_step=h, rtol=0.1, atol=1e3)
+    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, max_step=h, rtol=0.1, atol=1e3)
     solver.step()
     own.advance(h)
     assert own.core.statistics()["steps"] == 1

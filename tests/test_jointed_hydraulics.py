@@ -52,6 +52,7 @@ def test_an_a_frame_starts_at_rest_on_its_oil(tilt: float) -> None:
         assert result["cylinder_force"][0, 0] == pytest.approx(told, rel=1e-5)
 
 
+@pytest.mark.warns("BoilingOilWarning")
 def test_a_stage_swings_the_frame_out_over_the_stern() -> None:
     scene = a_frame(base="vessel")
     move = Stage(name="out", duration=25.0, commands={"cylinder.reference": Move(by=1.0, over=20.0)})

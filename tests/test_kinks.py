@@ -171,6 +171,7 @@ def test_each_sample_of_a_coarse_record_is_a_stop() -> None:
     assert result.stats["restarts"] >= 98
 
 
+@pytest.mark.warns("UnitWarning")
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), element=st.sampled_from(sorted(ELEMENTS)))
 def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: int, element: str) -> None:

@@ -83,6 +83,7 @@ def test_a_case_and_its_file_are_one_scene(name: str) -> None:
         np.testing.assert_array_equal(second[channel], values, err_msg=channel)
 
 
+@pytest.mark.warns("SeabedWarning")
 def test_every_table_is_its_call(tmp_path: Path) -> None:
     assert lift_of(EVERY_TABLE, tmp_path).scene() == every_table()
 

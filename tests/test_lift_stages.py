@@ -82,6 +82,7 @@ def test_a_channel_is_waited_for_in_its_unit(tmp_path: Path) -> None:
     assert stage.until == (Until.contact("on deck"),)
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_a_lift_in_stages_runs_as_by_calls(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lift = lift_of(ON_DECK, tmp_path)
     direct = simulate_stages(lift.scene(), STAGES, outputs=lift.outputs)

@@ -73,6 +73,7 @@ def falling(speed: float, *, stiffness: float | None, ratio: float = 0.02, along
     return scene
 
 
+@pytest.mark.warns("UnitWarning")
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("along", [0.0, 0.5])
 def test_a_snatch_is_the_impact_of_the_rigid_wire(along: float, formulation: str) -> None:

@@ -90,6 +90,7 @@ def test_case2_takes_the_rung_that_its_stiffness_allows(stiffness: float, expect
     assert "% of what the swing of its load makes of it, its own frequency being" in rung.reason
 
 
+@pytest.mark.warns("UnitWarning")
 def test_stiff_costs_like_soft_by_itself() -> None:
     settings: dict[str, Any] = {"dt_out": 1.0, "rtol": 1e-4, "channels": ["position"]}
     rigid = simulate(cases.case2(), 20.0, **settings)
@@ -98,6 +99,7 @@ def test_stiff_costs_like_soft_by_itself() -> None:
     assert out.stats["line_rungs"].startswith("link: quasi-static: its tension would err by ")
 
 
+@pytest.mark.warns("UnitWarning")
 def test_it_is_the_run_of_the_rung_it_takes() -> None:
     chosen = simulate(heaved(), 4.0, dt_out=0.5)
     given = heaved()
@@ -298,6 +300,7 @@ def test_the_frequency_of_a_line_is_that_of_its_mode() -> None:
         assert np.min(np.abs(rates / line.omega - 1.0)) < 1e-2
 
 
+@pytest.mark.warns(sometimes=["LiftedStartWarning"])
 @pytest.mark.parametrize(
     ("make", "words"),
     [
@@ -334,6 +337,7 @@ def stepped_winch(lag: float) -> Scene:
     return scene
 
 
+@pytest.mark.warns("UnitWarning")
 def test_it_stays_elastic_where_something_would_shake_it() -> None:
     stopped = heaved()
     stopped.add_soft_stop(name="buffer", joint="guide", minimum=-5.0, stiffness=1e6)
@@ -358,6 +362,7 @@ def test_it_stays_elastic_where_something_would_shake_it() -> None:
     assert "limit 'stop' makes impacts" in reason
 
 
+@pytest.mark.warns("LargeSwingWarning", "UnitWarning")
 def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
     expected = over_the_top()
     expected.replace("hoist", rung="elastic")
@@ -376,6 +381,7 @@ def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
     assert result.time[-1] == 2.5
 
 
+@pytest.mark.warns("LargeSwingWarning", "UnitWarning")
 def test_one_that_goes_on_and_then_goes_slack_begins_anew_from_its_own_start() -> None:
     start = simulate(over_the_top(), 0.5, dt_out=0.1).state
     assert "hoist.strain_rate" in start.load_states
@@ -386,6 +392,7 @@ def test_one_that_goes_on_and_then_goes_slack_begins_anew_from_its_own_start() -
     assert np.min(result["line_tension"]) == 0.0
 
 
+@pytest.mark.warns("UnitWarning")
 def test_a_run_goes_on_with_the_rung_of_its_start(tmp_path: Path) -> None:
     whole = Run(heaved(), t_end=4.0, dt_out=0.1)
     whole.advance(4.0)
@@ -420,6 +427,7 @@ def test_rest_modes_and_files_take_it_as_elastic(tmp_path: Path) -> None:
     assert Scene.load(tmp_path / "scene.json") == scene
 
 
+@pytest.mark.warns("UnitWarning")
 def test_what_cannot_begin_anew_stays_elastic(tmp_path: Path) -> None:
     simulate_to_file(heaved(), tmp_path / "a.nc", 0.2, dt_out=0.1)
     told = Result.load(tmp_path / "a.nc").stats["line_rungs"]
@@ -428,6 +436,7 @@ def test_what_cannot_begin_anew_stays_elastic(tmp_path: Path) -> None:
     assert rung_of(heaved(), model=model) == ("elastic", COMPILED)
 
 
+@pytest.mark.warns("UnitWarning")
 def test_inputs_that_jump_make_it_elastic() -> None:
     scene = heaved()
     scene.add_winch(line="hoist", lag=0.2)
@@ -461,6 +470,7 @@ def shaken(rung: str) -> Scene:
     return scene
 
 
+@pytest.mark.warns("UnitWarning")
 def test_a_line_that_pushes_for_a_moment_is_told() -> None:
     with pytest.warns(PushingLineWarning, match=r"line 'hoist': pushes with .* its stretch is quasi-static"):
         out = simulate(shaken("quasi-static"), 1.0, dt_out=0.01)
@@ -468,6 +478,7 @@ def test_a_line_that_pushes_for_a_moment_is_told() -> None:
     assert "a jump at t = 0.5 s" in rung_of(shaken("auto"))[1]
 
 
+@pytest.mark.warns("UnitWarning")
 def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_RINGING", np.inf)
     monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_ERROR", np.inf)
@@ -477,6 +488,7 @@ def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> 
     assert np.array_equal(out["position"], simulate(shaken("elastic"), 1.0, dt_out=0.01)["position"])
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_an_energy_that_does_not_close_is_told() -> None:
     scene = heaved(stiffness=1e10)
     scene.replace("hoist", rung="elastic")

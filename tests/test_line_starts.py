@@ -29,6 +29,7 @@ def on_drum(**winch: Any) -> Scene:
     return scene
 
 
+@pytest.mark.warns(sometimes=["WinchLimitWarning"])
 @pytest.mark.parametrize(
     ("winch", "words"),
     [
@@ -85,6 +86,7 @@ def test_every_bound_of_a_winch_that_is_reached_is_told(winch: dict[str, Any], b
     assert f"its winch reached its {bound.split(',')[0]}" in result.stats["validity"]
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
     for falls in (1, 3):
         with pytest.warns(
@@ -159,6 +161,7 @@ def moored() -> Scene:
     return scene
 
 
+@pytest.mark.warns(sometimes=["LineLengthWarning"])
 @pytest.mark.parametrize("start", [None, "rest"])
 def test_a_line_that_is_stretched_at_rest_contradicts_nothing(start: Any) -> None:
     """Its described pose does; runs and lifts in stages alike."""

@@ -86,6 +86,7 @@ def test_a_snatch_peaks_at_its_closed_form() -> None:
     assert np.all((out["line_tension"][:, 0] > 0.0) == (out["line_stretch"][:, 0] > 0.0))
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_the_order_is_kept_where_a_line_goes_slack_and_taut() -> None:
     """The crossings are located: errors fall with the tolerance, not with the step that met the kink."""
     scene = hung(damping=0.02, stretch=0.3)
@@ -121,7 +122,7 @@ def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
     start = np.concatenate([body.position, body.velocity, [8.5, 0.0]])
     times = np.linspace(0.0, 5.0, 51)
     expected = solve_ivp(
-        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, maximum_step=2e-3
+        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, max_step=2e-3
     ).y.T
     out = record(scene, 5.0, dt_out=0.1, rtol=1e-9)
     assert_allclose(out["position"][:, 0], expected[:, :3], atol=2e-7)
@@ -153,6 +154,7 @@ def test_hauling_in_stops_at_the_minimum_length() -> None:
     assert_allclose(out["line_pay_out_rate"][out["time"] > 2.05], 0.0)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("make", [swinging, reeved])
 def test_the_energy_balance_closes(make: Any, formulation: str) -> None:
@@ -175,6 +177,7 @@ def test_the_winch_lifts_by_its_power() -> None:
     assert work == pytest.approx(MASS * G * rise + stored[-1] - stored[0] + moving, rel=2e-4)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize("make", [swinging, reeved])
 def test_both_formulations_and_merged_bodies_agree(make: Any) -> None:
     scene = make()
@@ -188,6 +191,7 @@ def test_both_formulations_and_merged_bodies_agree(make: Any) -> None:
         assert_allclose(other["line_tension"], runs[0]["line_tension"], atol=2e-1)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_every_integrator_takes_states_and_converges() -> None:
     exact = record(reeved(), 1.0, rtol=1e-11, dt_out=1.0)
     for name in integrator_names():
@@ -205,6 +209,7 @@ def test_every_integrator_takes_states_and_converges() -> None:
         assert_allclose(out["load_state"][-1], exact["load_state"][-1], atol=rough, err_msg=name)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize(
     "settings", [{"integrator": "dopri5", "rtol": 1e-7}, {"integrator": "rk4", "dt": 2e-3},
@@ -221,6 +226,7 @@ def test_a_run_goes_on_bit_for_bit(settings: dict[str, Any], formulation: str, t
     assert np.array_equal(rest.core.state.values, whole.core.state.values)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_the_exact_jacobian_is_that_of_differences() -> None:
     scene = reeved()
     model = scene.compile(merge=False)
@@ -239,6 +245,7 @@ def test_the_exact_jacobian_is_that_of_differences() -> None:
         assert_allclose(exact[:, j], expected, atol=1e-6 * np.max(np.abs(exact)), rtol=1e-6)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_states_are_named_read_and_set(tmp_path: Path) -> None:
     scene = swinging()
     result = simulate(scene, 1.0, dt_out=0.1)
@@ -294,6 +301,7 @@ def test_an_input_adds_to_the_winchs_command() -> None:
     assert run.core.state.load_states["hoist.length"] == pytest.approx(10.0 + 0.5 * 0.1 + 0.5 * 0.3, abs=1e-9)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_rest_modes_and_the_linear_model_hold_the_states() -> None:
     """At rest by its weight; the drum's lag is a real mode, and its length a state that nothing holds."""
     scene = swinging(rate=0.0)
@@ -327,6 +335,7 @@ def test_kinks_of_a_command_are_stops() -> None:
     assert scene.compile().breakpoints == [0.4]
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_a_length_that_contradicts_the_path_is_told() -> None:
     with pytest.warns(
         LineLengthWarning, match=r"line 'hoist': starts stretched by 0.3 m, 0.03 of its unstr.* 10 m"

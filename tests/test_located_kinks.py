@@ -64,6 +64,7 @@ def test_random_hoists_stop_at_their_minimum_length(formulation: str) -> None:
         assert out.min() > scene.loads["hoist"].minimum_length - 1e-6, seed
 
 
+@pytest.mark.warns("WinchLimitWarning")
 def test_accuracy_holds_where_a_winch_comes_to_its_end() -> None:
     truth = simulate(hoisted(), 4.0, dt_out=0.1, integrator="dop853", rtol=1e-11, maximum_step=0.01)
     with warnings.catch_warnings():

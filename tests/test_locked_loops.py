@@ -55,6 +55,7 @@ def test_held_strokes_leave_the_slew_that_moves() -> None:
     assert model.merge["coordinates"] - model.merge["constraints"] == 12
 
 
+@pytest.mark.warns("BallastWarning")
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_accelerations_and_forces_are_those_of_the_joints_at_the_same_state(formulation: str) -> None:
     """Of the largest of their kind, with the minimum norm of what is redundant."""
@@ -68,6 +69,7 @@ def test_accelerations_and_forces_are_those_of_the_joints_at_the_same_state(form
         assert np.abs(merged[name][0] - full[name][0]).max() < 1e-10 * scale, name
 
 
+@pytest.mark.warns("BallastWarning")
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_run_at_a_fixed_step_is_that_of_the_joints(formulation: str) -> None:
     how = {"t_end": 4.0, "dt_out": 0.5, "integrator": "rk4", "dt": 0.002}
@@ -113,6 +115,7 @@ def four_bar(*, coupler: float = 5.0, held: bool = True) -> Scene:
     return scene
 
 
+@pytest.mark.warns("RedundantJointsWarning")
 def test_a_four_bar_is_rigid_under_a_held_crank_and_free_without() -> None:
     assert four_bar().compile().merge["bodies"] == {"ground": ["crank", "coupler", "rocker"]}
     assert four_bar(held=False).compile().merge["bodies"] == {}
@@ -125,6 +128,7 @@ def test_at_a_dead_centre_a_loop_stays_in_its_joints() -> None:
     assert merged["bodies"] == {"ground": ["crank"]}
 
 
+@pytest.mark.warns("RedundantJointsWarning")
 def test_a_state_that_closes_in_the_other_way_is_refused_by_name() -> None:
     """Coupler and rocker folded to the other side of the line between their ends."""
     scene = four_bar()
@@ -164,6 +168,7 @@ def test_a_load_on_a_seat_lifts_off_when_the_joints_say() -> None:
     assert found[0] == pytest.approx(found[1], rel=1e-6)
 
 
+@pytest.mark.warns("BallastWarning")
 def test_a_restart_keeps_its_bits() -> None:
     scene = lift()
     whole = Run(scene, t_end=6.0, dt_out=0.5)
@@ -175,6 +180,7 @@ def test_a_restart_keeps_its_bits() -> None:
     assert np.array_equal(np.array(rest.core.state.values), np.array(whole.core.state.values))
 
 
+@pytest.mark.warns("BallastWarning")
 def test_drivers_of_held_joints_tell_their_forces() -> None:
     """Main stroke: by the same run of the joints; nothing moves it, so that it does no work."""
     run = simulate(lift(), 2.0, channels=["cylinder_force", "slew_torque"])

@@ -82,6 +82,7 @@ def everything() -> None:
     quay.add_luffing_rope()
 
 
+@pytest.mark.warns("SeabedWarning")
 def test_every_method_returns_what_it_added_as_the_scene_holds_it(monkeypatch: pytest.MonkeyPatch) -> None:
     with watched(monkeypatch) as seen:
         everything()

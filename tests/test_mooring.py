@@ -112,6 +112,7 @@ def with_own(database: HydroDatabase, matrix: Array) -> HydroDatabase:
     return replace(database, restoring=database.restoring + matrix)
 
 
+@pytest.mark.warns("NonPassiveMemoryWarning")
 def test_the_mooring_of_a_database_is_used_once() -> None:
     database, own = shipped_database(), mooring_matrix(SYMMETRIC)
     bare = stiffness(vessel(database, mooring_period=None))
@@ -120,6 +121,7 @@ def test_the_mooring_of_a_database_is_used_once() -> None:
     assert np.abs(stiffness(scene) - bare - own).max() <= 1e-9 * own.max()
 
 
+@pytest.mark.warns("NonPassiveMemoryWarning")
 @pytest.mark.parametrize("second", [{"mooring": 100.0}, {"mooring": FOUR}, {"mooring_period": 90.0}])
 def test_a_second_mooring_is_refused(second: dict[str, Any]) -> None:
     database = with_own(shipped_database(), np.diag([1e5, 2e5, 0, 0, 0, 3e8]))
@@ -129,6 +131,7 @@ def test_a_second_mooring_is_refused(second: dict[str, Any]) -> None:
     assert plain == vessel(replace(database, restoring=shipped_database().restoring), **second)
 
 
+@pytest.mark.warns("NonPassiveMemoryWarning")
 def test_a_coupling_without_its_spring_is_no_mooring() -> None:
     odd = np.zeros((6, 6))
     odd[0, 4] = odd[4, 0] = 1e5

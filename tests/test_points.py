@@ -128,6 +128,7 @@ def test_small_swing_is_that_of_a_pendulum() -> None:
     np.testing.assert_allclose(result["offlead"], pendulum, atol=2e-9)
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_tip_velocity_is_that_of_the_slewing_boom() -> None:
     result = simulate(hanging(0.0, 0.0, rate=0.2), t_end=1.0)
     angle = 0.2 * result.time

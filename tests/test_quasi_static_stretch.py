@@ -141,6 +141,7 @@ def test_it_is_far_nearer_to_the_elastic_line_than_the_rigid_link_and_by_the_ord
     assert apart[0] / apart[1] > 3.0
 
 
+@pytest.mark.warns(sometimes=["LiftedStartWarning", "QuasiStaticLineWarning"])
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("make", [lambda: settled(swinging(), settling=0.1), pulled])
 def test_the_energy_balance_closes(make: Any, formulation: str) -> None:
@@ -149,6 +150,7 @@ def test_the_energy_balance_closes(make: Any, formulation: str) -> None:
     assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
 
 
+@pytest.mark.warns("QuasiStaticLineWarning")
 def test_both_formulations_agree() -> None:
     a, b = (record(pulled(), 4.0, rtol=1e-9, formulation=form) for form in FORMULATIONS)
     for name in ("position", "velocity", "load_state"):
@@ -157,6 +159,7 @@ def test_both_formulations_agree() -> None:
         assert_allclose(a[name], b[name], atol=1e-5 * np.abs(a[name]).max())
 
 
+@pytest.mark.warns("QuasiStaticLineWarning")
 def test_a_closed_loop_of_rows_beside_it() -> None:
     """Jacobians and steps where joints close a loop in the recursive form as well: three methods agree."""
     scene = pulled()
@@ -174,6 +177,7 @@ def test_a_closed_loop_of_rows_beside_it() -> None:
     assert_allclose(runs[2], runs[0], atol=1e-3)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_a_winch_works_on_the_tension_it_records() -> None:
     """Momentum of the load, and the winch's power: T (1 + e) times the rate, but for what the line stores."""
     out = record(settled(swinging(), settling=0.1), 6.0, rtol=1e-9)
@@ -200,6 +204,7 @@ def test_it_rests_where_the_elastic_line_does() -> None:
     assert_allclose(np.asarray(found)[:3], np.asarray(elastic)[:3], atol=1e-9)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     scene = settled(swinging(), settling=0.1)
     whole = Run(scene, t_end=1.5, dt_out=0.05)
@@ -213,6 +218,7 @@ def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     assert set(start.load_states) == {"hoist.length", "hoist.rate", "hoist.strain_rate"}
 
 
+@pytest.mark.warns("UnitWarning")
 def test_stiff_costs_like_soft_on_case2() -> None:
     """From 1e8 to 1e11 N: 1 cm of the payload, 2 % of the tension's range, 1.5 times the evaluations."""
     settings: dict[str, Any] = {"dt_out": 0.2, "rtol": 1e-4}
@@ -251,6 +257,7 @@ def test_a_line_that_goes_slack_ends_the_run_by_name() -> None:
         simulate(settled(hung(stretch=-0.1)), 1.0)
 
 
+@pytest.mark.warns("QuasiStaticLineWarning")
 def test_hauling_in_to_the_end_is_refused_by_name() -> None:
     scene = hung(length=3.0)
     scene.add_winch(line="hoist", rate=-0.5, lag=0.2, minimum_length=2.5)
@@ -283,6 +290,7 @@ def test_what_it_cannot_do_is_told() -> None:
         paper.compile()
 
 
+@pytest.mark.warns("GrowingModeWarning", "UnitWarning")
 def test_a_stiff_elastic_line_is_told_its_rung() -> None:
     scene = pendulum("elastic", 1e11)
     with pytest.warns(StiffWarning, match="the stretch of line 'hoist' and the line stays taut, give it"):

@@ -216,6 +216,7 @@ def chain_below_a_door(light: float) -> Scene:
     return scene
 
 
+@pytest.mark.warns("RedundantJointsWarning")
 def test_a_long_chain_on_a_door_with_two_hinges_leaves_five_rows_out() -> None:
     scene = chain_below_a_door(1.0)
     model = scene.compile()

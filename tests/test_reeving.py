@@ -226,6 +226,7 @@ def corded(strain: float, *, last: float = 0.8) -> Scene:
     return scene
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_a_shock_cord_follows_its_table() -> None:
     """A monotone cubic spline, as SciPy's; with its tangent beyond, and its integral as potential."""
     table = PchipInterpolator([0.0, 0.1, 0.3, 0.8], [0.0, 300.0, 700.0, 3000.0])
@@ -240,6 +241,7 @@ def test_a_shock_cord_follows_its_table() -> None:
     assert low == pytest.approx(-6.4, abs=1e-3)
 
 
+@pytest.mark.warns("LiftedStartWarning", "LineLengthWarning")
 def test_a_cord_beyond_its_table_is_told() -> None:
     with pytest.warns(
         LineTableWarning, match=r"line 'cord': is strained by 0\.6 at t = 0 s, .* ends at 0\.5"
@@ -277,6 +279,7 @@ def test_a_line_that_leaves_its_sheave_ends_the_run_by_name() -> None:
         simulate(scene, 5.0)
 
 
+@pytest.mark.warns("FleetAngleWarning", "WinchLimitWarning")
 def test_a_line_that_leans_out_of_its_groove_is_told() -> None:
     scene = slewing()
     with pytest.warns(

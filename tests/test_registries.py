@@ -16,6 +16,7 @@ ENDS = {"first", "second", "first_point", "second_point"}
 SHOWN_BY_WHAT_THEY_ACT_ON = {"pendulum damping", "span drag", "immersed span", "wound span"}
 
 
+@pytest.mark.warns("SeabedWarning")
 def test_every_kind_of_load_is_in_a_lift_file() -> None:
     written = {kind_of(load) for load in every_table().all_loads()}
     assert set(LOAD_KINDS) - written == IN_NO_TEXT

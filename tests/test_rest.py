@@ -63,6 +63,7 @@ def test_a_rest_lasts_or_is_told_not_to(seed: int) -> None:
     assert far < STILL or any(issubclass(one.category, REPORTED) for one in caught), far
 
 
+@pytest.mark.warns(sometimes=["AssemblyWarning"])
 @pytest.mark.parametrize(("driven", "slack"), [(-1.0, 0.0), (0.0, 1.0), (0.0, 20.0), (-0.5, 0.3)])
 def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> None:
     scene = hung(driven=driven, slack=slack)
@@ -71,6 +72,7 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
     assert state.values[7 + 2] == pytest.approx(-below, abs=1e-6)
 
 
+@pytest.mark.warns("StiffWarning")
 @pytest.mark.parametrize("up", [-0.2, 0.2])
 def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene = Scene(name="heavy")

@@ -184,6 +184,7 @@ def test_a_run_ends_where_auto_was_wrong_and_keeps_what_it_recorded() -> None:
     assert again.advance(2.5)
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_the_second_run_that_simulate_takes_is_the_elastic_one() -> None:
     with pytest.warns(LineRungWarning, match="a second run from the same start, with elastic lines"):
         result = simulate(over_the_top(), 2.5, dt_out=0.1)

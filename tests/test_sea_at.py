@@ -263,6 +263,7 @@ def test_another_sea_for_a_compiled_model_is_another_field() -> None:
     assert np.abs(seen - expected.velocity[:, 0, 0]).max() < 1e-12
 
 
+@pytest.mark.warns("BlockedWavesWarning")
 def test_members_of_a_study_keep_the_current() -> None:
     scene = ship_in_a_sea(current=Current(speed=1.5, direction_deg=340.0), stretching="none")
     require_same_sea(scene, ["seed", "hs"])

@@ -213,6 +213,7 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
     np.testing.assert_allclose(moments, found.moments[2, :2], rtol=2e-3)
 
 
+@pytest.mark.warns("UndampedModeWarning")
 def test_following_seas_that_are_met_outside_the_table_are_named(tmp_path: Path) -> None:
     still, moving = ship_at(10.0, tmp_path)
     with pytest.warns(EncounterFrequencyWarning, match=r"at 10 m/s \d+% .* no linear theory holds"):

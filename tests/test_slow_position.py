@@ -64,6 +64,7 @@ def test_a_hull_that_is_held_gets_the_loads_of_the_mean_position() -> None:
     assert np.all(np.abs(mean - slow) < 1e-7 * np.abs(mean).max())
 
 
+@pytest.mark.warns("ForwardSpeedWarning")
 def test_a_slow_position_is_the_low_passed_one_of_drift_turn_and_waves() -> None:
     """Steady drift, slow swings of sway and yaw and oscillations in all three: gain and phase of each."""
     drift, swing, wave = 0.4, 0.06, 1.1
@@ -112,6 +113,7 @@ def test_a_hull_that_slowly_drifts_and_turns_tends_to_the_loads_of_where_it_is()
     assert 3.0 < errors[0] / errors[1] < 5.0
 
 
+@pytest.mark.warns("ForwardSpeedWarning")
 def test_a_steady_drift_is_followed_from_the_start_on() -> None:
     ahead = Curve.pieces(starts=[0.0], coefficients=[[0.0, 2.0, 0, 0, 0, 0]])
     slow, actual = (

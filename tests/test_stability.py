@@ -105,6 +105,7 @@ def test_a_moment_beyond_the_restoring_is_refused(moment: float) -> None:
         barge().add_slack_tank(moment=moment)
 
 
+@pytest.mark.warns("LoadInHullWarning")
 def test_statics_tells_a_ship_that_capsizes_and_how_fast() -> None:
     heavy = 1.1 * C44 / (G * 20.0)
     scene = hanging(barge(), y=0.0, mass=heavy)

@@ -76,6 +76,7 @@ def lifts() -> Ensemble:
     return ensemble(feeder(), stages=STAGES, over={"seed": [1, 2, 3]}, keep=KEEP, **HOW)
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_members_are_their_staged_runs_to_the_bit(lifts: Ensemble) -> None:
     for place, seed in enumerate((1, 2, 3)):
         run = simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
@@ -112,6 +113,7 @@ def _peak_by_hand(result: Any) -> float:
     return MASS * G + float(np.hypot(MASS * acceleration, (0.5 - speed) * np.sqrt(stiffness * MASS)))
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_numbers_of_stages_vary_by_path(lifts: Ensemble) -> None:
     over = [{"stages.lift.commands.hoist.rate": rate, "stages.wait.duration": wait, "seed": 2}
             for rate, wait in ((-0.5, 5.0), (-0.25, 5.0), (-0.5, 7.0))]  # fmt: skip
@@ -232,6 +234,7 @@ def test_what_contradicts_is_refused_by_name() -> None:
     assert "no stage 'down'" in told.failures[0]
 
 
+@pytest.mark.warns("FewSeedsWarning")
 def test_allowable_hs_of_a_lift_in_stages() -> None:
     """Each storm is the staged run of its own; what a lift reaches in calm water is where Hs is zero."""
     scene, seeds, heights = feeder(), range(1, 9), (1.0, 3.0)
@@ -324,6 +327,7 @@ channel = "stage[lift off].end"
 """
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_a_study_file_of_a_lift_in_stages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
     study = tmp_path / "study.toml"

@@ -73,6 +73,7 @@ def test_fixed_steps_that_end_where_stages_do_are_those_of_one_run_to_the_bit() 
         assert np.array_equal(result[name], whole[name]), name
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_deck_and_hook_carry_the_weight_and_the_load_leaves_when_the_hook_carries_it() -> None:
     """l0 = l / (1 + W / EA): the time follows from the winch's rate, which is reached by a quintic of 1 s."""
     result = simulate_stages(on_deck(damping_ratio=0.0), lift_off(), rtol=1e-8)
@@ -91,6 +92,7 @@ def test_deck_and_hook_carry_the_weight_and_the_load_leaves_when_the_hook_carrie
     assert deck[lifted + 1 :].max() == 0.0
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_a_load_that_is_let_go_falls_and_its_rope_takes_its_energy_along() -> None:
     result = simulate_stages(on_deck(), lift_off(), rtol=1e-8)
     fall = result.stage("let go")
@@ -336,6 +338,7 @@ def test_a_condition_located_while_ctrl_c_is_pressed_keeps_what_was_there(monkey
     assert [span.ended_by for span in result.stages] == ["duration", ""]
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_results_keep_their_stages(tmp_path: Path) -> None:
     result = simulate_stages(on_deck(), lift_off(), dt_out=0.2)
     again = Result.load(result.save(tmp_path / "lift.nc"))
@@ -352,6 +355,7 @@ def test_results_keep_their_stages(tmp_path: Path) -> None:
     assert simulate(on_deck(), 0.2).stages == ()
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_channels_are_recorded_in_the_stages_that_have_them() -> None:
     wanted = ["position", "line_tension"]
     result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(rtol=1e-5))
@@ -719,6 +723,7 @@ def test_a_stage_that_is_run_again_calls_its_controllers_at_the_same_times() -> 
     np.testing.assert_array_equal(other.state.values, run.state.values)
 
 
+@pytest.mark.warns("ThroughSeatWarning")
 def test_the_weight_on_a_line_is_known_though_it_is_let_go_at_last() -> None:
     table = summary(simulate_stages(on_deck(), lift_off(), dt_out=0.1, rtol=1e-5))
     row = table["hoist tension hoist"]

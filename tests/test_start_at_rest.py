@@ -78,6 +78,7 @@ def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path)
     assert np.all(kept.dataset["range"].to_numpy() < 1.0)
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> None:
     for end in (
         '[run]\nstart = "rest"\nt_end_s = 2\n',

@@ -26,6 +26,7 @@ def lifts() -> Ensemble:
     return ensemble(feeder(), stages=STAGES, over=OVER, keep=KEEP, **HOW)
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_each_begins_in_the_state_of_its_sea_to_the_bit(lifts: Ensemble) -> None:
     for seed in OVER["seed"]:
         scene = with_sea(feeder(), {"seed": seed})
@@ -55,6 +56,7 @@ def test_packs_threads_processes_and_a_resumed_store_give_the_same(
     assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(lifts.dataset)
 
 
+@pytest.mark.warns("LineLengthWarning")
 def test_what_waits_is_told_where_it_fails() -> None:
     scene = feeder()
     state = simulate(scene, 5.0).state

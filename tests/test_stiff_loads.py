@@ -27,6 +27,7 @@ def end_of(scene: Scene, **settings: Any) -> np.ndarray:
     return np.array([out["hydraulic_stroke"][-1, 0], 1e-7 * out["hydraulic_pressure"][-1, 0, 0]])
 
 
+@pytest.mark.warns("AssemblyWarning")
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_its_order_is_four_in_stiff_directions(formulation: str) -> None:
     scene = moved(spool_lag=0.02)
@@ -47,6 +48,7 @@ def test_both_formulations_agree() -> None:
     assert_allclose(runs[0]["hydraulic_stroke"], runs[1]["hydraulic_stroke"], atol=3e-6)
 
 
+@pytest.mark.warns("AssemblyWarning", sometimes=["UnitWarning"])
 @pytest.mark.parametrize("lag", [1e-3, 1e-4, 1e-5])
 def test_a_quick_spool_costs_no_steps(lag: float) -> None:
     scene = moved(spool_lag=lag)
@@ -86,6 +88,7 @@ def test_it_linearises_once_in_some_steps() -> None:
     assert SET["spool_lag"] * stats["steps"] < 1.7
 
 
+@pytest.mark.warns("AssemblyWarning")
 def test_accuracy_takes_it_where_a_scene_has_stiff_loads() -> None:
     result = simulate(moved(), t_end=0.5, dt_out=0.05, accuracy={"hydraulic_stroke": 1e-4})
     truth = simulate(moved(), t_end=0.5, dt_out=0.05, rtol=1e-10)

@@ -51,6 +51,7 @@ def deepest(stiffness: float) -> float:
     return float(sag + np.sqrt(sag**2 + 2.0 * sag * DROP))
 
 
+@pytest.mark.warns("UnitWarning")
 @pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10])
 @pytest.mark.parametrize(
     "integrator", [m.name for m in _core.integrators() if m.setting == "rtol" and not m.restarts]
@@ -72,6 +73,7 @@ def test_a_method_does_not_leap_through_a_stop(integrator: str, stiffness: float
     assert error < 1e-2
 
 
+@pytest.mark.warns(sometimes=["UnitWarning"])
 @pytest.mark.parametrize("stiffness", [1e5, 1e7, 1e9])
 def test_a_jacobian_of_the_stop_does_not_hold_the_flight_still(stiffness: float) -> None:
     """Tighter tolerances are more accurate: no step is believed whose Jacobian is of the past."""

@@ -92,6 +92,7 @@ def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> Non
     assert read.state == whole.state
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -> None:
     whole = simulate(spinner(), t_end=4000.0, dt_out=0.2)
     assert whole["slew_angle"][-1] > 250.0
@@ -102,6 +103,7 @@ def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -
     np.testing.assert_allclose(told.load()["slew_angle"], whole["slew_angle"], atol=1e-3)
 
 
+@pytest.mark.warns("LargeSwingWarning")
 @pytest.mark.parametrize("memory", ["per-pair", "convolution"])
 def test_a_stopped_run_goes_on_to_the_same_file(
     memory: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -149,6 +151,7 @@ def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     np.testing.assert_allclose(joined["energy_balance"], 0.0, atol=1e-3)
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_a_finished_run_goes_on_to_a_later_end(tmp_path: Path) -> None:
     for t_end in (3.0, 5.0):
         told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 4.0)
@@ -166,6 +169,7 @@ simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=
 """
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_a_killed_run_leaves_outputs_and_a_state_to_go_on_from(tmp_path: Path) -> None:
     process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
     until, left = time.monotonic() + GENEROUS, stream.partial_path(tmp_path / "run.nc")
@@ -205,6 +209,7 @@ except OSError as error:
 """
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
     run = subprocess.run(
         [sys.executable, "-c", FULL, str(tmp_path), str(2**21)],
@@ -224,6 +229,7 @@ def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
     same(simulate(cases.case2(), **settings), told.load())
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_a_write_that_fails_once_is_made_up_for_at_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -236,6 +242,7 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(
     assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_an_error_in_a_controller_leaves_the_file(tmp_path: Path) -> None:
     def fail(now: float, measured: Any) -> dict[str, float]:
         if now > 5.0:
@@ -276,6 +283,7 @@ def test_ctrl_c_while_a_piece_is_written_waits_for_it(
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_a_growing_result_is_read_at_any_time(tmp_path: Path) -> None:
     path, seen = tmp_path / "run.nc", []
 
@@ -325,6 +333,7 @@ def left_behind(folder: Path, **settings: Any) -> Path:
     return stream.partial_path(folder / "run.nc")
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_a_partial_file_removed_under_its_writer_costs_nothing(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
 
@@ -338,6 +347,7 @@ def test_a_partial_file_removed_under_its_writer_costs_nothing(tmp_path: Path) -
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
     def second(now: float, measured: Any) -> dict[str, float]:
         with pytest.raises(FileExistsError, match=r"run\.nc\.partial is being written by another run"):
@@ -362,6 +372,7 @@ REPLACED: dict[str, tuple[dict[str, Any], str | None]] = {
 }
 
 
+@pytest.mark.warns("FullTurnWarning")
 @pytest.mark.parametrize("name", REPLACED)
 def test_only_the_same_run_replaces_a_result_unasked(name: str, tmp_path: Path) -> None:
     change, words = REPLACED[name]
@@ -378,6 +389,7 @@ def test_only_the_same_run_replaces_a_result_unasked(name: str, tmp_path: Path) 
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_a_result_of_another_scene_or_of_anything_else_is_not_replaced(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     for write in (lambda: path.write_text("a letter"), lambda: simulate(spinner(), t_end=1.0).save(path)):
@@ -391,6 +403,7 @@ def test_a_result_of_another_scene_or_of_anything_else_is_not_replaced(tmp_path:
         simulate_to_file(spinner(), path, t_end=2.0)
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     simulate_to_file(spinner(), path, t_end=20.0)
@@ -444,6 +457,7 @@ REFUSED: dict[str, tuple[dict[str, Any], type[Exception], str]] = {
 }
 
 
+@pytest.mark.warns("FullTurnWarning")
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_path: Path) -> None:
     change, kind, words = REFUSED[name]
@@ -454,6 +468,7 @@ def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_pa
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+@pytest.mark.warns("FullTurnWarning")
 def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     with pytest.raises(FileNotFoundError, match=r"no result file .*run\.nc to go on with"):
@@ -497,6 +512,7 @@ def test_memory_does_not_grow_with_the_outputs(tmp_path: Path) -> None:
     assert float(run.stdout) < 25e3  # kB
 
 
+@pytest.mark.warns("MeanHeadingWarning", "MeanPositionWarning")
 def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     """Once for the run, however many pieces it has, and of what was before a stop too."""
     with pytest.warns(SteepSeaWarning):

@@ -156,6 +156,7 @@ def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixt
     assert "heave-over-bodies.vessel.mass.png" in told
 
 
+@pytest.mark.warns("FailedSeedsWarning")
 def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
     study.write_text(STUDY.replace('channel = "position"', 'channel = "posture"'))
     assert main(["study", str(study), "--out", str(study.parent / "out")]) == 0

@@ -66,6 +66,7 @@ def runs() -> dict[str, Result]:
     return found
 
 
+@pytest.mark.warns(sometimes=["LargeHeelWarning", "MeanPositionWarning"])
 @pytest.mark.parametrize("rung", QUICK[1:])
 def test_any_rung_and_the_rod_print_the_same_rows(runs: dict[str, Result], rung: str) -> None:
     told, rod = summary(runs[rung]), summary(runs["rod"])
@@ -105,6 +106,7 @@ def test_the_same_slips_are_told(rung: str) -> None:
         at_once(heavy)
 
 
+@pytest.mark.warns("BallastWarning")
 @pytest.mark.parametrize("rung", QUICK)
 def test_lead_and_swing_are_those_of_the_recorded_poses(runs: dict[str, Result], rung: str) -> None:
     """Offlead along the jib, sidelead across it to its left, by quaternions; the crane slews about z."""

@@ -111,6 +111,7 @@ def test_a_sea_that_cannot_be_is_a_scene_error(sea: dict[str, Any], words: str) 
     assert scene.waves is None
 
 
+@pytest.mark.warns(sometimes=["WavesWithoutLoadWarning"])
 @pytest.mark.parametrize("tp", [8000.0, 0.008])
 def test_a_peak_period_in_another_unit_is_told(tp: float) -> None:
     scene = Scene(name="ship")

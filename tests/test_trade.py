@@ -55,6 +55,7 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
         assert len(errors) == 3 and errors[0] > 10 * errors[1] > 100 * errors[2] > 0.0
 
 
+@pytest.mark.warns("NonPassiveMemoryWarning")
 def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
     row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
     run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)

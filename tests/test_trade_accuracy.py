@@ -15,6 +15,7 @@ from seacrane import SampledController, Scene, SceneError, cases, simulate
 from seacrane.accuracy.quantities import compare, quantities_of
 
 
+@pytest.mark.warns("CompassDirectionWarning", "ModelErrorWarning")
 def test_errors_stay_within_limit_and_estimate() -> None:
     rng = np.random.default_rng(20)
     found = [promise(rng, t_end=10.0, grid=False) for _ in range(5)]

@@ -47,6 +47,7 @@ def both() -> Result:
     return simulate(cranes("", "aft "), **RUN)
 
 
+@pytest.mark.warns(sometimes=["LargeSwingWarning"])
 @pytest.mark.parametrize("prefix", FEET)
 def test_two_cranes_on_a_fixed_base_move_as_each_does_alone(both: Result, prefix: str) -> None:
     alone = simulate(cranes(prefix), **RUN)
@@ -81,6 +82,7 @@ def test_labels_tell_two_cranes_apart_in_files_too(both: Result, tmp_path: Path)
     np.testing.assert_array_equal(again["slew_angle"], both["slew_angle"])
 
 
+@pytest.mark.warns("LargeSwingWarning")
 def test_pieces_of_a_long_run_of_two_cranes_join(both: Result, tmp_path: Path) -> None:
     told = simulate_to_file(cranes("", "aft "), tmp_path / "long.nc", **RUN)
     np.testing.assert_allclose(told.load()["slew_angle"], both["slew_angle"], atol=1e-12)
@@ -146,6 +148,7 @@ def test_a_name_is_no_role(name: str, tmp_path: Path) -> None:
         assert result["coordinate"][-1, 0] == pytest.approx(-0.5 * 9.80665)
 
 
+@pytest.mark.warns("FreeCraneWarning")
 def test_roles_of_a_crane_by_hand() -> None:
     scene = falling_slide("hoist")
     with pytest.raises(SceneError, match="crane: its cylinder 'lift' is joint 'lost', which is not in"):

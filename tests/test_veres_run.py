@@ -58,6 +58,7 @@ def fitted_rao(database: HydroDatabase) -> Complex:
     return motion_response(database, added_mass=added_mass + more_mass, damping=damping + more_damping)
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_irregular_run_keeps_its_books(shared: Path) -> None:
     run = simulate(cases.vessel(database=shared / "veres" / "supply"))
     assert run.time[-1] == 100.0
@@ -84,6 +85,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: i
     np.testing.assert_array_less(np.abs(fit - source) / np.abs(source), [0.01, 0.02, 0.09, 0.12, 0.02, 0.03])
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_run_agrees_with_the_impedance_of_its_own_scene(supply: HydroDatabase) -> None:
     """With station keeping and the roll tanks' static stiffness and memory in the model."""
     database = at_file_damping(supply, 5, 20)
@@ -94,6 +96,7 @@ def test_run_agrees_with_the_impedance_of_its_own_scene(supply: HydroDatabase) -
     np.testing.assert_array_less(np.abs(found - expected), 1e-3 * np.abs(expected))
 
 
+@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_roll_without_the_tanks_would_be_wrong(supply: HydroDatabase) -> None:
     """PITFALLS: dropping the additional matrices changes roll by several times; the run must hold them."""
     index = int(np.argmax(np.abs(supply.motion_rao[5, :, 3]))) if supply.motion_rao is not None else 0

@@ -262,6 +262,7 @@ def test_restoring_makes_no_energy_in_a_loop_of_finite_angles() -> None:
     assert np.max(result["absolute_work"]) == 0.0
 
 
+@pytest.mark.warns("MeanHeadingWarning")
 def test_response_does_not_depend_on_the_heading() -> None:
     """The same vessel at a yaw of 40 deg in waves turned by 40 deg moves the same, seen from itself."""
     database = shipped_database()

@@ -212,6 +212,7 @@ def scaled(factor: float) -> HydroDatabase:
     return replace(hull(), memory=replace(memory, blocks=blocks, **masses))
 
 
+@pytest.mark.warns("MemoryMismatchWarning")
 def test_natural_modes_are_those_of_hulls_that_move_alike_and_against_each_other() -> None:
     """T of a mirrored motion is 1 + share times it, of one against it 1 - share: two single hulls."""
     share = 0.2

@@ -42,12 +42,14 @@ def cylinder(monkeypatch: pytest.MonkeyPatch) -> Any:
     return importlib.import_module("measured.greenhow_lin_cylinder")
 
 
+@pytest.mark.warns("UnitWarning")
 @pytest.mark.parametrize("by", WEDGE)
 def test_the_wedge_slows_down_as_the_printed_solution(by: str, wedge: Any) -> None:
     found = wedge.speeds(wedge.TIME, wedge.factors()[by])
     assert found == pytest.approx(WEDGE[by], rel=0.01)
 
 
+@pytest.mark.warns("UnitWarning")
 def test_the_wedge_keeps_its_momentum_and_the_impulse_of_weight_and_buoyancy(wedge: Any) -> None:
     """m v + A v; the force of a run is not asked."""
     time = np.linspace(0.0, 40.0, 401)
@@ -79,6 +81,7 @@ def late_drag(cylinder: Any, drag: float) -> TablePart:
     )  # fmt: skip
 
 
+@pytest.mark.warns("UnitWarning")
 @pytest.mark.parametrize("words", CYLINDER)
 def test_the_cylinder_sinks_as_the_printed_solution(words: str, cylinder: Any) -> None:
     share, drag, d = cylinder.SHARES[words], cylinder.DRAG[words], cylinder.DIAMETER

@@ -100,6 +100,7 @@ def regular_sea(*, omega: float, direction_deg: float) -> Waves:
     )
 
 
+@pytest.mark.warns("ForwardSpeedWarning")
 @pytest.mark.parametrize(("direction_deg", "yaw"), [(180.0, 0.0), (0.0, 0.0), (130.0, 0.4)])
 def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw: float) -> None:
     speed, omega = 5.0, 0.9
@@ -133,6 +134,7 @@ def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     return scene
 
 
+@pytest.mark.warns("MeanHeadingWarning")
 def test_a_free_vessel_feels_where_it_is_and_its_energy_balances() -> None:
     scene = actual_scene()
     result = simulate(scene, t_end=60.0, dt_out=0.5, rtol=1e-8)

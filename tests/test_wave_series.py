@@ -71,6 +71,7 @@ def test_the_series_is_the_sum_within_the_bound(first: float, relative_bound: fl
     assert np.all(difference <= slow.error_bound + rounding * size)
 
 
+@pytest.mark.warns("MeanPositionWarning")
 def test_a_run_from_the_series_is_the_run_from_the_sum(tmp_path: Path) -> None:
     scene = Scene(name="series")
     scene.add_vessel(shipped_database(), mooring_period=100.0)
@@ -130,6 +131,7 @@ def test_knots_of_another_load_are_refused() -> None:
         _core.WaveTable(exact, relative_bound=1e-3, knots=knots)
 
 
+@pytest.mark.warns("MeanPositionWarning")
 def test_a_run_longer_than_its_sea_is_told_so() -> None:
     scene = Scene(name="long")
     scene.add_vessel(shipped_database(), mooring_period=100.0, memory="none")

@@ -32,6 +32,7 @@ def wigley() -> HydroDatabase:
     )
 
 
+@pytest.mark.warns("FloatingPositionWarning")
 def test_mass_and_restoring_are_those_of_the_parabolas() -> None:
     """Volume 4/9 L B T, waterplane 2/3 L B, metacentric radius 3/35 B^2 / T."""
     database = wigley()

@@ -94,6 +94,7 @@ def test_a_brake_closed_in_1_ms_makes_the_peak_of_its_closed_form() -> None:
     assert not np.any(out["drum_motor_torque"][out["time"] > 0.1015])
 
 
+@pytest.mark.warns("WinchLimitWarning")
 def test_a_brake_slips_at_its_capacity_and_holds_without_creep() -> None:
     """(m + J / r^2) a = capacity - m g while it slips; then the drum stands still."""
     tension, change = steady(CAPACITY)
@@ -129,6 +130,7 @@ def test_a_brake_holds_a_load_by_its_give() -> None:
     assert not result.events
 
 
+@pytest.mark.warns("WinchLimitWarning")
 def test_the_motor_hauls_in_within_its_bounds() -> None:
     """By (F - m g) / (m + J / r^2) at first, at P / (m g) in the end; the drum's lag plays no part."""
     most, power = 1.2 * MASS * G, 0.5 * MASS * G
@@ -146,6 +148,7 @@ def test_the_motor_hauls_in_within_its_bounds() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.warns("WinchLimitWarning")
 def test_a_motor_too_weak_for_its_load_is_an_event() -> None:
     scene = on_drum(damping=0.1, maximum_tension=0.9 * MASS * G)
     result = simulate(scene, 1.0, dt_out=0.05)
@@ -153,6 +156,7 @@ def test_a_motor_too_weak_for_its_load_is_an_event() -> None:
     assert result["line_unstretched_length"][-1, 0] > 10.1
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_within_its_bounds_a_drum_follows_as_a_winch_without_one() -> None:
     heavy, light = swinging(), swinging(drum_inertia=900.0, drum_radius=0.4)
     one, two = (record(scene, 3.0, rtol=1e-10) for scene in (heavy, light))
@@ -272,6 +276,7 @@ def busy() -> Scene:
     )  # fmt: skip
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_the_energy_balance_closes_with_motor_brake_and_rope(formulation: str) -> None:
     out = record(busy(), 5.0, rtol=1e-8, formulation=formulation)
@@ -280,6 +285,7 @@ def test_the_energy_balance_closes_with_motor_brake_and_rope(formulation: str) -
     assert np.min(out["drum_brake_power"]) < -100.0 and np.max(out["drum_brake_power"]) < 1e-6
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_the_load_and_the_drum_take_what_motor_and_brake_give() -> None:
     out = record(busy(), 5.0, dt_out=2e-3, rtol=1e-8)
     step = np.diff(out["time"])
@@ -297,6 +303,7 @@ def test_the_load_and_the_drum_take_what_motor_and_brake_give() -> None:
     assert_allclose(work(given), expected, atol=2e-4 * np.max(np.abs(expected)))
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_errors_fall_with_the_tolerance_past_every_kink() -> None:
     """Bounds, dead band and brake are located: nothing is left of the steps that met them."""
     ends = [record(busy(), 5.0, rtol=rtol, dt_out=5.0)["position"][-1] for rtol in (1e-11, 1e-9, 1e-7, 1e-5)]
@@ -309,6 +316,7 @@ def test_errors_fall_with_the_tolerance_past_every_kink() -> None:
     assert {event.name for event in run.events()} == {f"hoist.{bound}" for bound in bounds}
 
 
+@pytest.mark.warns("LiftedStartWarning")
 def test_both_formulations_and_merged_bodies_agree() -> None:
     scene = busy()
     runs = [record(scene, 4.0, rtol=1e-10, formulation=name) for name in ("redundant", "recursive")]
@@ -334,6 +342,7 @@ def test_a_drum_that_hauls_in_to_its_end_is_stopped(formulation: str) -> None:
     assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize(
     ("integrator", "settings", "within"),
     [("rk4", {"dt": 5e-4}, 1e-5), ("cvode-bdf", {"rtol": 1e-8}, 1e-4), ("ida", {"rtol": 1e-8}, 1e-4),
@@ -358,6 +367,7 @@ def test_stages_command_the_brake_and_the_tension() -> None:
     assert let_go["line_tension"][-1, 0] == pytest.approx(13e3, rel=1e-4)
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize(
     "settings", [{"integrator": "dopri5", "rtol": 1e-7}, {"integrator": "rosenbrock", "rtol": 1e-5}]
 )
@@ -374,6 +384,7 @@ def test_a_run_goes_on_bit_for_bit_and_tells_no_bound_twice(settings: dict[str, 
     assert met > 0 and [*whole.events()[met:]] == [*rest.events()]
 
 
+@pytest.mark.warns("LiftedStartWarning")
 @pytest.mark.parametrize("time", [0.9, 2.1, 2.9])
 def test_the_exact_jacobian_is_that_of_differences(time: float) -> None:
     """Before, while and after the brake closes."""

@@ -79,6 +79,7 @@ def hauled(length: Curve | float, *, rung: Any) -> Scene:
     return scene
 
 
+@pytest.mark.warns(sometimes=["LineLengthWarning", "QuasiStaticLineWarning"])
 @pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
 def test_a_winch_pays_out_as_a_curve_for_the_length_does(rung: Any) -> None:
     make: Callable[..., Scene] = wet if rung == "elastic" else hauled
@@ -170,6 +171,7 @@ def test_what_heave_compensation_leaves_runs_down_a_long_wire_as_in_a_bar() -> N
     assert np.hypot(*found[2:4]) == pytest.approx(0.1 * abs(gain), rel=0.003)
 
 
+@pytest.mark.warns("StiffWarning")
 def test_what_it_pays_out_carries_its_weight_at_a_steady_rate() -> None:
     """From 12 m to 600 m."""
     rate = Curve.quintic(start_time=0.0, end_time=20.0, start=0.0, end=5.0)

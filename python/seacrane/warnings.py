@@ -516,6 +516,22 @@ class SeabedWarning(SceneWarning):
     """
 
 
+class RedundantJointsWarning(SceneWarning):
+    """Constraints of the named joints depend on each other, when a scene is compiled.
+
+    Motion is unique, the reactions of these joints are not: those of least norm are given. Two hinges on one
+    axis are the usual case. Where a joint's own force matters, make the other one softer or freer, such as a
+    hinge and a spherical joint.
+    """
+
+
+class UndampedModeWarning(SceneWarning):
+    """A mode within the band of the waves has no damping, or is fed, in statistics of the linear model.
+
+    The variance of its resonance has no finite value, and it is left out around it. Give the motion damping.
+    """
+
+
 class SeriesWarning(SeacraneWarning):
     """Of measured series, and of runs that are compared with them."""
 

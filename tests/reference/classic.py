@@ -33,7 +33,7 @@ def integrate(rate: Callable[[float, Array], Any], start: ArrayLike, times: Arra
         t,
         rtol=RTOL,
         atol=ATOL,
-        maximum_step=0.05,
+        max_step=0.05,
     )
     if not solution.success:
         raise RuntimeError(solution.message)

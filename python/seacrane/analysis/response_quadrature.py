@@ -9,6 +9,7 @@ from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import natural_modes
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.spreading import Spreading
+from seacrane.warnings import UndampedModeWarning
 
 Array = NDArray[np.float64]
 UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
@@ -50,7 +51,7 @@ def about_resonances(linear: LinearModel, low: float, high: float) -> Array:
                 f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
                 f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
                 "finite value; add damping",
-                UserWarning,
+                UndampedModeWarning,
             )
             continue
         width = abs(value.real)

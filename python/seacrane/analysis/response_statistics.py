@@ -168,7 +168,7 @@ def response_statistics(
 
     Warns
     -----
-    UserWarning
+    UndampedModeWarning
         For a mode in the band without damping: its variance has no finite value.
     BelowBandWarning
         More than 10 % of the energy of the waves is below the database's trusted band.

@@ -20,6 +20,7 @@ from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
+from seacrane.warnings import RedundantJointsWarning
 
 EVALUATIONS = ("table", "exact", "fft")
 Array = NDArray[np.float64]
@@ -62,7 +63,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
             f"scene {scene.name!r}: constraints of {', '.join(model.redundant)} are redundant "
             f"({model.constraints - model.assembly['rank']} more than needed); motion is unique, these "
             "reactions are not: the minimum-norm ones are given",
-            UserWarning,
+            RedundantJointsWarning,
         )
     model.compiled_from = (forgetting(scene.copy()), merge)
     return model

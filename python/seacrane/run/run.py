@@ -24,7 +24,7 @@ from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import finite_of, number_of
 from seacrane.result.about import About
 from seacrane.result.checked_parts import plain_stats
 from seacrane.result.events import Event
@@ -140,7 +140,7 @@ class Run:
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
-        self.t_end = number_of("t_end", t_end)
+        self.t_end = finite_of("t_end", t_end, "s")
         scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled

@@ -75,7 +75,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     -----
     AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
     UnstableRestWarning : names vessels whose roll restoring the weights on them outweigh.
-    UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
+    RedundantJointsWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
     """
     warn_of_capsize(scene)
     return compilation.compile_scene(scene, merge=merge)
