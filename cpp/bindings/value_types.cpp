@@ -118,7 +118,7 @@ V from_python(const std::string& what, const py::handle& given) {
     const Columns matrix = checked("matrix_of")(what, given);
     return Eigen::Map<const V>(matrix.data(), matrix.shape(0), matrix.shape(1));
   } else if constexpr (is_rows<V>) {
-    const Rows rows = checked("rows_of")(what, given, V::value_type::RowsAtCompileTime);
+    const Rows rows = checked("rows_of")(what, given, shape_of<V>()[1]);
     V out;
     for (py::ssize_t i = 0; i < rows.shape(0); ++i) out.emplace_back(rows.data(i, 0));
     return out;
