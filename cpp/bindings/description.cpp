@@ -11,13 +11,10 @@ namespace {
 
 using py::detail::value_and_holder;
 
-template <class V>
-V& at(void* value, std::ptrdiff_t place) {
-  return *reinterpret_cast<V*>(static_cast<char*>(value) + place);
-}
-template <class V>
-const V& at(const void* value, std::ptrdiff_t place) {
-  return *reinterpret_cast<const V*>(static_cast<const char*>(value) + place);
+/// What is at a place in a value; only a new one is changed.
+template <class V = char>
+V& at(const void* value, std::ptrdiff_t place) {
+  return *reinterpret_cast<V*>(static_cast<char*>(const_cast<void*>(value)) + place);
 }
 using Parameters = std::map<std::string, double>;
 
@@ -51,10 +48,9 @@ py::tuple field_rows(const Table& table) {
     out.append(FieldRow{"name", "text", "name", "", "", py::tuple(), true, py::none(), py::dict()});
   }
   for (const Entry& f : table.entries) {
-    out.append(FieldRow{f.name, f.type->name, text_of(f.role), f.unit, f.text,
-                        py::tuple(py::cast(f.type->shape)), f.required,
-                        f.required ? py::none() : f.type->seen(&at<char>(table.usual, f.get)),
-                        in_words(f.bound), f.least, f.most});
+    out.append(FieldRow{
+        f.name, f.type->name, text_of(f.role), f.unit, f.text, py::tuple(py::cast(f.type->shape)), f.required,
+        f.required ? py::none() : f.type->seen(&at(table.usual, f.get)), in_words(f.bound), f.least, f.most});
   }
   return py::tuple(out);
 }
@@ -94,7 +90,7 @@ py::object made(const Table& table, const py::kwargs& given) {
   for (const Entry& f : table.entries) {
     known += std::string(known.empty() ? "" : ", ") + f.name;
     if (const py::object entry = take(f.name)) {
-      f.type->take(&at<char>(value, f.get), what + f.name, entry);
+      f.type->take(&at(value, f.get), what + f.name, entry);
     } else if (f.required) {
       throw py::type_error(what + "has no " + f.name + (*f.unit ? std::string(", ") + f.unit : "") +
                            "; give one");
@@ -113,7 +109,7 @@ py::object made(const Table& table, const py::kwargs& given) {
 py::dict arguments(const Table& table, const void* value) {
   py::dict out;
   if (table.name >= 0) out["name"] = at<std::string>(value, table.name);
-  for (const Entry& f : table.entries) out[f.name] = f.type->seen(&at<char>(value, f.get));
+  for (const Entry& f : table.entries) out[f.name] = f.type->seen(&at(value, f.get));
   if (table.parameters >= 0) {
     for (const auto& [name, number] : at<Parameters>(value, table.parameters)) out[name.c_str()] = number;
   }
@@ -173,7 +169,7 @@ void bind_properties(const Table& table) {
     if (f.type->seen_as.empty()) continue;
     const std::string unit = f.unit, text = f.text;
     property(of, f.name, f.type->seen_as, unit + (unit.empty() || text.empty() ? "" : ", ") + text,
-             [&](const py::handle& self) { return f.type->seen(&at<char>(value_of(of, self), f.get)); });
+             [&](const py::handle& self) { return f.type->seen(&at(value_of(of, self), f.get)); });
   }
 }
 

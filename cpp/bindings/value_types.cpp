@@ -20,41 +20,46 @@ constexpr bool is_matrix = requires {
   V::ColsAtCompileTime;
 };
 
-/// What a value is called in FIELDS and in stubs, where it is given and where it is seen; empty: it is not.
+/// What a value is called in FIELDS and in stubs, where it is given and where it is seen, and what checks it.
 struct Words {
-  const char *name, *given_as, *seen_as = "";
+  const char *name, *given_as, *seen_as = "", *check = "";
 };
 using Memory = decltype(VesselDescription::memory);
 using Blocks = std::vector<StateSpaceBlock>;
+using Texts = std::vector<std::string>;
+using Numbers = std::vector<double>;
 template <class V>
-constexpr Words words{"array", "numpy.typing.ArrayLike"};
-template <>
-constexpr Words words<std::string>{"text", "str", "str"};
-template <>
-constexpr Words words<std::vector<std::string>>{"texts", "collections.abc.Sequence[str]", "list[str]"};
-template <>
-constexpr Words words<double>{"number", "typing.SupportsFloat", "float"};
-template <>
-constexpr Words words<bool>{"flag", "bool", "bool"};
-template <>
-constexpr Words words<Curve>{"curve", "Curve | typing.SupportsFloat", "seacrane._core.Curve"};
-template <>
-constexpr Words words<Frame>{"frame", "Frame", "seacrane._core.Frame"};
-template <>
-constexpr Words words<VesselKinematics>{"text", "str", "str"};
-template <>
-constexpr Words words<ForceFunction>{"function", "int"};
-template <>
-constexpr Words words<std::vector<double>>{"array", "numpy.typing.ArrayLike", "list[float]"};
-template <>
-constexpr Words words<Blocks>{"object", "typing.Any", "list[seacrane._core.StateSpaceBlock]"};
-template <>
-constexpr Words words<Memory>{"object", "typing.Any",
-                              "list[seacrane._core.StateSpaceBlock] | seacrane._core.RetardationFunctions"};
+constexpr Words words_of(const V*) {
+  return {"array", "numpy.typing.ArrayLike"};
+}
+constexpr Words words_of(const std::string*) { return {"text", "str", "str", "text_of"}; }
+constexpr Words words_of(const Texts*) {
+  return {"texts", "collections.abc.Sequence[str]", "list[str]", "texts_of"};
+}
+constexpr Words words_of(const double*) { return {"number", "typing.SupportsFloat", "float", "number_of"}; }
+constexpr Words words_of(const bool*) { return {"flag", "bool", "bool", "flag_of"}; }
+constexpr Words words_of(const Curve*) {
+  return {"curve", "Curve | typing.SupportsFloat", "seacrane._core.Curve", "curve_of"};
+}
+constexpr Words words_of(const Frame*) { return {"frame", "Frame", "seacrane._core.Frame"}; }
+constexpr Words words_of(const VesselKinematics*) { return {"text", "str", "str"}; }
+constexpr Words words_of(const ForceFunction*) { return {"function", "int"}; }
+constexpr Words words_of(const Numbers*) {
+  return {"array", "numpy.typing.ArrayLike", "list[float]", "vector_of"};
+}
+constexpr Words words_of(const Blocks*) {
+  return {"object", "typing.Any", "list[seacrane._core.StateSpaceBlock]"};
+}
+constexpr Words words_of(const Memory*) {
+  return {"object", "typing.Any",
+          "list[seacrane._core.StateSpaceBlock] | seacrane._core.RetardationFunctions"};
+}
+template <class V>
+constexpr Words words = words_of(static_cast<const V*>(nullptr));
 
 template <class V>
 std::vector<int> shape_of() {
-  if constexpr (std::is_same_v<V, std::vector<double>>) {
+  if constexpr (std::is_same_v<V, Numbers>) {
     return {-1};
   } else if constexpr (is_rows<V>) {
     return {-1, V::value_type::RowsAtCompileTime};
@@ -102,18 +107,8 @@ py::object checked(const char* name) { return py::module_::import("seacrane.inpu
 
 template <class V>
 V from_python(const std::string& what, const py::handle& given) {
-  if constexpr (std::is_same_v<V, std::string>) {
-    return checked("text_of")(what, given, py::str("")).template cast<V>();
-  } else if constexpr (std::is_same_v<V, double>) {
-    return checked("number_of")(what, given).template cast<V>();
-  } else if constexpr (std::is_same_v<V, bool>) {
-    return checked("flag_of")(what, given).template cast<V>();
-  } else if constexpr (std::is_same_v<V, Curve>) {
-    return checked("curve_of")(what, given).template cast<V>();
-  } else if constexpr (std::is_same_v<V, std::vector<double>>) {
-    return checked("vector_of")(what, given).template cast<V>();
-  } else if constexpr (std::is_same_v<V, std::vector<std::string>>) {
-    return checked("texts_of")(what, given).template cast<V>();
+  if constexpr (*words<V>.check) {
+    return checked(words<V>.check)(what, given).template cast<V>();
   } else if constexpr (std::is_same_v<V, MatXd>) {
     const Columns matrix = checked("matrix_of")(what, given);
     return Eigen::Map<const V>(matrix.data(), matrix.shape(0), matrix.shape(1));
@@ -163,7 +158,7 @@ const ValueType& value_type() {
 }
 
 template const ValueType& value_type<std::string>();
-template const ValueType& value_type<std::vector<std::string>>();
+template const ValueType& value_type<Texts>();
 template const ValueType& value_type<double>();
 template const ValueType& value_type<bool>();
 template const ValueType& value_type<Curve>();
@@ -176,7 +171,7 @@ template const ValueType& value_type<Vec6d>();
 template const ValueType& value_type<Mat3d>();
 template const ValueType& value_type<Mat6d>();
 template const ValueType& value_type<MatXd>();
-template const ValueType& value_type<std::vector<double>>();
+template const ValueType& value_type<Numbers>();
 template const ValueType& value_type<std::vector<Vec3d>>();
 template const ValueType& value_type<std::vector<Vec6d>>();
 template const ValueType& value_type<Blocks>();
