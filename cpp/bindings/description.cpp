@@ -137,7 +137,7 @@ void compared(const Class& of, const Arguments& arguments) {
   method_as(
       "__deepcopy__(self: " + name + ", memo: dict) -> " + name + "\n", of, "__deepcopy__",
       [copied](const py::handle& self, const py::dict&) { return copied(self); }, py::arg("memo"));
-  method(of, "__hash__", [of](const py::handle& self) {
+  method_as("__hash__(self: " + name + ") -> int\n", of, "__hash__", [of](const py::handle& self) {
     value_of(of, self);
     return py::hash(of.type);
   });
@@ -151,8 +151,7 @@ void property(const Class& of, const char* name, const std::string& seen_as, con
               const std::function<py::object(const py::handle& self)>& get) {
   py::options options;
   options.disable_function_signatures();
-  const std::string signature =
-      "(self: " + name_of(of.type) + ") -> " + seen_as + "\n" + (text.empty() ? "" : "\n" + text + "\n");
+  const std::string signature = "(arg0: " + name_of(of.type) + ") -> " + seen_as + "\n";
   const py::cpp_function getter(get, py::is_method(of.type), signature.c_str());
   const py::handle type(reinterpret_cast<PyObject*>(&PyProperty_Type));
   py::setattr(of.type, name, type(getter, py::none(), py::none(), text));
@@ -189,7 +188,7 @@ py::dict in_words(const Bound& bound) {
 
 void by_arguments(const Class& of, const Arguments& arguments, const Made& made) {
   compared(of, arguments);
-  method(of, "__getstate__", arguments);
+  method(of, "__getstate__", arguments, py::pos_only());
   method(
       of, "__setstate__",
       [of, made](value_and_holder& self, const py::dict& given) {
