@@ -18,16 +18,15 @@ std::vector<std::string> dims_of(const Channel& channel, bool of_several) {
 
 void bind_channels(py::module_& m) {
   py::class_<Channel>(m, "Channel", "A quantity that can be recorded.")
-      .def_property_readonly("name", [](const Channel& c) { return c.name; })
+      .def_readonly("name", &Channel::name)
       .def_property_readonly(
           "dims", [](const Channel& c) { return dims_of(c, false); }, "Dimensions after time.")
       .def_property_readonly(
           "dims_of_several", [](const Channel& c) { return dims_of(c, true); },
           "The same where a scene holds several of what it has one of otherwise, such as vessels.")
-      .def_property_readonly("unit", [](const Channel& c) { return c.unit; })
-      .def_property_readonly("text", [](const Channel& c) { return c.text; })
-      .def_property_readonly(
-          "by_default", [](const Channel& c) { return c.by_default; }, "Whether it is recorded unasked.");
+      .def_readonly("unit", &Channel::unit)
+      .def_readonly("text", &Channel::text)
+      .def_readonly("by_default", &Channel::by_default, "Whether it is recorded unasked.");
   m.def(
       "channels", [] { return all_channels(); }, "Every channel there is, in the order of results.");
   m.def(

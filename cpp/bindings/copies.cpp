@@ -15,14 +15,15 @@ namespace {
 
 /// By the arguments of the constructor, each of which can be read under its name.
 template <class T>
-void by_arguments(const std::vector<std::string>& names) {
-  description::by_arguments<T>(
-      [names](const py::object& self) {
+void by_names(std::vector<std::string> names) {
+  by_arguments(
+      class_of<T>(),
+      [names = std::move(names)](const py::object& self) {
         py::dict out;
         for (const std::string& name : names) out[name.c_str()] = self.attr(name.c_str());
         return out;
       },
-      [](const py::dict& given) { return py::type::of<T>()(**given).template cast<T>(); });
+      [type = py::type::of<T>()](const py::dict& given) -> py::object { return type(**given); });
 }
 
 /// A model does not change: it is its own copy, and is pickled as the scene that it was compiled from.
@@ -44,14 +45,14 @@ void copy_models() {
 }  // namespace
 
 void bind_copies() {
-  by_arguments<Curve>(
-      [](const py::object& self) { return py::dict(self.attr("to_pieces")()); },
-      [](const py::dict& given) { return py::type::of<Curve>().attr("pieces")(**given).cast<Curve>(); });
-  by_arguments<RetardationFunctions>({"step", "kernel"});
-  by_arguments<StateSpaceBlock>({"inputs", "outputs", "a", "b", "c", "d", "state_scale"});
-  by_arguments<TwistHistory>({"start", "intervals", "recent", "quadrature"});
-  by_arguments<StepHistory>({"formulation", "integrator", "values", "rate", "kink"});
-  by_arguments<RecordHistory>({"start_energy", "start_work", "residual", "impact_loss", "quaternions"});
-  by_arguments<State>({"time", "values", "inputs", "histories", "steps", "closed", "record", "parts"});
+  by_arguments(
+      class_of<Curve>(), [](const py::object& self) { return py::dict(self.attr("to_pieces")()); },
+      [](const py::dict& given) -> py::object { return py::type::of<Curve>().attr("pieces")(**given); });
+  by_names<RetardationFunctions>({"step", "kernel"});
+  by_names<StateSpaceBlock>({"inputs", "outputs", "a", "b", "c", "d", "state_scale"});
+  by_names<TwistHistory>({"start", "intervals", "recent", "quadrature"});
+  by_names<StepHistory>({"formulation", "integrator", "values", "rate", "kink"});
+  by_names<RecordHistory>({"start_energy", "start_work", "residual", "impact_loss", "quaternions"});
+  by_names<State>({"time", "values", "inputs", "histories", "steps", "closed", "record", "parts"});
   copy_models();
 }

@@ -8,12 +8,9 @@ using namespace seacrane;
 
 namespace {
 
-template <class T>
-using Class = py::class_<T>;
-
 void bind_fields(py::module_& m) {
   using description::FieldRow;
-  Class<FieldRow>(m, "Field", "An entry of an element: what FIELDS of its class lists.")
+  py::class_<FieldRow>(m, "Field", "An entry of an element: what FIELDS of its class lists.")
       .def_readonly("name", &FieldRow::name)
       .def_readonly("type", &FieldRow::type,
                     "text, texts, number, flag, array, curve, frame, function or object")
@@ -29,10 +26,16 @@ void bind_fields(py::module_& m) {
       .def_readonly("most", &FieldRow::most, "likewise");
 }
 
+/// A getter that copies, one function for all members of a type.
+template <class T, class V>
+auto copied(V T::*member) {
+  return [member](const T& self) { return self.*member; };
+}
+
 /// The joint types, and what they say of themselves.
 void bind_joint_kinds(py::module_& m) {
   using description::FieldRow;
-  Class<JointKind>(m, "JointKind", "What a joint type says of itself; see joint_kinds().")
+  py::class_<JointKind>(m, "JointKind", "What a joint type says of itself; see joint_kinds().")
       .def_readonly("name", &JointKind::name)
       .def_readonly("rows", &JointKind::rows, "constraints")
       .def_property_readonly(
@@ -76,9 +79,8 @@ void bind_joint_kinds(py::module_& m) {
 void bind_joint(py::module_& m) {
   description::bind<Frame>(m, "frame");
   description::bind<JointDescription>(m, "joint", ", **parameters: typing.SupportsFloat")
-      .def_property_readonly(
-          "parameters", [](const JointDescription& d) { return d.parameters; },
-          "The kind's own numbers by name, such as the length of a distance joint (copy).")
+      .def_readonly("parameters", &JointDescription::parameters,
+                    "The kind's own numbers by name, such as the length of a distance joint (copy).")
       .def(
           "__getattr__",
           [](const JointDescription& d, const std::string& name) {
@@ -116,7 +118,7 @@ void bind_loads(py::module_& m) {
 void bind_retardation(py::module_& m) {
   using R = RetardationFunctions;
   using Samples = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  Class<R>(
+  py::class_<R>(
       m, "RetardationFunctions",
       "Fluid memory by direct convolution, mu_j(t) = sum_k integral K_jk(tau) v_k(t - tau) dtau: kernel "
       "(n, 6, 6) at tau = 0, step, 2 step ... in s, cubic in between, zero beyond. Motions 0 (surge) ... "
@@ -134,8 +136,7 @@ void bind_retardation(py::module_& m) {
              return out;
            }),
            py::kw_only(), py::arg("step"), py::arg("kernel"))
-      .def_property_readonly(
-          "step", [](const R& r) { return r.step; }, "s")
+      .def_readonly("step", &R::step, "s")
       .def_property_readonly(
           "kernel",
           [](const R& r) {
@@ -152,9 +153,9 @@ void bind_retardation(py::module_& m) {
 
 void bind_vessel(py::module_& m) {
   using B = StateSpaceBlock;
-  Class<B>(m, "StateSpaceBlock",
-           "Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), of a "
-           "group six for each vessel in turn, eqs (29)-(30).")
+  py::class_<B>(m, "StateSpaceBlock",
+                "Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), of a "
+                "group six for each vessel in turn, eqs (29)-(30).")
       .def(py::init([](std::vector<int> inputs, std::vector<int> outputs, MatXd a, MatXd b, MatXd c, MatXd d,
                        VecXd state_scale) {
              return B{std::move(inputs), std::move(outputs), std::move(a),          std::move(b),
@@ -162,13 +163,13 @@ void bind_vessel(py::module_& m) {
            }),
            py::kw_only(), py::arg("inputs"), py::arg("outputs"), py::arg("a"), py::arg("b"), py::arg("c"),
            py::arg("d"), py::arg("state_scale") = VecXd())
-      .def_property_readonly("inputs", [](const B& x) { return x.inputs; })
-      .def_property_readonly("outputs", [](const B& x) { return x.outputs; })
-      .def_property_readonly("a", [](const B& x) { return x.a; })
-      .def_property_readonly("b", [](const B& x) { return x.b; })
-      .def_property_readonly("c", [](const B& x) { return x.c; })
-      .def_property_readonly("d", [](const B& x) { return x.d; })
-      .def_property_readonly("state_scale", [](const B& x) { return x.state_scale; });
+      .def_readonly("inputs", &B::inputs)
+      .def_readonly("outputs", &B::outputs)
+      .def_property_readonly("a", copied(&B::a))
+      .def_property_readonly("b", copied(&B::b))
+      .def_property_readonly("c", copied(&B::c))
+      .def_property_readonly("d", copied(&B::d))
+      .def_property_readonly("state_scale", copied(&B::state_scale));
   bind_retardation(m);
   description::bind<VesselDescription>(m, "vessel");
   description::bind<HydroGroupDescription>(m, "group");

@@ -6,14 +6,10 @@ using namespace seacrane;
 void bind_integrators(py::module_& m) {
   using P = IntegratorProperties;
   py::class_<P>(m, "Integrator", "What an integration method is; see `integrators`.")
-      .def_property_readonly(
-          "name", [](const P& p) { return p.name; }, "By which `simulate` takes it.")
-      .def_property_readonly(
-          "kind", [](const P& p) { return p.kind; }, "What it is, in words.")
-      .def_property_readonly(
-          "purpose", [](const P& p) { return p.purpose; }, "What it is there for, in words.")
-      .def_property_readonly(
-          "joints", [](const P& p) { return p.joints; }, "How it keeps joints closed, in words.")
+      .def_readonly("name", &P::name, "By which `simulate` takes it.")
+      .def_readonly("kind", &P::kind, "What it is, in words.")
+      .def_readonly("purpose", &P::purpose, "What it is there for, in words.")
+      .def_readonly("joints", &P::joints, "How it keeps joints closed, in words.")
       .def_readonly("order", &P::order, "The highest one for a method of variable order.")
       .def_readonly("lowest_order", &P::lowest_order, "That of `order`, unless the order varies.")
       .def_readonly("error_order", &P::error_order,

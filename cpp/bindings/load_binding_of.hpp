@@ -9,8 +9,7 @@ const LoadBinding& load_binding() {
   static const LoadBinding out{
       .bind = [](py::module_& m) -> py::object {
         auto type = description::bind<Description>(m, Load::kind);
-        type.def_static("example", &Load::example,
-                        "One for checks, on bodies 'first', 'second' and 'third'.");
+        description::bind_example(type, [] { return py::cast(Load::example()); });
         type.attr("STIFF") = seacrane::StiffLoad<Load>;
         type.attr("OWN_PACE") = requires { requires Load::own_pace; };
         type.attr("PASSIVE") = requires { requires Load::passive; };

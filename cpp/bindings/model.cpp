@@ -372,7 +372,7 @@ void bind_model(py::module_& m) {
           },
           "(name, whether it holds at the described start) of wires, bounds and seats, in the order of the "
           "channel limit_force.")
-      .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
+      .def_readonly("slots", &Model::slot_count)
       .def_property_readonly(
           "inputs",
           [](const Model& x) {
@@ -402,7 +402,7 @@ void bind_model(py::module_& m) {
           "redundant", [](const Model& x) { return x.assembly.redundant; },
           "Names of elements whose reactions are not unique.")
       .def_property_readonly("assembly", &assembly_report)
-      .def_property_readonly("paper_kinematics", [](const Model& x) { return x.paper_kinematics; })
+      .def_readonly("paper_kinematics", &Model::paper_kinematics)
       .def_property_readonly(
           "euler_angles", [](const Model& x) { return x.description.orientation == Orientation::euler_xyz; },
           "Whether the state holds XYZ Euler angles.")

@@ -109,9 +109,8 @@ void bind_history(py::module_& m) {
              return H{start, intervals, to_twists(recent), to_twists(quadrature)};
            }),
            py::kw_only(), py::arg("start"), py::arg("intervals"), py::arg("recent"), py::arg("quadrature"))
-      .def_property_readonly(
-          "start", [](const H& h) { return h.start; }, "s")
-      .def_property_readonly("intervals", [](const H& h) { return h.intervals; })
+      .def_readonly("start", &H::start, "s")
+      .def_readonly("intervals", &H::intervals)
       .def_property_readonly(
           "recent", [](const H& h) { return to_rows(h.recent); }, "m/s and rad/s, copy")
       .def_property_readonly(
@@ -132,14 +131,14 @@ void bind_steps(py::module_& m) {
           }),
           py::kw_only(), py::arg("formulation"), py::arg("integrator"), py::arg("values"), py::arg("rate"),
           py::arg("kink") = py::none())
-      .def_property_readonly("formulation", [](const S& s) { return s.formulation; })
-      .def_property_readonly("integrator", [](const S& s) { return s.integrator; })
+      .def_readonly("formulation", &S::formulation)
+      .def_readonly("integrator", &S::integrator)
       .def_property_readonly(
           "values", [](const S& s) { return to_array(s.values); }, "copy")
       .def_property_readonly(
           "rate", [](const S& s) { return to_array(s.rate); }, "copy")
-      .def_property_readonly(
-          "kink", [](const S& s) { return s.kink; },
+      .def_readonly(
+          "kink", &S::kink,
           "Where a step that is taken again is to end, at a kink of a load in the state, s; None: nowhere.");
 }
 
@@ -188,14 +187,10 @@ void bind_record(py::module_& m) {
            }),
            py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("residual"),
            py::arg("impact_loss"), py::arg("quaternions"))
-      .def_property_readonly(
-          "impact_loss", [](const R& r) { return r.impact_loss; }, "J")
-      .def_property_readonly(
-          "start_energy", [](const R& r) { return r.start_energy; }, "J")
-      .def_property_readonly(
-          "start_work", [](const R& r) { return r.start_work; }, "J")
-      .def_property_readonly(
-          "residual", [](const R& r) { return r.residual; }, "m or rad")
+      .def_readonly("impact_loss", &R::impact_loss, "J")
+      .def_readonly("start_energy", &R::start_energy, "J")
+      .def_readonly("start_work", &R::start_work, "J")
+      .def_readonly("residual", &R::residual, "m or rad")
       .def_property_readonly(
           "quaternions", [](const R& r) { return to_array(r.quaternions); }, "copy");
 }
@@ -238,10 +233,9 @@ void bind_simulation(py::module_& m) {
            py::arg("histories") = std::vector<TwistHistory>{}, py::arg("steps") = StepHistory{},
            py::arg("closed") = py::none(), py::arg("record") = py::none(),
            py::arg("parts") = std::vector<std::string>{})
-      .def_property_readonly(
-          "closed", [](const State& s) { return s.closed; },
-          "Names of the limits that hold (copy); None: as at the described start.")
-      .def_property_readonly("time", [](const State& s) { return s.time; })
+      .def_readonly("closed", &State::closed,
+                    "Names of the limits that hold (copy); None: as at the described start.")
+      .def_readonly("time", &State::time)
       .def_property_readonly(
           "values", [](const State& s) { return to_array(s.values); }, "copy")
       .def_property_readonly(
@@ -253,8 +247,8 @@ void bind_simulation(py::module_& m) {
           "steps", [](const State& s) { return s.steps; }, "StepHistory (copy); its names are empty: none.")
       .def_property_readonly(
           "record", [](const State& s) { return s.record; }, "RecordHistory (copy), or None.")
-      .def_property_readonly(
-          "parts", [](const State& s) { return s.parts; },
+      .def_readonly(
+          "parts", &State::parts,
           "What the values belong to, in words; a run of a scene with other parts refuses the state. Empty: "
           "not known.")
       .def_property_readonly(

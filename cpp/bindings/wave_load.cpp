@@ -314,7 +314,7 @@ void bind_wave_loads(py::module_& m) {
            py::kw_only(), py::arg("name"), py::arg("body"), py::arg("exact") = py::none(),
            py::arg("table") = py::none(), py::arg("drift") = py::none(), py::arg("drift_table") = py::none(),
            py::arg("positioned") = py::none())
-      .def_property_readonly("name", [](const W& w) { return w.name; });
+      .def_readonly("name", &W::name);
 }
 
 Complexes weighted_sums(const Doubles& weights, const Complexes& values) {
