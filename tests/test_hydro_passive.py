@@ -37,7 +37,7 @@ from seacrane.hydro.memory.certificate import certify
 from seacrane.hydro.memory.identification import r_squared
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, Problem, first_guess, fit_oscillators
 from seacrane.hydro.memory.passive import motion_groups
-from seacrane.warnings import MemoryFitWarning
+from seacrane.warnings import InfiniteFrequencyWarning, MemoryFitWarning
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,8 @@ def hull() -> MemoryModel:
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> tuple[HydroDatabase, MemoryModel]:
     database = load_database(shared / "veres" / "supply")
-    return database, fit_memory(database=database, kind="passive")
+    with pytest.warns(InfiniteFrequencyWarning):
+        return database, fit_memory(database=database, kind="passive")
 
 
 @pytest.fixture(params=["hull", "supply"])
@@ -85,7 +86,6 @@ def with_dampers(block: MemoryBlock, change: Array) -> MemoryBlock:
     return dataclasses.replace(block, A=a)
 
 
-@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 def test_the_damping_is_positive_far_beyond_the_band(ship: tuple[HydroDatabase, MemoryModel]) -> None:
     """Re K(i w) >= margin w^2 / (1 + w^2)^2 at every frequency from 1e-3 to 1e3 rad/s."""
     _, model = ship
@@ -135,7 +135,6 @@ def test_the_hamiltonian_has_no_imaginary_eigenvalue(ship: tuple[HydroDatabase, 
         assert np.min(np.abs(middle.real) / np.abs(middle)) > 1e-3
 
 
-@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 def test_every_pair_follows_the_data_with_fewer_states(ship: tuple[HydroDatabase, MemoryModel]) -> None:
     database, model = ship
     inside = (database.omega >= model.band[0] - 1e-9) & (database.omega <= model.band[1] + 1e-9)

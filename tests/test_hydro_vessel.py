@@ -20,7 +20,7 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
-from seacrane.warnings import MemoryFitWarning, RollDampingWarning
+from seacrane.warnings import InfiniteFrequencyWarning, MemoryFitWarning, RollDampingWarning
 
 CRANE = RigidPart(mass=390e3, position=np.array([-33.0, 10.0, 18.0]), inertia=np.diag([2.0e7, 3.0e7, 2.5e7]))
 
@@ -29,7 +29,8 @@ CRANE = RigidPart(mass=390e3, position=np.array([-33.0, 10.0, 18.0]), inertia=np
 def supply(shared: Path) -> HydroDatabase:
     """The supply vessel with its memory."""
     database = load_database(shared / "veres" / "supply")
-    return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
+    with pytest.warns(InfiniteFrequencyWarning):
+        return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def test_the_shipped_vessel() -> None:
@@ -44,7 +45,6 @@ def test_the_shipped_vessel() -> None:
     assert vessel.memory is shipped_database().memory
 
 
-@pytest.mark.warns("InfiniteFrequencyWarning")
 def test_mass_matrix_is_split_and_rebuilt(supply: HydroDatabase) -> None:
     for database in (shipped_database(), supply):
         vessel = vessel_parameters(database)

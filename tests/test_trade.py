@@ -22,6 +22,7 @@ from seacrane.trading.measured_case import measured as measured_row
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
+from seacrane.warnings import NonPassiveMemoryWarning
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -39,7 +40,8 @@ def case2() -> Scene:
 
 @pytest.fixture(scope="module")
 def measured(case2: Scene, folder: Path) -> Trade:
-    return trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
+    with pytest.warns(NonPassiveMemoryWarning):
+        return trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
 
 
 @pytest.mark.slow("a trade study")
@@ -55,7 +57,6 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
         assert len(errors) == 3 and errors[0] > 10 * errors[1] > 100 * errors[2] > 0.0
 
 
-@pytest.mark.warns("NonPassiveMemoryWarning")
 def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
     row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
     run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)

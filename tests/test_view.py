@@ -74,7 +74,6 @@ class Page(HTMLParser):
         return np.cumsum(np.cumsum(second, axis=1), axis=1) * told["step"]
 
 
-@pytest.mark.warns("LargeSwingWarning")
 def test_a_pose_at_any_output_is_that_of_the_run() -> None:
     result, motion = case2(), view(case2()).motion
     position, quaternion = motion.at(result.time)

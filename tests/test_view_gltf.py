@@ -66,7 +66,6 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> Model:
     return Model(view(case2()).save_gltf(tmp_path_factory.mktemp("gltf") / "lift.glb"))
 
 
-@pytest.mark.warns("LargeSwingWarning")
 def test_nodes_are_where_the_run_had_its_bodies(model: Model) -> None:
     result = case2()
     times = np.minimum(result.time, model.track("payload", "translation")[0][-1])

@@ -6,12 +6,13 @@ import warnings
 from functools import cache
 
 import numpy as np
+import pytest
 
 from seacrane import Curve, Result, Scene, cases, simulate
 from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
-from seacrane.warnings import BallastWarning, OutsideRangeWarning
+from seacrane.warnings import BallastWarning, LargeSwingWarning, OutsideRangeWarning
 
 HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
 
@@ -19,7 +20,8 @@ HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
 @cache
 def case2() -> Result:
     """The paper's lift."""
-    return simulate(cases.case2(), 60.0)
+    with pytest.warns(LargeSwingWarning):
+        return simulate(cases.case2(), 60.0)
 
 
 @cache
