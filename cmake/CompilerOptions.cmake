@@ -10,6 +10,11 @@ else()
   target_compile_options(seacrane_options INTERFACE
     -fno-math-errno $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=off> $<$<CONFIG:Release>:-O3>)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT SEACRANE_SANITIZE)
+  # Less collecting of garbage within the compiler: a tenth of its time, for a few hundred MB of the dearest objects.
+  target_compile_options(seacrane_options INTERFACE
+    "SHELL:--param ggc-min-heapsize=600000" "SHELL:--param ggc-min-expand=100")
+endif()
 if(SEACRANE_NATIVE)
   target_compile_options(seacrane_options INTERFACE -march=native)
 endif()
