@@ -135,6 +135,7 @@ def test_the_hamiltonian_has_no_imaginary_eigenvalue(ship: tuple[HydroDatabase, 
         assert np.min(np.abs(middle.real) / np.abs(middle)) > 1e-3
 
 
+@pytest.mark.warns(sometimes=["InfiniteFrequencyWarning"])
 def test_every_pair_follows_the_data_with_fewer_states(ship: tuple[HydroDatabase, MemoryModel]) -> None:
     database, model = ship
     inside = (database.omega >= model.band[0] - 1e-9) & (database.omega <= model.band[1] + 1e-9)
