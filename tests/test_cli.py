@@ -325,6 +325,7 @@ def test_the_paper_command_writes_figures_data_runs_and_report(
     assert all(f"Figure {number}:" in page for number in range(3, 11))
 
 
+@pytest.mark.slow("many processes")
 def test_the_papers_findings_are_reproduced(
     paper: tuple[subprocess.CompletedProcess[str], Path],
 ) -> None:

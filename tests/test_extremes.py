@@ -65,6 +65,7 @@ def test_the_quick_atlas_keeps_every_promise(quick: Path) -> None:
             assert len(methods) == len(QUICK)
 
 
+@pytest.mark.slow("an atlas")
 def test_predicted_step_limits_are_those_found(quick: Path) -> None:
     with (quick / "extremes_step.csv").open(newline="", encoding="utf-8") as file:
         limits = list(csv.DictReader(file))
@@ -73,6 +74,7 @@ def test_predicted_step_limits_are_those_found(quick: Path) -> None:
         assert float(row["found"]) == pytest.approx(float(row["predicted"]), rel=0.02)
 
 
+@pytest.mark.slow("an atlas")
 def test_heat_maps_are_drawn(quick: Path) -> None:
     import matplotlib.image as mpimg
 
@@ -81,6 +83,7 @@ def test_heat_maps_are_drawn(quick: Path) -> None:
         assert picture.std() > 0.05, name
 
 
+@pytest.mark.slow("an atlas")
 def test_a_second_call_runs_nothing_again(quick: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(groups: Any, jobs: int) -> Any:
         raise AssertionError(f"{len(groups)} groups are run again")

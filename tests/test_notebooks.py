@@ -53,7 +53,7 @@ def test_what_opens_notebooks_can_be_installed_by_itself() -> None:
 
 
 # Those that take a second or two; the others run by night, all for the wheel and the site.
-BY_DAY = ("05_every_force", "06_extremes", "08_wires", "09_your_crane", "13_cranes_and_oil")
+BY_DAY = ("05_every_force", "08_wires", "09_your_crane", "13_cranes_and_oil")
 BY_NIGHT = pytest.mark.slow("a whole notebook")
 
 
