@@ -222,10 +222,10 @@ void bind(const Table& table) {
 void bind_example(const py::object& type, py::object (*example)()) {
   py::options options;
   options.disable_function_signatures();
-  const std::string text =
+  const auto doc =
       "example() -> " + name_of(type) + "\n\nOne for checks, on bodies 'first', 'second' and 'third'.\n";
   type.attr("example") =
-      py::staticmethod(py::cpp_function(example, py::name("example"), py::scope(type), text.c_str()));
+      py::staticmethod(py::cpp_function(example, py::name("example"), py::scope(type), doc.c_str()));
 }
 
 }  // namespace description
