@@ -7,8 +7,8 @@
 #                  every measured table
 # make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
 # make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
-# make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 #                  (BITS_ARGS=--record writes the file)
+# make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
 #               would load from a network
@@ -28,7 +28,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly campaign campaign-% sanitized wheel-trial bench bench-peers bits release-check docs extremes notebooks stubs viewer wheel format clean distclean \
+.PHONY: demo test build nightly campaign no-such-campaign sanitized bench bench-peers bits release-check docs extremes \
+        notebooks stubs viewer wheel wheel-trial format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
@@ -144,13 +145,13 @@ test: build .venv/.installed-dev
 nightly: build .venv/.installed-dev bundle-packages
 	$(BIN)/python tools/nightly.py $(NIGHTLY_ROWS)
 
-campaign:
-	@case '$(NAME)' in atlas|fuzz|peers|tables) $(MAKE) --no-print-directory campaign-$(NAME);; \
-	  *) echo "make campaign NAME=... : no campaign '$(NAME)'; there are atlas, fuzz, peers, tables" >&2; exit 1;; esac
-campaign-atlas: extremes
-campaign-fuzz: fuzz
-campaign-peers: bench-peers
-campaign-tables: bench
+campaign_atlas := extremes
+campaign_fuzz := fuzz
+campaign_peers := bench-peers
+campaign_tables := bench
+campaign: $(or $(campaign_$(NAME)),no-such-campaign)
+no-such-campaign:
+	@echo "make campaign NAME=atlas|fuzz|peers|tables; there is none called '$(NAME)'" >&2; exit 1
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
