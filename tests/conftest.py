@@ -70,34 +70,33 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.get_closest_marker("slow"):
             item.add_marker(pytest.mark.filterwarnings("default::UserWarning"))
-        for name in [*_warned(item), *_warned(item, "sometimes")]:
+        for name in set.union(*_warned(item)):
             item.add_marker(pytest.mark.filterwarnings(f"always::seacrane.warnings.{name}"))
         for mark in item.iter_markers("slow"):
             if len(mark.args) != 1 or not mark.args[0]:
                 raise pytest.UsageError(f'{item.nodeid}: say why it is slow: @pytest.mark.slow("why")')
 
 
-def _warned(item: pytest.Item, word: str = "") -> list[str]:
-    """Names of the warnings that the marks of an item expect, or expect in some of a function's items."""
+def _warned(item: pytest.Item) -> tuple[set[str], set[str]]:
+    """Names of the warnings that an item's marks expect, and of those that some items of its function give."""
     marks = list(item.iter_markers("warns"))
-    return [name for mark in marks for name in (mark.kwargs.get(word, ()) if word else mark.args)]
+    always = {name for mark in marks for name in mark.args}
+    return always, {name for mark in marks for name in mark.kwargs.get("sometimes", ())}
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Iterator[None]:
     """A test gives the warnings that its mark names, and passes on all others."""
-    expected = _warned(pyfuncitem)
-    taken = {*expected, *_warned(pyfuncitem, "sometimes")}
-    if not taken:
+    expected, sometimes = _warned(pyfuncitem)
+    if not expected | sometimes:
         return (yield)
     with warnings.catch_warnings(record=True) as told:
         result = yield
     for one in told:
-        if one.category.__name__ not in taken:
+        if one.category.__name__ not in expected | sometimes:
             warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
-    came = {one.category.__name__ for one in told}
-    if missing := [name for name in expected if name not in came]:
-        pytest.fail(f"{', '.join(missing)} did not come, which the test's mark expects")
+    if missing := expected - {one.category.__name__ for one in told}:
+        pytest.fail(f"{', '.join(sorted(missing))} did not come, which the test's mark expects")
     return result
 
 
