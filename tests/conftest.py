@@ -78,7 +78,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _warned(item: pytest.Item) -> tuple[set[str], set[str]]:
-    """Names of the warnings that an item's marks expect, and of those that some items of its function give."""
+    """Names of the warnings that an item's marks expect, and of those that some of its kind give."""
     marks = list(item.iter_markers("warns"))
     always = {name for mark in marks for name in mark.args}
     return always, {name for mark in marks for name in mark.kwargs.get("sometimes", ())}
