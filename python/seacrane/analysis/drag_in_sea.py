@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from math import gamma
 from typing import TYPE_CHECKING
@@ -20,6 +19,7 @@ from seacrane.description.hydrodynamics import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid
+from seacrane.inputs.caller import silently
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
 
@@ -93,10 +93,7 @@ def drag_in_sea(
         return _Sea.of_spectrum(still, omega, base, spectrum, angles, shares)
 
     moving = sea_at(np.linspace(first, last, ROUGH)).as_if_still(still)
-    with warnings.catch_warnings():
-        warnings.simplefilter(
-            "ignore"
-        )  # of modes that drag does not damp: whoever sums a response tells them
+    with silently():  # of modes that drag does not damp: whoever sums a response tells them
         omega = quadrature_frequencies(moving.linear, first, last)
     return sea_at(omega).settled(moving)
 

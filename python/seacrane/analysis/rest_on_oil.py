@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -15,6 +14,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Some
 from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import silently
 from seacrane.warnings import AssemblyWarning
 
 Array = NDArray[np.float64]
@@ -41,8 +41,7 @@ def rest_on_oil(scene: Some, time: float, values: Array, search: Search[Some]) -
     cylinders = hydraulic_cylinders(scene)
     now = {name: _stroke(scene, model, one, values) for name, one in cylinders.items()}
     wanted = {name: _rest_stroke(one, time, now[name]) for name, one in cylinders.items()}
-    with warnings.catch_warnings():  # the described pose is another one, and that is meant
-        warnings.simplefilter("ignore", AssemblyWarning)
+    with silently(AssemblyWarning):  # the described pose is another one, and that is meant
         rods, values = _led(scene, time, values, now, wanted)
         found, on_rods = search(rods, time, values), compile_scene(rods)
     force = rod_forces(rods, on_rods, found)

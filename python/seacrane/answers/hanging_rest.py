@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
-
 from seacrane.answers.rest_columns import AtRest, pulls_of
 from seacrane.answers.statics import resting
 from seacrane.description.description import Some
 from seacrane.description.waves import calm_water
 from seacrane.errors import SeacraneError
+from seacrane.inputs.caller import silently
 from seacrane.one_thread import one_thread
 from seacrane.result import Result
 
@@ -33,8 +32,7 @@ def static_pulls(result: Result) -> dict[str, float] | str:
     try:
         if result.scene is None:
             return {}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the run told them
+        with silently():  # the run told them
             return {name: value for name, (_, value) in pulls_of(hanging_rest(result.scene)).items()}
     except SeacraneError as error:
         return str(error)

@@ -6,7 +6,6 @@ resumed, or run by other workers, has the same neighbours.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,6 +17,7 @@ from seacrane.ensembles.members import Members, Value
 from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study
+from seacrane.inputs.caller import silently
 
 SEED = "seed"
 
@@ -73,8 +73,7 @@ def _parting(study: Study, members: Members, names: Sequence[str]) -> list[str]:
 
 def _model(study: Study, values: dict[str, Value]) -> _core.Model | None:
     """The compiled lift of these values; None where there is none, which its member will say."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with silently():
         try:
             return study.scene(values).compile()
         except Exception:

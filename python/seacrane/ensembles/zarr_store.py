@@ -6,6 +6,7 @@ import contextlib
 import json
 import math
 import shutil
+import threading
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
@@ -56,6 +57,7 @@ Block = tuple[tuple[int | slice, ...], slice]
 CODECS = {"bytes", "vlen-utf8", "zstd"}
 LARGEST = 2**30  # bytes of what one member keeps
 LONGEST = 2 * 10**7  # values along a dimension
+_FILTERS = threading.RLock()
 
 
 class ZarrStore:
@@ -336,8 +338,11 @@ class ZarrStore:
 
 @contextlib.contextmanager
 def _without_remarks() -> Iterator[None]:
-    """Zarr's, that texts and consolidated metadata are younger than its third format."""
-    with warnings.catch_warnings():
+    """Zarr's, that texts and consolidated metadata are younger than its third format.
+
+    Filters are of the process, so one thread at a time changes them.
+    """
+    with _FILTERS, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 

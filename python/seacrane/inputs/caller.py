@@ -17,18 +17,18 @@ Said = tuple[str, type[Warning], bool]  # a message, its category, and whether i
 _TOLD: set[str] = set()
 _TELLING: ContextVar[bool] = ContextVar("telling", default=True)
 _LISTENING: ContextVar[tuple[dict[str, None], ...]] = ContextVar("listening", default=())
-_SILENCES: ContextVar[int] = ContextVar("silences", default=0)  # blocks of `silently` that are open
+_SILENCES: ContextVar[tuple[type[Warning], ...]] = ContextVar("silences", default=())  # by open `silently`
 _RECORDING: ContextVar[tuple[tuple[list[Said], int], ...]] = ContextVar("recording", default=())
 
 
 def warn_caller(message: str, category: type[Warning]) -> None:
     """Warn at the nearest line outside this package; Python then repeats it once per line, not per call."""
-    silences = _SILENCES.get()
+    silences = [issubclass(category, silent) for silent in _SILENCES.get()]
     for said, before in _RECORDING.get():
-        said.append((message, category, silences == before))
+        said.append((message, category, not any(silences[before:])))
     for told in _LISTENING.get():
         told[message] = None
-    if silences:
+    if any(silences):
         return
     level, frame = 1, inspect.currentframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == PACKAGE:
@@ -64,9 +64,12 @@ def keeping(told: dict[str, None]) -> Iterator[None]:
 
 
 @contextmanager
-def silently() -> Iterator[None]:
-    """Inside, warnings are not shown: they were given before. Who listens hears them."""
-    before = _SILENCES.set(_SILENCES.get() + 1)
+def silently(category: type[Warning] = Warning) -> Iterator[None]:
+    """Inside, warnings of a category are not shown: they were given before. Who listens hears them.
+
+    Unlike `warnings.catch_warnings`, which is of the process, this is of the thread that runs it.
+    """
+    before = _SILENCES.set((*_SILENCES.get(), category))
     try:
         yield
     finally:
@@ -77,7 +80,7 @@ def silently() -> Iterator[None]:
 def recorded() -> Iterator[list[Said]]:
     """The warnings that are given inside, to be given again by `say_again`."""
     said: list[Said] = []
-    before = _RECORDING.set((*_RECORDING.get(), (said, _SILENCES.get())))
+    before = _RECORDING.set((*_RECORDING.get(), (said, len(_SILENCES.get()))))
     try:
         yield said
     finally:

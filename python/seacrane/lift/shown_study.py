@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import os
-import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +21,7 @@ from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import targets_of
 from seacrane.ensembles.variables import NOT_RUN
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import silently
 from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import FILE, MEMBERS
 from seacrane.plotting.text import text_table
@@ -267,6 +267,5 @@ def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExt
     """Statistics of largest values; None for too few."""
     if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
         return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with silently():
         return seed_extremes(values, duration=span, exposure=exposure, name=name)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.inputs.caller import silently
 from seacrane.operability.criterion import Criterion
 from seacrane.result import Result
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
@@ -124,8 +124,7 @@ def seeds_level(criterion: Criterion, values: Array, duration: float | None) -> 
         return _mean(good)
     if np.ptp(good) <= 1e-12 * np.abs(good).max():
         return Estimate(value=float(good[0]), low=float(good[0]), high=float(good[0]))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the interval is part of the answer
+    with silently():  # the interval is part of the answer
         spans = (1.0, 1.0) if duration is None else (duration, criterion.span)
         found = seed_extremes(good, duration=spans[0], exposure=spans[1])
     estimate: Any = getattr(found.gumbel, criterion.statistic)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +14,7 @@ from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import held
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import silently
 from seacrane.operability.criterion import Criterion
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
@@ -161,8 +161,7 @@ class _Look:
 
     def at(self, state: _core.State) -> Array:
         """The channels of the criteria (m,)."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of the scene as it would be in a run
+        with silently():  # of the scene as it would be in a run
             run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
             run.advance(state.time)
             result = require_finite(run.result())

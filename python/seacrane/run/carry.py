@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import Some
 from seacrane.description.loads import winches_of, with_length
+from seacrane.inputs.caller import silently
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.scene.scene import Scene
 from seacrane.warnings import AssemblyWarning
@@ -94,6 +94,5 @@ class _Way:
 
 def compiled_there(scene: Scene) -> _core.Model:
     """The model of a scene that was described where it is: what assembly then moves is told elsewhere."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AssemblyWarning)
+    with silently(AssemblyWarning):
         return scene.compile()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.errors import SimulationError
+from seacrane.inputs.caller import silently
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
@@ -52,15 +52,14 @@ class Course:
 
     def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the stage, not advanced yet; what its description warns of is told once."""
-        with warnings.catch_warnings():
-            if self.first_run is not None:
-                warnings.simplefilter("ignore")
+        if self.first_run is not None:
+            with silently():
                 return self.first_run.from_there(start, t_end, capacity)
-            self.first_run = Run(
-                self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
-                outputs_from=self.first, model=self.model, capacity=capacity,
-            )  # fmt: skip
-            return self.first_run
+        self.first_run = Run(
+            self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
+            outputs_from=self.first, model=self.model, capacity=capacity,
+        )  # fmt: skip
+        return self.first_run
 
     def taken(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and part of the result."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of, positive_of
 from seacrane.warnings import SteepSeaWarning
 
@@ -112,14 +112,13 @@ def steepness_limit(tp: float) -> float:
     return float(np.interp(tp, [8.0, 15.0], [1.0 / 15.0, 1.0 / 25.0]))
 
 
-def warn_if_breaking(name: str, spectrum: _core.Spectrum, stacklevel: int) -> None:
+def warn_if_breaking(name: str, spectrum: _core.Spectrum) -> None:
     """SteepSeaWarning for a spectrum above `steepness_limit`."""
     limit, steepness = steepness_limit(spectrum.tp), spectrum.steepness()
     if steepness > limit:
-        warnings.warn(
+        warn_caller(
             f"{name}: hs {spectrum.hs:.4g} m at tp {spectrum.tp:.4g} s has a steepness of "
             f"1/{1.0 / steepness:.3g}, above 1/{1.0 / limit:.3g} (DNV-RP-C205): such waves break, and linear "
             "ones overstate crests and loads; lower hs or lengthen tp",
             SteepSeaWarning,
-            stacklevel=stacklevel + 1,
         )

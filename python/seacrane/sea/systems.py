@@ -75,7 +75,7 @@ class WaveSystem:
             raise SceneError(
                 f"{what}: count is {shown(self.count)}; give a whole number from 1 to {MOST_COMPONENTS:,}"
             )
-        warn_if_breaking(what, self.spectrum, stacklevel=3)
+        warn_if_breaking(what, self.spectrum)
 
     def waves(self, *, seed: int, system: int, depth: float, placement: str) -> _core.WaveComponents:
         """Long-crested components along the mean direction."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -28,6 +27,7 @@ from seacrane.hydro.readers import (
     wamit_group,
 )
 from seacrane.hydro.readers.format import Format, Loaded, of_one_speed
+from seacrane.inputs.caller import silently
 from seacrane.warnings import RoughDataWarning
 
 OF_SEVERAL = tuple(kind.FORMAT for kind in (capytaine_group, wamit_group, bemio_group, nemoh_group))
@@ -74,8 +74,7 @@ def load_database(
     if trusted_band is None:
         database = _read(found, source, speed, depth)
     else:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RoughDataWarning)
+        with silently(RoughDataWarning):
             database = _trusted(_read(found, source, speed, depth), trusted_band)
     for hull in database.hulls.values() if isinstance(database, HydroGroup) else [database]:
         warn_of_data(hull)
