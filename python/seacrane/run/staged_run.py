@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
+from seacrane.description.given import in_calm_water
 from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError
@@ -19,6 +19,7 @@ from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.alike_stages import AlikeStages, Key
+from seacrane.run.before import Begin, rest_after
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
@@ -30,7 +31,7 @@ from seacrane.run.interrupts import Interrupts
 from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
-from seacrane.run.plan import checked_stages, planned_scene, waiting
+from seacrane.run.plan import checked_stages, place_of, waiting
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
@@ -48,19 +49,6 @@ if TYPE_CHECKING:
     from seacrane.run.method import Method
 
 LARGEST_GAP = 0.01  # m times the scene's length scale, or rad: joints that open wider do not connect
-
-
-@dataclass(frozen=True)
-class Begin:
-    """Where a stage began, to run it again from: what was there just before its connections and commands.
-
-    Attributes
-    ----------
-    scene : With the commands of the stages before, and with what later stages connect.
-    """
-
-    scene: Scene
-    state: _core.State
 
 
 class StagedRun:
@@ -107,14 +95,23 @@ class StagedRun:
         self.method, self.outputs = settled(method, outputs, shorthand)
         scene = decided(scene)
         every = checked_stages(scene, stages)
-        self.stages, self._whole, time = planned_scene(scene, every, first)
-        self._given, self._absent = scene, waiting(self.stages)
+        count = place_of(every, first)
+        self.stages, self._given, self._whole = every[count:], scene, scene.copy()
+        begin: Start = REST if start is None and first is not None else start
+        if count:
+            there = start if isinstance(start, _core.State) else None
+            calm = StagedRun(
+                in_calm_water(scene), every, start=start if there is None else None, method=self.method,
+                outputs=Outputs(dt_out=self.outputs.dt_out, channels=()), controllers=controllers,
+            )  # fmt: skip
+            rest = rest_after(calm, count, scene, there)
+            self._whole, begin = rest.scene, rest.state
+        self._absent = waiting(self.stages)
         self._scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
-        self._model = self._first_model()
-        from_rest = start is None and first is not None
-        begin = start_state(self._scene, REST if from_rest else start, time=time)
+        self._model = compiled_there(self._scene) if count else self._first_model()
+        begin = start_state(self._scene, begin)
         self._state = _core.initial_state(self._model) if begin is None else begin
         self._described = begin is None
         self._reached = self._counted()
@@ -140,6 +137,26 @@ class StagedRun:
     def state(self) -> _core.State:
         """The present state."""
         return self._state
+
+    @property
+    def scene(self) -> Scene:
+        """What is there at present."""
+        return self._scene
+
+    @property
+    def model(self) -> _core.Model:
+        """Of what is there at present."""
+        return self._model
+
+    @property
+    def whole(self) -> Scene:
+        """The scene with all commands until now, and with what is absent."""
+        return self._whole
+
+    @property
+    def absent(self) -> frozenset[str]:
+        """Names of what is absent at present."""
+        return frozenset(self._absent)
 
     def advance(self) -> bool:
         """Carry out the next stage; False when none is left, or Ctrl-C stopped it.
@@ -416,8 +433,8 @@ def simulate_stages(
         Where the first of them begins, or the word for the state at rest; default: the assembled start of the
         scene.
     first : str, optional
-        Name of a stage to begin with. Those before it count as carried out: what they connect and release,
-        where their moves and lengths end. It then starts from its static state, unless `start` is given.
+        Name of a stage to begin with. Those before it are carried out in calm water, and it starts from the
+        static state there, unless a state is given as `start`.
     method, outputs, **shorthand
         As `simulate`. Channels are recorded in the stages that have them.
     controllers : sequence of SampledController
@@ -434,7 +451,8 @@ def simulate_stages(
     Raises
     ------
     SceneError
-        For stages that do not fit the scene or one another, by their names.
+        For stages that do not fit the scene or one another, by their names; for one before `first` that is
+        not over in calm water.
     SimulationError
         As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
         holds the outputs until then.
