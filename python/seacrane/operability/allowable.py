@@ -6,7 +6,8 @@ import contextlib
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -17,7 +18,7 @@ from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium, held
-from seacrane.description.waves import calm_water
+from seacrane.description.given import given_drivers, in_calm_water, led_by
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.study import Start
@@ -232,14 +233,17 @@ class _Still:
                 "are then replaced"
             )
         require_same_sea(scene, ("hs", "tp", "direction_deg"))
-        state = equilibrium(scene, time=time)
+        scene = _lasting(scene, asked, time)
+        calm = in_calm_water(scene)
+        state = equilibrium(calm, time=time)
         if asked.stages:
-            rest = _calm_extremes(scene, state, asked, method, outputs)
+            rest = _calm_extremes(calm, state, asked, method, outputs)
             return cls(scene=scene, state=state, rest=rest)
-        calm = held(scene, time=time)
+        calm = held(calm, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
         rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
-        return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
+        moving = {name: scene.drivers[name].curve for name in given_drivers(scene)}
+        return cls(scene=led_by(calm, moving).copy(waves=scene.waves), state=state, rest=rest)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -310,16 +314,29 @@ class _Study:
         return dict(found.failures)
 
     def _start(self) -> Start:
-        """Where runs begin: in the linear steady state, and lifts in stages at rest."""
+        """Where runs begin: in the linear steady state; on given ships and in stages at rest."""
         still = self.still
+        if given_drivers(still.scene):
+            return partial(equilibrium, time=still.state.time)
         return still.state if self.asked.stages else steady_start(still.scene, still.state)
 
 
+def _lasting(scene: Scene, asked: _Asked, begin: float) -> Scene:
+    """The scene with the motion of ships by RAOs described to the end of the runs, whose seas are made anew."""
+    end = begin + asked.start_up + (asked.duration or 0.0)
+    stages = asked.stages(scene) if callable(asked.stages) else asked.stages
+    end += sum(one.duration or one.maximum_duration or 0.0 for one in stages)
+    out = scene.copy()
+    for name, known in scene.provenance.items():
+        if known.motion == "raos" and known.duration is not None and known.duration < end:
+            out.provenance[name] = replace(known, duration=end)
+    return out
+
+
 def _calm_extremes(
-    scene: Scene, state: _core.State, asked: _Asked, method: Method, outputs: Outputs
+    calm: Scene, state: _core.State, asked: _Asked, method: Method, outputs: Outputs
 ) -> Array:
-    """What each criterion reaches in the same lift in calm water."""
-    calm = scene.copy(waves=calm_water(scene.waves))
+    """What each criterion reaches in the same lift in calm water, given ships at rest."""
     stages = asked.stages(calm) if callable(asked.stages) else asked.stages
     result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
     found = []
