@@ -343,7 +343,7 @@ class _Study:
 
 
 def _lasting(scene: Scene, asked: _Asked, begin: float) -> Scene:
-    """The scene with the motion of ships by RAOs described to the end of the runs, whose seas are made anew."""
+    """The scene with the motion of ships by RAOs described to the end of the runs, each in its own sea."""
     end = begin + asked.start_up + (asked.duration or 0.0)
     stages = asked.stages(scene) if callable(asked.stages) else asked.stages
     end += sum(one.duration or one.maximum_duration or 0.0 for one in stages)

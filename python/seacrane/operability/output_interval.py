@@ -1,4 +1,4 @@
-"""How far apart outputs of a lift in stages may be, so that they hold the peaks of what bounces on its hoist."""
+"""How far apart outputs of a lift in stages may be to hold the peaks of what bounces on its hoist."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ def resolving(outputs: Outputs, bounce: Bounce | None, *, asked: bool) -> Output
     if outputs.dt_out > bounce.period / COARSE:
         warn_caller(
             f"allowable_hs: dt_out is {outputs.dt_out:g} s, and {bounce.load!r} bounces on its hoist in "
-            f"{bounce.period:.3g} s: outputs so far apart miss peaks, and the allowable Hs is too high; leave "
-            f"dt_out out, or give {finest:.2g}",
+            f"{bounce.period:.3g} s: outputs so far apart miss peaks, and the allowable Hs is too high; "
+            f"leave dt_out out, or give {finest:.2g}",
             CoarseOutputsWarning,
         )
     return outputs

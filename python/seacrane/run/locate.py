@@ -180,9 +180,7 @@ class _Hit:
 class _Looks:
     """Looks at the conditions of a stage in one of its runs, at some from a time on, s."""
 
-    def __init__(
-        self, run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]
-    ) -> None:
+    def __init__(self, run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]) -> None:
         self._run, self._conditions, self._since = run, conditions, since
 
     def any(self) -> bool:

@@ -49,8 +49,8 @@ def check_bounds(stage: Stage, scene: Scene) -> None:
             continue
         if condition.channel == "line_tension" and condition.value <= 0.0:
             raise SceneError(
-                f"{stage.title}: would end at once: it waits for {condition.text}, which every line has; give "
-                "a tension above 0 N for a line that is taut, or maximum=0 for one that is slack"
+                f"{stage.title}: would end at once: it waits for {condition.text}, which every line has; "
+                "give a tension above 0 N for a line that is taut, or maximum=0 for one that is slack"
             )
         if condition.channel != "immersed_depth":
             continue
