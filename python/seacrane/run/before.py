@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium, led
 from seacrane.description.given import given_drivers, led_by
-from seacrane.errors import SceneError, SimulationError
-from seacrane.inputs.caller import silently
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats
 from seacrane.run.commands import taken_up
 from seacrane.run.connections import without
 from seacrane.run.move import Move
 from seacrane.run.plan import waiting
+from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
-
-if TYPE_CHECKING:
-    from seacrane.run.staged_run import StagedRun
 
 LEAD = 5.0  # s of a way along which a given ship is led to where its motion has it
 
@@ -37,26 +33,43 @@ class Begin:
     state: _core.State
 
 
-def rest_after(calm: StagedRun, count: int, scene: Scene, start: _core.State | None) -> Begin:
-    """Where a lift stands still after so many of its stages, in the sea of a scene.
+@dataclass(frozen=True, kw_only=True)
+class There:
+    """Where a lift is between two stages.
 
-    What the last of them left moving is at rest, and takes its way up from there. Seats that let go stay
-    open.
+    Attributes
+    ----------
+    whole : With all commands until then, and with what is absent.
+    absent : Names.
+    scene, model
+        What is there.
+    """
+
+    whole: Scene
+    absent: frozenset[str]
+    scene: Scene
+    model: _core.Model
+    state: _core.State
+
+
+def rest_after(calm: There, later: Sequence[Stage], scene: Scene, start: _core.State | None) -> Begin:
+    """Where a lift stands still that was carried out in calm water until then, in the sea of a scene.
+
+    What still moved is at rest, and takes its way up from there. Seats that let go stay open.
 
     Parameters
     ----------
-    calm : StagedRun
-        The lift in calm water, nothing of it carried out.
+    later : sequence of Stage
+        That are left.
     start : State, optional
         The state there, where it is known.
 
     Raises
     ------
     SceneError
-        For a stage that is not over in calm water, and where nothing rests there.
+        Where nothing rests there.
     """
-    _carry_out(calm, count)
-    time, later = calm.state.time, calm.stages[count:]
+    time = calm.state.time
     gone = (calm.absent | lifted_seats(calm.scene, calm.state)) - waiting(later)
     still = taken_up(without(calm.whole, gone), time)
     moving = _in_sea(still, scene, time)
@@ -67,21 +80,6 @@ def rest_after(calm: StagedRun, count: int, scene: Scene, start: _core.State | N
     if given_drivers(scene):
         state = _aboard(there, without(moving, waiting(later)), state)
     return Begin(moving, state)
-
-
-def _carry_out(calm: StagedRun, count: int) -> None:
-    first = calm.stages[count].name
-    with silently():
-        for stage in calm.stages[:count]:
-            try:
-                calm.advance()
-            except (SceneError, SimulationError) as error:
-                raise SceneError(
-                    f"first is {first!r}, and {stage.title} before it is carried out in calm water, where it "
-                    f"fails: {error}. Or give start=, the state in which {first!r} begins"
-                ) from error
-            if calm.interrupted:
-                raise KeyboardInterrupt
 
 
 def _in_sea(still: Scene, scene: Scene, time: float) -> Scene:

@@ -13,13 +13,14 @@ from seacrane.description.description import LOADS
 from seacrane.description.given import in_calm_water
 from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
-from seacrane.errors import SceneError
+from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import number_of
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.alike_stages import AlikeStages, Key
-from seacrane.run.before import Begin, rest_after
+from seacrane.run.before import Begin, There, rest_after
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
@@ -104,7 +105,7 @@ class StagedRun:
                 in_calm_water(scene), every, start=start if there is None else None, method=self.method,
                 outputs=Outputs(dt_out=self.outputs.dt_out, channels=()), controllers=controllers,
             )  # fmt: skip
-            rest = rest_after(calm, count, scene, there)
+            rest = rest_after(calm.carried_to(count), self.stages, scene, there)
             self._whole, begin = rest.scene, rest.state
         self._absent = waiting(self.stages)
         self._scene = without(self._whole, self._absent)
@@ -148,16 +149,6 @@ class StagedRun:
         """Of what is there at present."""
         return self._model
 
-    @property
-    def whole(self) -> Scene:
-        """The scene with all commands until now, and with what is absent."""
-        return self._whole
-
-    @property
-    def absent(self) -> frozenset[str]:
-        """Names of what is absent at present."""
-        return frozenset(self._absent)
-
     def advance(self) -> bool:
         """Carry out the next stage; False when none is left, or Ctrl-C stopped it.
 
@@ -173,6 +164,31 @@ class StagedRun:
             for _ in self.carry_out(interrupts):
                 pass
         return not self._over
+
+    def carried_to(self, count: int) -> There:
+        """Carry out so many stages, and tell where that leads.
+
+        Raises
+        ------
+        SceneError
+            For one that fails.
+        """
+        first = self.stages[count].name
+        for stage in self.stages[:count]:
+            try:
+                with silently():
+                    self.advance()
+            except (SceneError, SimulationError) as error:
+                raise SceneError(
+                    f"first is {first!r}, and {stage.title} before it is carried out in calm water, where it "
+                    f"fails: {error}. Or give start=, the state in which {first!r} begins"
+                ) from error
+            if self.interrupted:
+                raise KeyboardInterrupt
+        return There(
+            whole=self._whole, absent=frozenset(self._absent), scene=self._scene, model=self._model,
+            state=self._state,
+        )  # fmt: skip
 
     @property
     def _over(self) -> bool:
