@@ -11,6 +11,7 @@ from stage_scenes import heaving, lift_off, on_deck
 from test_stages import motored, noted
 
 from seacrane import Result, Scene, SceneError, SimulationError, Stage, Until, simulate_stages
+from seacrane.run import StagedRun
 
 DOWN, UP, STOP = ({"wire.rate": rate} for rate in (0.4, -0.4, 0.0))
 HOW = {"rtol": 1e-6, "dt_out": 0.1}
@@ -153,3 +154,18 @@ def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp
     assert abs(ship[0][0]) > 0.05
     assert alone.curve("line_tension[wire]")[0] == pytest.approx(MASS * 9.80665, rel=0.03)  # and its damper
     assert alone.curve("velocity[load, z]")[0] == 0.0
+
+
+def test_a_part_that_is_not_there_is_told_before_anything_runs() -> None:
+    stages = [Stage(name="hang", duration=1.0), until(Until.depth("lode", minimum=1.0), DOWN, "down")]
+    with pytest.raises(
+        SceneError, match=r"stage 'down': waits for immersed 'lode', which .* there are load"
+    ) as told:
+        StagedRun(hanging(), stages)
+    assert told.value.name == "down"
+
+
+def test_what_a_scene_refuses_in_a_stage_names_the_stage() -> None:
+    unknown = Until.channel("wave_elevation", minimum=1.0)
+    with pytest.raises(SceneError, match="stage 'wait': until wave_elevation above 1 m: this scene has"):
+        simulate_stages(hanging(), [until(unknown, DOWN, "wait")])

@@ -7,10 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.channels import FIXED
 from seacrane.description.holding import decided
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
+from seacrane.run.channel_names import derived_coords
 from seacrane.run.commands import HOLE, check_command, targets
 from seacrane.run.connections import table_of, without
 from seacrane.run.stage import Stage
@@ -104,6 +106,7 @@ def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
 def _check_names(stage: Stage, there: Scene) -> None:
     """Raise SceneError for conditions on what the scene of the stage does not have."""
     known: dict[str, Collection[str]] = {
+        **derived_coords(there), **FIXED,
         "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
         "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
         "point": there.points,

@@ -221,8 +221,10 @@ class StagedRun:
             self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
             self._connect(stage)
             self._command(stage)
-            course, start = self._course(stage, interrupts), self._checked_start(stage)
-            ended = yield from to_its_end(course, stage, start)
+            start = self._checked_start(stage)
+            with _named(stage):
+                course = self._course(stage, interrupts)
+                ended = yield from to_its_end(course, stage, start)
             if not self._pieces:  # met at once, or stopped before anything was stepped
                 course.stand(self._state)
         except GeneratorExit:  # nobody asks for the rest
@@ -417,6 +419,16 @@ class StagedRun:
         if state is not None:
             self._state = state
             self._reached = self._counted()
+
+
+@contextlib.contextmanager
+def _named(stage: Stage) -> Iterator[None]:
+    """What a scene refuses inside names the stage."""
+    try:
+        yield
+    except SceneError as error:
+        error.args = (f"{stage.title}: {error}", *error.args[1:])
+        raise
 
 
 def _loads(scene: Scene) -> set[str]:
