@@ -129,6 +129,19 @@ def test_a_stage_alone_takes_over_what_those_before_it_reach() -> None:
     assert raised.curve("position[load, z]")[0] == pytest.approx(1.0, abs=1e-3)
 
 
+def test_a_stage_alone_goes_on_from_a_state_that_is_given() -> None:
+    run = StagedRun(on_deck(damping_ratio=0.1), lift_off(), **HOW)
+    for _ in range(4):
+        run.advance()
+    begin = run.begun["raise"].state
+    alone = StagedRun(
+        on_deck(damping_ratio=0.1), lift_off(), first="raise", start=begin, outputs_from=0.0, **HOW
+    )
+    for _ in range(2):
+        alone.advance()
+    assert np.array_equal(alone.state.values, run.state.values) and alone.state.time == run.state.time
+
+
 @pytest.mark.parametrize("start", [None, "rest"])
 def test_a_stage_before_that_calm_water_does_not_end_is_told(start: Any) -> None:
     stages = [until(Until.tension("wire", minimum=1e6), DOWN, "pull", 2.0), Stage(name="on", duration=1.0)]

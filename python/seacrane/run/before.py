@@ -55,7 +55,8 @@ class There:
 def rest_after(calm: There, later: Sequence[Stage], scene: Scene, start: _core.State | None) -> Begin:
     """Where a lift stands still that was carried out in calm water until then, in the sea of a scene.
 
-    What still moved is at rest, and takes its way up from there. Seats that let go stay open.
+    What still moved is at rest, and takes its way up from there. Seats that let go stay open. From a state
+    that is known there, all goes on as it was.
 
     Parameters
     ----------
@@ -70,11 +71,11 @@ def rest_after(calm: There, later: Sequence[Stage], scene: Scene, start: _core.S
         Where nothing rests there.
     """
     time = calm.state.time
+    if start is not None:
+        return Begin(_in_sea(without(calm.whole, calm.absent - waiting(later)), scene, time), start)
     gone = (calm.absent | lifted_seats(calm.scene, calm.state)) - waiting(later)
     still = taken_up(without(calm.whole, gone), time)
     moving = _in_sea(still, scene, time)
-    if start is not None:
-        return Begin(moving, start)
     there = without(still, waiting(later))
     state = equilibrium(there, state=carried(calm.state, calm.model, compiled_there(there)))
     if given_drivers(scene):
