@@ -32,7 +32,7 @@ from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
-from seacrane.operability.output_interval import fastest_bounce, resolving
+from seacrane.operability.output_interval import OF_THE_SHIP, fastest_bounce, resolving
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.time_domain import Cell, Storms
 from seacrane.result import Result
@@ -253,9 +253,11 @@ class _Still:
         state = equilibrium(calm, time=time)
         if asked.stages:
             stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-            with silently():
-                bounce = fastest_bounce(StagedRun(calm, stages, start=state, method=method, outputs=outputs))
-            outputs = resolving(outputs, bounce, asked=as_given)
+            if any(one.channel not in OF_THE_SHIP for one in asked.criteria):
+                with silently():
+                    lift = StagedRun(calm, stages, start=state, method=method, outputs=outputs)
+                    bounce = fastest_bounce(lift)
+                outputs = resolving(outputs, bounce, asked=as_given)
             result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
             rest = _extremes(result, asked.criteria)
             return cls(scene=scene, state=state, rest=rest, outputs=outputs)

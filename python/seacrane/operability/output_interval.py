@@ -17,6 +17,7 @@ PER_PERIOD = 8.0  # outputs in a period: the parabola through a crest errs by le
 COARSE = 6.0  # outputs in a period: fewer are told of
 LIGHT = 0.1  # of the heaviest load: what weighs less, such as a block, adds little to what the hoist carries
 MOST_DAMPING = 0.5  # ratio
+OF_THE_SHIP = ("vessel_motion", "tip_velocity")  # channels that loads which bounce hardly move
 
 
 @dataclass(frozen=True)
