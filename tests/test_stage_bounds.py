@@ -169,6 +169,12 @@ def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp
     assert alone.curve("velocity[load, z]")[0] == 0.0
 
 
+def test_a_stage_before_which_nothing_rests_is_told() -> None:
+    stages = [*lift_off(), Stage(name="fall", duration=0.5)]
+    with pytest.raises(SceneError, match=r"first is 'fall', and nothing rests where .* no rest state found"):
+        simulate_stages(on_deck(damping_ratio=0.1), stages, first="fall")
+
+
 def test_a_part_that_is_not_there_is_told_before_anything_runs() -> None:
     stages = [Stage(name="hang", duration=1.0), until(Until.depth("lode", minimum=1.0), DOWN, "down")]
     with pytest.raises(

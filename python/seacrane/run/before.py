@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium, led
 from seacrane.description.given import given_drivers, led_by
+from seacrane.errors import SceneError
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats
 from seacrane.run.commands import taken_up
@@ -77,9 +78,16 @@ def rest_after(calm: There, later: Sequence[Stage], scene: Scene, start: _core.S
     still = taken_up(without(calm.whole, gone), time)
     moving = _in_sea(still, scene, time)
     there = without(still, waiting(later))
-    state = equilibrium(there, state=carried(calm.state, calm.model, compiled_there(there)))
-    if given_drivers(scene):
-        state = _aboard(there, without(moving, waiting(later)), state)
+    try:
+        state = equilibrium(there, state=carried(calm.state, calm.model, compiled_there(there)))
+        if given_drivers(scene):
+            state = _aboard(there, without(moving, waiting(later)), state)
+    except SceneError as error:
+        first = later[0].name
+        raise SceneError(
+            f"first is {first!r}, and nothing rests where the stages before it lead: {error}. Begin with an "
+            f"earlier one, or give start=, the state in which {first!r} begins"
+        ) from error
     return Begin(moving, state)
 
 
