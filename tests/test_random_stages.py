@@ -11,6 +11,7 @@ from seacrane import Result, Stage, simulate_stages
 from seacrane.run import StagedRun
 
 WITHIN = 0.8  # m: what a winch pays out while it takes up its rate from rest, not from another one
+BY_DAY = (4, 5, 6, 9, 10)  # short ones
 HOW = {"rtol": 1e-5, "dt_out": 0.2}
 
 
@@ -46,12 +47,12 @@ def alone_as_in_the_whole(whole: Result, stages: list[Stage], at: int) -> None:
     assert_allclose(heights(alone), heights(whole)[at:], atol=WITHIN)
 
 
-@pytest.mark.parametrize("seed", range(4, 8))
+@pytest.mark.parametrize("seed", BY_DAY)
 def test_a_stage_of_a_random_lift_begun_anew_goes_as_in_the_whole(seed: int) -> None:
     begun_anew(seed)
 
 
 @pytest.mark.slow("120 random lifts")
-@pytest.mark.parametrize("seed", [*range(4), *range(8, 124)])
+@pytest.mark.parametrize("seed", sorted(set(range(124)) - set(BY_DAY)))
 def test_a_stage_of_many_random_lifts_begun_anew_goes_as_in_the_whole(seed: int) -> None:
     begun_anew(seed)
