@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from random_lifts import hanging, random_stages
+from random_staged_lifts import hanging, random_stages
 
 from seacrane import Result, Stage, simulate_stages
 from seacrane.run import StagedRun

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from random_lifts import BED, HALF, MASS, hanging
+from random_staged_lifts import BED, HALF, MASS, hanging
 from stage_scenes import heaving, lift_off, on_deck
 from test_stages import motored, noted
 
