@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Frame, Move, Scene, Stage, Until
+from seacrane import Frame, MotionRaos, Move, Scene, Stage, Until
 
 G = 9.80665
 MASS, STIFFNESS, HEIGHT = 20e3, 5e7, 20.0  # kg, N, m from the load on deck to the block
@@ -85,4 +85,21 @@ def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) ->
         first_frame=Frame(point=(0.4, 0.0, 0.0), axes=axes),
         second_frame=Frame(point=(-0.6, 0.0, 0.0), axes=axes),
     )  # fmt: skip
+    return scene
+
+
+def heaving(hs: float, ramp: float = 5.0) -> Scene:
+    """A load that hangs from a ship that heaves with the waves."""
+    scene = Scene(name="heaving")
+    values = np.zeros((2, 4, 6), dtype=complex)
+    values[:, :, 2] = 1.0
+    raos = MotionRaos(omega=[0.3, 0.6, 1.5, 4.0], heading=[0.0, np.pi], values=values)
+    scene.add_given_vessel(raos, ramp=ramp, duration=60.0)
+    scene.add_sea(hs=hs, tp=8.0, direction_deg=0.0, count=40, seed=2)
+    scene.add_body("load", mass=MASS, size=(3.0, 3.0, 3.0), position=(20.0, 0.0, 10.0))
+    scene.add_line(
+        "wire", first="vessel", first_point=(20.0, 0.0, 30.0), second="load", EA=3e7, damping_ratio=0.05,
+        tension_at_start=MASS * scene.gravity,
+    )  # fmt: skip
+    scene.add_winch("wire", lag=0.2)
     return scene

@@ -625,6 +625,14 @@ class FewSeedsWarning(SeaWarning):
     """
 
 
+class CoarseOutputsWarning(SeaWarning):
+    """Outputs of a lift in stages are further apart than a sixth of the period in which a load bounces on its
+    hoist, and largest values between them are missed.
+
+    Leave `dt_out` out, or give the one that the message names.
+    """
+
+
 class StartTransientWarning(SeaWarning):
     """Mean or standard deviation of the first fifth of a record differ from the rest by more than chance.
 

@@ -15,7 +15,7 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description, Some
 from seacrane.description.drives import add_driver
-from seacrane.description.given import given_vessels
+from seacrane.description.given import given_at_rest, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
@@ -44,15 +44,7 @@ def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
 
 def locked_at_rest(scene: Some) -> Some:
     """As `locked`, with given ships where they are described: what moves them begins at rest."""
-    out = locked(scene)
-    given = given_vessels(scene)
-    standing = {f"{body}.motion.{motion}" for body in given for motion in SIX}
-    for name in standing & out.drivers.keys():
-        old = out.drivers[name]
-        out.drivers[name] = _core.Driver(
-            name=name, joint=old.joint, coordinate=old.coordinate, curve=_core.Curve.constant(value=0.0)
-        )
-    return out
+    return given_at_rest(locked(scene))
 
 
 def at_rest(scene: Description) -> float:

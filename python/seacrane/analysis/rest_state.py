@@ -132,6 +132,11 @@ def rest_from(scene: Description, state: _core.State) -> _core.State:
     return _rest(scene, float(state.time), state_values(scene, state))[1]
 
 
+def led(scene: Description, state: _core.State, *, time: float) -> _core.State:
+    """A state at rest with its poses led along the drivers of a scene to a later time (s), as of its own."""
+    return _core.State(**state.__getstate__() | {"values": _followed(scene, state, time)})
+
+
 def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:
     """States at rest at times that increase, each found from the one before along the references."""
     for _, state in _rests(scene, times):

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from seacrane import _core
+from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 
 USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
 
 if TYPE_CHECKING:
-    from seacrane.description.description import Description
+    from seacrane.description.description import Description, Some
 
 
 def floating_bodies(scene: Description) -> set[str]:
@@ -25,6 +28,30 @@ def given_vessels(scene: Description) -> dict[str, str]:
         if known is not None and known.motion is not None:
             found[vessel.body] = known.motion
     return found
+
+
+def given_drivers(scene: Description) -> list[str]:
+    """Names of the drivers that move given vessels."""
+    led = tuple(f"{body}.motion." for body in given_vessels(scene))
+    return [name for name in scene.drivers if name.startswith(led)]
+
+
+def led_by(scene: Some, curves: Mapping[str, _core.Curve]) -> Some:
+    """The scene with other curves of some drivers, by their names."""
+    out = scene.copy()
+    for name, curve in curves.items():
+        out.drivers[name] = _core.Driver(**scene.drivers[name].__getstate__() | {"curve": curve})
+    return out
+
+
+def given_at_rest(scene: Some) -> Some:
+    """The scene with its given vessels where they are described."""
+    return led_by(scene, dict.fromkeys(given_drivers(scene), _core.Curve.constant(value=0.0)))
+
+
+def in_calm_water(scene: Some) -> Some:
+    """The scene without waves, and so without the motion of given vessels; a current flows on."""
+    return given_at_rest(scene).copy(waves=calm_water(scene.waves))
 
 
 def shown_size(scene: Description, body: str) -> tuple[float, float, float]:

@@ -6,7 +6,8 @@ import contextlib
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -17,11 +18,12 @@ from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium, held
-from seacrane.description.waves import calm_water
+from seacrane.description.given import given_drivers, in_calm_water, led_by
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.study import Start
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
@@ -30,14 +32,16 @@ from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.output_interval import OF_THE_SHIP, fastest_bounce, resolving
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.time_domain import Cell, Storms
+from seacrane.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.staged_run import simulate_stages
+from seacrane.run.staged_run import StagedRun, simulate_stages
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -123,7 +127,8 @@ def allowable_hs(
     progress : bool
         Show progress of what takes more than two seconds.
     **shorthand
-        Parts of the method, and `dt_out` (s, default 0.5), as of `simulate`.
+        Parts of the method, and `dt_out` (s), as of `simulate`. Default: 0.5; of lifts in stages less, an
+        eighth of the shortest period in which a load bounces on its hoist in calm water.
 
     Raises
     ------
@@ -133,6 +138,11 @@ def allowable_hs(
         a duration, an exposure time, "significant", motion=True, domain="frequency".
     KeyboardInterrupt
         On Ctrl-C; runs that came back before are in the store.
+
+    Warns
+    -----
+    CoarseOutputsWarning
+        A `dt_out` at which a lift in stages misses the peaks of what bounces.
     """
     asked = _Asked.of(
         criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages
@@ -146,8 +156,8 @@ def allowable_hs(
     outputs = Outputs(
         dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
     )
-    still = _Still.of(scene, asked, number_of("time", time), how, outputs)
-    study = _Study(asked=asked, still=still, method=how, outputs=outputs)
+    still = _Still.of(scene, asked, number_of("time", time), how, outputs, as_given="dt_out" in shorthand)
+    study = _Study(asked=asked, still=still, method=how, outputs=still.outputs)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
     failures: dict[int, str] = {}
     if asked.stages:
@@ -216,14 +226,20 @@ class _Asked:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Still:
-    """The scene with its references held, its sea, its state at rest and the criteria's values there."""
+    """The scene with its references held, its sea, its state at rest and the criteria's values there.
+
+    And what runs of it record.
+    """
 
     scene: Scene
     state: Any
     rest: Array
+    outputs: Outputs
 
     @classmethod
-    def of(cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs) -> _Still:
+    def of(
+        cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs, *, as_given: bool
+    ) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
         if scene.waves is None:
@@ -232,14 +248,25 @@ class _Still:
                 "are then replaced"
             )
         require_same_sea(scene, ("hs", "tp", "direction_deg"))
-        state = equilibrium(scene, time=time)
+        scene = _lasting(scene, asked, time)
+        calm = in_calm_water(scene)
+        state = equilibrium(calm, time=time)
         if asked.stages:
-            rest = _calm_extremes(scene, state, asked, method, outputs)
-            return cls(scene=scene, state=state, rest=rest)
-        calm = held(scene, time=time)
+            stages = asked.stages(calm) if callable(asked.stages) else asked.stages
+            if any(one.channel not in OF_THE_SHIP for one in asked.criteria):
+                with silently():
+                    lift = StagedRun(calm, stages, start=state, method=method, outputs=outputs)
+                    bounce = fastest_bounce(lift)
+                outputs = resolving(outputs, bounce, asked=as_given)
+            result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
+            rest = _extremes(result, asked.criteria)
+            return cls(scene=scene, state=state, rest=rest, outputs=outputs)
+        calm = held(calm, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
         rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
-        return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
+        moving = {name: scene.drivers[name].curve for name in given_drivers(scene)}
+        moved = led_by(calm, moving).copy(waves=scene.waves)
+        return cls(scene=moved, state=state, rest=rest, outputs=outputs)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -310,21 +337,30 @@ class _Study:
         return dict(found.failures)
 
     def _start(self) -> Start:
-        """Where runs begin: in the linear steady state, and lifts in stages at rest."""
+        """Where runs begin: in the linear steady state; on given ships and in stages at rest."""
         still = self.still
+        if given_drivers(still.scene):
+            return partial(equilibrium, time=still.state.time)
         return still.state if self.asked.stages else steady_start(still.scene, still.state)
 
 
-def _calm_extremes(
-    scene: Scene, state: _core.State, asked: _Asked, method: Method, outputs: Outputs
-) -> Array:
-    """What each criterion reaches in the same lift in calm water."""
-    calm = scene.copy(waves=calm_water(scene.waves))
-    stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-    result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
+def _lasting(scene: Scene, asked: _Asked, begin: float) -> Scene:
+    """The scene with the motion of ships by RAOs described to the end of the runs, each in its own sea."""
+    end = begin + asked.start_up + (asked.duration or 0.0)
+    stages = asked.stages(scene) if callable(asked.stages) else asked.stages
+    end += sum(one.duration or one.maximum_duration or 0.0 for one in stages)
+    out = scene.copy()
+    for name, known in scene.provenance.items():
+        if known.motion == "raos" and known.duration is not None and known.duration < end:
+            out.provenance[name] = replace(known, duration=end)
+    return out
+
+
+def _extremes(calm: Result, criteria: Sequence[Criterion]) -> Array:
+    """What each criterion reaches in a lift in calm water, given ships at rest."""
     found = []
-    for one in asked.criteria:
-        values = result.curve(one.channel, **one.names)[result.part(stage=one.stage or None)]
+    for one in criteria:
+        values = calm.curve(one.channel, **one.names)[calm.part(stage=one.stage or None)]
         found.append(values.max() if one.minimum is None else values.min())
     return np.array(found)
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from seacrane import _core
 from seacrane.description.description import Some
 from seacrane.description.edit import replace_element
+from seacrane.description.given import given_drivers
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, winch_of
 from seacrane.errors import SceneError
@@ -98,6 +101,28 @@ def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: flo
         else:
             move = value if isinstance(value, Move) else Move(to=value, over=RATE_TIME)
             new = move.from_where_it_is(old, time)
+        replace_element(out, target.element, kind=target.kind, **{target.attribute: new})
+    return out
+
+
+def taken_up(scene: Some, time: float) -> Some:
+    """The scene with what moves at a time (s) at rest there, and on its way again within 1 s.
+
+    Winches pay out nothing at that time, and places stand; given ships go on.
+    """
+    out, led = scene.copy(), given_drivers(scene)
+    for target in targets(out).values():  # type: ignore[arg-type]
+        winds = target.attribute == "rate"
+        if not (winds or target.place) or target.element in led:
+            continue
+        curve = present(out, target)
+        now = curve.evaluate([time])[0]
+        stands = 0.0 if winds else float(now[0])
+        if now[0] == stands and not np.any(now[1:]):
+            continue
+        way = Move(to=float(curve.evaluate([time + RATE_TIME])[0, 0]), over=RATE_TIME)
+        new = way.from_where_it_is(_core.Curve.constant(value=stands), time)
+        new = curve.then(time=time, curve=new.then(time=time + RATE_TIME, curve=curve))
         replace_element(out, target.element, kind=target.kind, **{target.attribute: new})
     return out
 

@@ -44,13 +44,13 @@ class Calls:
         self._made: dict[float, dict[str, Any]] = {}
         self._replayed = False
 
-    def begin(self, *, replayed: bool) -> None:
-        """Begin a piece of the run.
+    def begin(self, now: float, *, replayed: bool) -> None:
+        """Begin a piece of the run, at a time (s).
 
         Where it is replayed, runs over times at which controllers were called already set what they returned
         then, and call none.
         """
-        self._made.clear()
+        self._made = {time: inputs for time, inputs in self._made.items() if time >= now}
         self._replayed = replayed
 
     def call(self, run: Run, interrupts: Interrupts) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,7 @@ from seacrane.scene.scene import Scene
 LOOK = 50  # outputs between two looks at the conditions
 LOCATED = 1e-9  # s
 CONTACT_WAITS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # s, after a limit's event that another step sees elsewhere
+MOMENT = 1e-5  # s, in which what a stage begins at the bound of is seen to leave it
 
 
 @dataclass
@@ -92,7 +93,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
     Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
     if stage.duration is not None:
-        course.calls.begin(replayed=False)
+        course.calls.begin(start.time, replayed=False)
         run = course.run(start, start.time + stage.duration)
         course.began(run)
         yield run
@@ -101,14 +102,16 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
         return "" if run.interrupted else "duration"
     assert stage.maximum_duration is not None
     end, state = start.time + stage.maximum_duration, start
-    met = _met_now(course.run(state, end, capacity=1), stage.conditions)
-    while met is None:
-        course.calls.begin(replayed=True)
+    course.calls.begin(start.time, replayed=True)
+    left = _left(course, start, end, stage.conditions)
+    if isinstance(left, str):
+        return left
+    while True:
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
         course.began(run)
         yield run
-        looks = _Looks(run, stage.conditions)
+        looks = _Looks(run, stage.conditions, {one: start.time + MOMENT for one in left})
         drive(run, course.calls, course.interrupts, halt=looks.any if course.calls.controllers else None)
         found = looks.hits()
         if found and not run.interrupted:
@@ -126,7 +129,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
                 "Command what leads there, correct the condition, or allow longer"
             )
         state = run.state
-    return met.text
+        course.calls.begin(state.time, replayed=True)
 
 
 def _next_look(course: Course, now: float) -> float:
@@ -135,8 +138,24 @@ def _next_look(course: Course, now: float) -> float:
     return float(course.first + dt * (np.floor((now - course.first) / dt + 1e-6) + LOOK))
 
 
-def _met_now(run: Run, conditions: tuple[Condition, ...]) -> Condition | None:
-    return next((one for one in conditions if excess_now(run, one) >= 0.0), None)
+def _left(
+    course: Course, start: _core.State, end: float, conditions: tuple[Condition, ...]
+) -> set[Condition] | str:
+    """Conditions at whose bound a stage begins, and which it leaves at once; or which one is met already.
+
+    A stage that ended as a contact touched begins where that gap is zero to its last digits. What counts is
+    where it goes from there.
+    """
+    run = course.run(start, end, capacity=1)
+    there = [one for one in conditions if excess_now(run, one) >= 0.0]
+    if not there:
+        return set()
+    try:
+        later = course.tried(start, min(start.time + MOMENT, end))
+    except KeyboardInterrupt:
+        return ""
+    met = next((one for one in there if excess_now(later, one) >= 0.0), None)
+    return set(there) if met is None else f"{met.text} from its start on"
 
 
 def excess_now(run: Run, condition: Condition) -> float:
@@ -159,10 +178,10 @@ class _Hit:
 
 
 class _Looks:
-    """Looks at the conditions of a stage in one of its runs."""
+    """Looks at the conditions of a stage in one of its runs, at some from a time on, s."""
 
-    def __init__(self, run: Run, conditions: tuple[Condition, ...]) -> None:
-        self._run, self._conditions = run, conditions
+    def __init__(self, run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]) -> None:
+        self._run, self._conditions, self._since = run, conditions, since
 
     def any(self) -> bool:
         """Whether one is met by now: no controller is called beyond the end of its stage."""
@@ -170,22 +189,23 @@ class _Looks:
 
     def hits(self) -> list[_Hit]:
         """The bounds that are met by now, in the outputs, at events or at this instant."""
-        found = (_found(self._run, one) or _found_now(self._run, one) for one in self._conditions)
+        start = float(self._run.start.time)
+        asked = [(one, max(start, self._since.get(one, start))) for one in self._conditions]
+        found = (_found(self._run, *one) or _found_now(self._run, *one) for one in asked)
         return [hit for hit in found if hit is not None]
 
 
-def _found_now(run: Run, condition: Condition) -> _Hit | None:
+def _found_now(run: Run, condition: Condition, start: float) -> _Hit | None:
     """A condition that is met between the last output and now."""
-    start, now = float(run.start.time), float(run.core.time)
+    now = float(run.core.time)
     if isinstance(condition, Contact) or now <= start or excess_now(run, condition) < 0.0:
         return None
     times = run.core.channels()["time"]
     return _Hit(condition, float(max([start, *times[times < now]])), now)
 
 
-def _found(run: Run, condition: Condition) -> _Hit | None:
+def _found(run: Run, condition: Condition, start: float) -> _Hit | None:
     """Where a run first met a condition: between two of its outputs, or at an event."""
-    start = float(run.start.time)
     if isinstance(condition, Contact):
         kind = "contact" if condition.holds else "release"
         names = (condition.limit, f"{condition.limit}.minimum", f"{condition.limit}.maximum")
@@ -206,7 +226,7 @@ def _located(course: Course, state: _core.State, first: _Hit, hits: list[_Hit]) 
     near = [hit for hit in hits if hit.after <= first.by]
     levels = [hit for hit in near if isinstance(hit.condition, Level)]
     after = min((hit.after for hit in levels), default=state.time)
-    lead = state if after <= state.time else course.tried(state, after).state
+    lead = state if after <= state.time + MOMENT else course.tried(state, after).state
     times = [(_crossing(course, lead, hit), hit) for hit in levels]
     times += [(hit.by, hit) for hit in near if isinstance(hit.condition, Contact)]
     time, hit = min(times, key=lambda one: one[0])

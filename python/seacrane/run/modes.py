@@ -43,10 +43,16 @@ class Modes:
         Their names, in the order of the model.
     states : sequence of State
         At least one.
+    most_damping : float
+        Ratio up to which an oscillation counts.
     """
 
-    def __init__(self, model: _core.Model, bodies: Sequence[str], states: Sequence[_core.State]) -> None:
+    def __init__(
+        self, model: _core.Model, bodies: Sequence[str], states: Sequence[_core.State],
+        most_damping: float = MOST_DAMPING,
+    ) -> None:  # fmt: skip
         self.model, self._bodies, self._states = model, list(bodies), list(states)
+        self._most_damping = most_damping
 
     @cached_property
     def fastest(self) -> Fastest:
@@ -88,7 +94,7 @@ class Modes:
         if not self._bodies or not np.all(np.isfinite(matrix)):
             return Oscillations(values=np.zeros(0, complex), bodies=())
         modes, shapes = np.linalg.eig(matrix)
-        little = (modes.imag > 0.0) & (np.abs(modes.real) < MOST_DAMPING * np.abs(modes))
+        little = (modes.imag > 0.0) & (np.abs(modes.real) < self._most_damping * np.abs(modes))
         sizes = self._sizes(shapes[:, little])
         moved = tuple(self._bodies[int(column.argmax()) // 6] for column in sizes.T)
         return Oscillations(values=modes[little], bodies=moved)

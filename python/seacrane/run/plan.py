@@ -7,19 +7,18 @@ from dataclasses import replace
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.channels import FIXED
 from seacrane.description.holding import decided
-from seacrane.description.loads import lines_of, winch_of, with_length
+from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
-from seacrane.run.commands import HOLE, Command, check_command, commanded, targets
+from seacrane.run.channel_names import derived_coords
+from seacrane.run.commands import HOLE, check_command, targets
 from seacrane.run.connections import table_of, without
-from seacrane.run.move import Move
 from seacrane.run.stage import Stage
 from seacrane.run.unreachable import check_bounds, check_limits
-from seacrane.run.until import Contact, Level, of_contact
+from seacrane.run.until import Level, of_contact
 from seacrane.scene.scene import Scene
-
-LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
 
 
 def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
@@ -107,6 +106,7 @@ def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
 def _check_names(stage: Stage, there: Scene) -> None:
     """Raise SceneError for conditions on what the scene of the stage does not have."""
     known: dict[str, Collection[str]] = {
+        **derived_coords(there), **FIXED,
         "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
         "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
         "point": there.points,
@@ -121,56 +121,9 @@ def _check_names(stage: Stage, there: Scene) -> None:
                 )
 
 
-def planned_scene(
-    scene: Scene, stages: Sequence[Stage], first: str | None
-) -> tuple[tuple[Stage, ...], Scene, float]:
-    """The stages from the one named `first` on, the scene in which it begins, and when (s).
-
-    Stages before it count as carried out: connected, released, commanded, each as long as its duration or,
-    where conditions end it, as its moves; winches at the lengths, and seats as open, as conditions say. A
-    winch whose rate goes on from a stage before takes it up from rest.
-    """
+def place_of(stages: Sequence[Stage], first: str | None) -> int:
+    """The place of the stage to begin with; SceneError for a name that no stage has."""
     names = [stage.name for stage in stages]
-    if first is None:
-        return tuple(stages), scene.copy(), 0.0
-    if first not in names:
+    if first is not None and first not in names:
         raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
-    at = names.index(first)
-    out, time, absent = scene.copy(), 0.0, waiting(stages)
-    rates: dict[str, Command] = {}
-    for stage in stages[:at]:
-        _change(out, stage, absent)
-        known = targets(out)
-        rates |= {name: value for name, value in stage.commands.items() if known[name].attribute == "rate"}
-        places = {name: value for name, value in stage.commands.items() if name not in rates}
-        out = commanded(out, stage.title, places, time)
-        time += _planned_time(stage)
-        _pay_out(out, stage)
-        absent |= _lifted(out, stage)
-    gone = absent - waiting(stages[at:])
-    going_on = {name: value for name, value in rates.items() if name not in stages[at].commands}
-    out = commanded(out, stages[at].title, going_on, time)
-    return tuple(stages[at:]), without(out, gone), time
-
-
-def _planned_time(stage: Stage) -> float:
-    if stage.duration is not None:
-        return stage.duration
-    return max([LEAST, *(value.over for value in stage.commands.values() if isinstance(value, Move))])
-
-
-def _lifted(scene: Scene, stage: Stage) -> set[str]:
-    """Joints of the seats that a stage waits for to let go: what is lifted stays lifted."""
-    left = {one.limit for one in stage.conditions if isinstance(one, Contact) and not one.holds}
-    limits = [load for name, load in scene.loads.items() if name in left and isinstance(load, _core.Limit)]
-    return {limit.joint for limit in limits if limit.kind == "seat"}
-
-
-def _pay_out(scene: Scene, stage: Stage) -> None:
-    """Winches at the length that ends the stage."""
-    for condition in stage.conditions:
-        if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
-            continue
-        line = scene.loads.get(dict(condition.names)["line"])
-        if isinstance(line, _core.Line) and winch_of(line):
-            scene.loads.update(with_length(scene.loads, winch_of(line), condition.value / line.share))
+    return 0 if first is None else names.index(first)

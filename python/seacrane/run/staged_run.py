@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
+from seacrane.description.given import in_calm_water
 from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
-from seacrane.errors import SceneError
+from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import number_of
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.alike_stages import AlikeStages, Key
+from seacrane.run.before import Begin, There, rest_after
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
 from seacrane.run.commands import commanded
@@ -30,7 +32,7 @@ from seacrane.run.interrupts import Interrupts
 from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.outputs import Outputs
-from seacrane.run.plan import checked_stages, planned_scene, waiting
+from seacrane.run.plan import checked_stages, place_of, waiting
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
@@ -48,19 +50,6 @@ if TYPE_CHECKING:
     from seacrane.run.method import Method
 
 LARGEST_GAP = 0.01  # m times the scene's length scale, or rad: joints that open wider do not connect
-
-
-@dataclass(frozen=True)
-class Begin:
-    """Where a stage began, to run it again from: what was there just before its connections and commands.
-
-    Attributes
-    ----------
-    scene : With the commands of the stages before, and with what later stages connect.
-    """
-
-    scene: Scene
-    state: _core.State
 
 
 class StagedRun:
@@ -107,14 +96,23 @@ class StagedRun:
         self.method, self.outputs = settled(method, outputs, shorthand)
         scene = decided(scene)
         every = checked_stages(scene, stages)
-        self.stages, self._whole, time = planned_scene(scene, every, first)
-        self._given, self._absent = scene, waiting(self.stages)
+        count = place_of(every, first)
+        self.stages, self._given, self._whole = every[count:], scene, scene.copy()
+        begin: Start = REST if start is None and first is not None else start
+        if count:
+            there = start if isinstance(start, _core.State) else None
+            calm = StagedRun(
+                in_calm_water(scene), every, start=start if there is None else None, method=self.method,
+                outputs=Outputs(dt_out=self.outputs.dt_out, channels=()), controllers=controllers,
+            )  # fmt: skip
+            rest = rest_after(calm.carried_to(count), self.stages, scene, there)
+            self._whole, begin = rest.scene, rest.state
+        self._absent = waiting(self.stages)
         self._scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
-        self._model = self._first_model()
-        from_rest = start is None and first is not None
-        begin = start_state(self._scene, REST if from_rest else start, time=time)
+        self._model = compiled_there(self._scene) if count else self._first_model()
+        begin = start_state(self._scene, begin)
         self._state = _core.initial_state(self._model) if begin is None else begin
         self._described = begin is None
         self._reached = self._counted()
@@ -141,6 +139,16 @@ class StagedRun:
         """The present state."""
         return self._state
 
+    @property
+    def scene(self) -> Scene:
+        """What is there at present."""
+        return self._scene
+
+    @property
+    def model(self) -> _core.Model:
+        """Of what is there at present."""
+        return self._model
+
     def advance(self) -> bool:
         """Carry out the next stage; False when none is left, or Ctrl-C stopped it.
 
@@ -156,6 +164,31 @@ class StagedRun:
             for _ in self.carry_out(interrupts):
                 pass
         return not self._over
+
+    def carried_to(self, count: int) -> There:
+        """Carry out so many stages, and tell where that leads.
+
+        Raises
+        ------
+        SceneError
+            For one that fails.
+        """
+        first = self.stages[count].name
+        for stage in self.stages[:count]:
+            try:
+                with silently():
+                    self.advance()
+            except (SceneError, SimulationError) as error:
+                raise SceneError(
+                    f"first is {first!r}, and {stage.title} before it is carried out in calm water, where it "
+                    f"fails: {error}. Or give start=, the state in which {first!r} begins"
+                ) from error
+            if self.interrupted:
+                raise KeyboardInterrupt
+        return There(
+            whole=self._whole, absent=frozenset(self._absent), scene=self._scene, model=self._model,
+            state=self._state,
+        )  # fmt: skip
 
     @property
     def _over(self) -> bool:
@@ -188,8 +221,10 @@ class StagedRun:
             self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
             self._connect(stage)
             self._command(stage)
-            course, start = self._course(stage, interrupts), self._checked_start(stage)
-            ended = yield from to_its_end(course, stage, start)
+            start = self._checked_start(stage)
+            with _named(stage):
+                course = self._course(stage, interrupts)
+                ended = yield from to_its_end(course, stage, start)
             if not self._pieces:  # met at once, or stopped before anything was stepped
                 course.stand(self._state)
         except GeneratorExit:  # nobody asks for the rest
@@ -386,6 +421,16 @@ class StagedRun:
             self._reached = self._counted()
 
 
+@contextlib.contextmanager
+def _named(stage: Stage) -> Iterator[None]:
+    """What a scene refuses inside names the stage."""
+    try:
+        yield
+    except SceneError as error:
+        error.args = (f"{stage.title}: {error}", *error.args[1:])
+        raise
+
+
 def _loads(scene: Scene) -> set[str]:
     return {name for table in LOADS for name in getattr(scene, table)}
 
@@ -416,8 +461,8 @@ def simulate_stages(
         Where the first of them begins, or the word for the state at rest; default: the assembled start of the
         scene.
     first : str, optional
-        Name of a stage to begin with. Those before it count as carried out: what they connect and release,
-        where their moves and lengths end. It then starts from its static state, unless `start` is given.
+        Name of a stage to begin with. Those before it are carried out in calm water, and it starts from the
+        static state there, unless a state is given as `start`.
     method, outputs, **shorthand
         As `simulate`. Channels are recorded in the stages that have them.
     controllers : sequence of SampledController
@@ -434,7 +479,8 @@ def simulate_stages(
     Raises
     ------
     SceneError
-        For stages that do not fit the scene or one another, by their names.
+        For stages that do not fit the scene or one another, by their names; for one before `first` that is
+        not over in calm water.
     SimulationError
         As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
         holds the outputs until then.

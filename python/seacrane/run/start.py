@@ -10,7 +10,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
 
-REST = "rest"
+REST: Literal["rest"] = "rest"
 Start: TypeAlias = _core.State | Literal["rest"] | None
 
 

@@ -45,7 +45,14 @@ def check_bounds(stage: Stage, scene: Scene) -> None:
     lines = lines_of(scene.loads)
     bottom = np.inf if scene.waves is None else scene.waves.depth
     for condition in stage.conditions:
-        if not isinstance(condition, Level) or condition.channel != "immersed_depth" or not condition.above:
+        if not isinstance(condition, Level) or not condition.above:
+            continue
+        if condition.channel == "line_tension" and condition.value <= 0.0:
+            raise SceneError(
+                f"{stage.title}: would end at once: it waits for {condition.text}, which every line has; "
+                "give a tension above 0 N for a line that is taut, or maximum=0 for one that is slack"
+            )
+        if condition.channel != "immersed_depth":
             continue
         if condition.value > bottom:
             raise SceneError(

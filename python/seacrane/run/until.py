@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 Array = NDArray[np.float64]
+TOUCHING = 1e-9  # m: points so near a surface have not left it
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,8 @@ def of_contact(condition: Condition, contacts: Collection[str]) -> Condition:
     """A condition on a limit that is a contact by name as one on its least gap; others as they are."""
     if not isinstance(condition, Contact) or condition.limit not in contacts:
         return condition
-    return Level("contact_least_gap", (("contact", condition.limit),), 0.0, not condition.holds)
+    names = (("contact", condition.limit),)
+    return Level("contact_least_gap", names, 0.0 if condition.holds else TOUCHING, not condition.holds)
 
 
 def names_along(run: Run) -> dict[str, tuple[str, ...]]:
@@ -107,7 +109,8 @@ def names_along(run: Run) -> dict[str, tuple[str, ...]]:
 class Until:
     """What ends a stage. Each of these makes a condition for `Stage(until=...)`.
 
-    A condition is met as soon as its channel is at its value or beyond, also where the stage begins so.
+    A condition is met as soon as its channel is at its value or beyond, also where the stage begins so. One
+    at whose value a stage begins, and which it leaves at once, is met when it comes back.
     """
 
     @staticmethod

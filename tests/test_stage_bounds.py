@@ -1,0 +1,190 @@
+"""What is met as a stage begins, and where the stages before one leave it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from random_staged_lifts import BED, HALF, MASS, hanging
+from stage_scenes import heaving, lift_off, on_deck
+from test_stages import motored, noted
+
+from seacrane import Result, Scene, SceneError, SimulationError, Stage, Until, simulate_stages
+from seacrane.run import StagedRun
+
+DOWN, UP, STOP = ({"wire.rate": rate} for rate in (0.4, -0.4, 0.0))
+HOW = {"rtol": 1e-6, "dt_out": 0.1}
+LYING = BED + HALF  # m
+
+
+def carried_out(scene: Scene, *stages: Stage) -> Result:
+    """All that was recorded, also where the last stage is not over in time."""
+    try:
+        return simulate_stages(scene, stages, **HOW)
+    except SimulationError as error:
+        assert error.result is not None
+        return error.result
+
+
+def until(condition: Any, commands: dict[str, float], name: str, longest: float = 60.0) -> Stage:
+    return Stage(name=name, until=condition, maximum_duration=longest, commands=commands)
+
+
+def lying(lifted: float = 0.9) -> Scene:
+    """The load stands on the bed above the sea, its wire carries a part of its weight."""
+    scene = Scene(name="lying")
+    scene.add_body("load", mass=MASS, size=(4.0, 3.0, 2.0 * HALF), position=(0.0, 0.0, HALF))
+    scene.add_line(
+        "wire", first="ground", first_point=(0.0, 0.0, 30.0), second="load", EA=1e8, damping_ratio=0.2,
+        tension_at_start=lifted * MASS * scene.gravity,
+    )  # fmt: skip
+    scene.add_winch("wire", lag=0.2)
+    feet = [(x, y, -HALF) for x in (-2.0, 2.0) for y in (-1.5, 1.5)]
+    scene.add_contact("load", on="ground", points=feet, name="feet")
+    return scene
+
+
+HIGH: dict[str, Any] = {"channel": "position", "body": "load", "axis": "z"}
+GAP: dict[str, Any] = {"channel": "contact_least_gap", "contact": "feet"}
+PAIRS: dict[str, tuple[Any, Any, dict[str, float], dict[str, float]]] = {
+    "contact": (Until.contact("feet"), Until.release("feet"), DOWN, UP),
+    "depth": (Until.depth("load", minimum=3.0), Until.depth("load", maximum=3.0), DOWN, UP),
+    "channel": (Until.channel(**HIGH, maximum=5.0), Until.channel(**HIGH, minimum=5.0), DOWN, UP),
+    "length": (Until.length("wire", minimum=35.0), Until.length("wire", maximum=35.0), DOWN, UP),
+    "tension": (Until.tension("wire", maximum=15e4), Until.tension("wire", minimum=15e4), DOWN, UP),
+    "clear": (Until.channel(**GAP, maximum=2.0), Until.clear("feet", minimum=2.0), DOWN, UP),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", PAIRS)
+def test_what_a_stage_ends_at_is_not_met_in_the_next_until_it_comes_back(kind: str) -> None:
+    there, back, down, up = PAIRS[kind]
+    result = carried_out(
+        hanging(), until(there, down, "there"), until(back, up, "back"), until(there, down, "again")
+    )
+    spans = result.stages
+    assert [span.name for span in spans] == ["there", "back", "again"]
+    assert all(span.end - span.start > 0.05 for span in spans), spans
+    assert all(span.ended_by and "from its start on" not in span.ended_by for span in spans)
+
+
+@pytest.mark.parametrize("lifted", [0.9, 1.0])
+def test_a_load_that_stands_on_its_feet_is_released_when_they_leave(lifted: float) -> None:
+    stages = [until(Until.release("feet"), UP, "off"), until(Until.contact("feet"), DOWN, "on")]
+    result = carried_out(lying(lifted), *stages)
+    off, on = result.stages
+    assert off.end > 0.01 and on.end - on.start > 0.05
+    gap = result.curve("contact_least_gap[feet]")
+    assert gap[result.stage("off").stop - 1] == pytest.approx(0.0, abs=1e-8)
+    assert gap[result.stage("on").stop - 1] == pytest.approx(0.0, abs=1e-8)
+
+
+def test_a_bound_that_a_stage_goes_beyond_is_met_from_its_start_on() -> None:
+    low = Until.depth("load", minimum=3.0)
+    result = carried_out(hanging(), until(low, DOWN, "down"), until(low, DOWN, "same"), until(
+        Until.depth("load", minimum=2.0), DOWN, "above"))  # fmt: skip
+    _, same, above = result.stages
+    assert same.end - same.start < 1e-8 and above.end == above.start
+    assert above.ended_by == "immersed_depth of 'load' above 2 m from its start on"
+
+
+def test_controllers_are_called_once_where_a_stage_begins_at_its_bound() -> None:
+    calls: list[float] = []
+    turned = {"channel": "coordinate", "joint_coordinate": "angle"}
+    stages = [
+        Stage(name="turn", until=Until.channel(**turned, minimum=0.2), maximum_duration=5.0),
+        Stage(name="back", until=Until.channel(**turned, maximum=0.2), maximum_duration=0.5),
+        Stage(name="go on", duration=0.5),
+    ]  # fmt: skip
+    with pytest.raises(SimulationError, match="stage 'back': is not over") as raised:
+        simulate_stages(motored(), stages, controllers=[noted(calls, 0.1)], dt_out=0.17)
+    assert raised.value.result.stages[1].end - raised.value.result.stages[1].start == pytest.approx(0.5)
+    np.testing.assert_allclose(np.diff(calls), 0.1, rtol=1e-9)
+
+
+def test_a_tension_that_every_line_has_is_told() -> None:
+    with pytest.raises(
+        SceneError, match=r"stage 'x': would end at once: .* every line has; give a tension above"
+    ):
+        simulate_stages(hanging(), [until(Until.tension("wire", minimum=0.0), DOWN, "x")])
+
+
+def test_a_stage_alone_takes_over_what_those_before_it_reach() -> None:
+    """Depth, clear, contact, release and rates; seats that let go stay open."""
+    stages = [
+        until(Until.contact("feet"), DOWN, "land"),
+        until(Until.clear("feet", minimum=0.5), UP, "clear"),
+        Stage(name="stop", duration=2.0, commands=STOP),
+    ]  # fmt: skip
+    for first, height in (("clear", LYING), ("stop", LYING + 0.5)):
+        alone = simulate_stages(hanging(), stages, first=first, **HOW)
+        assert alone.curve("position[load, z]")[0] == pytest.approx(height, abs=0.02)
+        assert alone["velocity"][0].max() == 0.0
+    stages = [Stage(name="down", duration=4.0, commands=DOWN), Stage(name="on", duration=4.0)]
+    going = simulate_stages(hanging(), stages, first="on", **HOW)
+    paid = np.diff(going.curve("line_unstretched_length[wire]")[[0, -1]])[0]
+    assert paid == pytest.approx(0.4 * (4.0 - 0.5 - 0.2), abs=1e-3)  # from rest, within 1 s and the lag
+    raised = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="raise", rtol=1e-8)
+    assert raised.curve("position[load, z]")[0] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_stage_alone_goes_on_from_a_state_that_is_given() -> None:
+    run = StagedRun(on_deck(damping_ratio=0.1), lift_off(), **HOW)
+    for _ in range(4):
+        run.advance()
+    begin = run.begun["raise"].state
+    alone = StagedRun(
+        on_deck(damping_ratio=0.1), lift_off(), first="raise", start=begin, outputs_from=0.0, **HOW
+    )
+    for _ in range(2):
+        alone.advance()
+    assert np.array_equal(alone.state.values, run.state.values) and alone.state.time == run.state.time
+
+
+@pytest.mark.parametrize("start", [None, "rest"])
+def test_a_stage_before_that_calm_water_does_not_end_is_told(start: Any) -> None:
+    stages = [until(Until.tension("wire", minimum=1e6), DOWN, "pull", 2.0), Stage(name="on", duration=1.0)]
+    with pytest.raises(
+        SceneError, match=r"first is 'on', and stage 'pull' before it .* fails: .*give start="
+    ):
+        simulate_stages(hanging(), stages, first="on", start=start)
+
+
+@pytest.mark.parametrize("ramp", [pytest.param(0.0, marks=pytest.mark.warns("AssemblyWarning")), 5.0])
+def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp: float) -> None:
+    stages = [
+        until(Until.length("wire", minimum=20.0), DOWN, "down"),
+        Stage(name="hang", duration=4.0, commands=STOP),
+    ]
+    alone = simulate_stages(heaving(2.0, ramp), stages, first="hang", **HOW)
+    whole = simulate_stages(heaving(2.0, ramp), stages, start="rest", **HOW)
+    part = whole.stage("hang")
+    assert alone.time[0] == pytest.approx(whole.time[part.start - 1])
+    ship = [result.curve("vessel_motion[heave]") for result in (alone, whole)]
+    assert ship[0][0] == pytest.approx(ship[1][part.start - 1], abs=1e-8)
+    assert ship[0][-1] == pytest.approx(ship[1][-1], abs=1e-8)
+    assert abs(ship[0][0]) > 0.05
+    assert alone.curve("line_tension[wire]")[0] == pytest.approx(MASS * 9.80665, rel=0.03)  # and its damper
+    assert alone.curve("velocity[load, z]")[0] == 0.0
+
+
+def test_a_stage_before_which_nothing_rests_is_told() -> None:
+    stages = [*lift_off(), Stage(name="fall", duration=0.5)]
+    with pytest.raises(SceneError, match=r"first is 'fall', and nothing rests where .* no rest state found"):
+        simulate_stages(on_deck(damping_ratio=0.1), stages, first="fall")
+
+
+def test_a_part_that_is_not_there_is_told_before_anything_runs() -> None:
+    stages = [Stage(name="hang", duration=1.0), until(Until.depth("lode", minimum=1.0), DOWN, "down")]
+    with pytest.raises(
+        SceneError, match=r"stage 'down': waits for immersed 'lode', which .* there are load"
+    ) as told:
+        StagedRun(hanging(), stages)
+    assert told.value.name == "down"
+
+
+def test_what_a_scene_refuses_in_a_stage_names_the_stage() -> None:
+    unknown = Until.channel("wave_elevation", minimum=1.0)
+    with pytest.raises(SceneError, match="stage 'wait': until wave_elevation above 1 m: this scene has"):
+        simulate_stages(hanging(), [until(unknown, DOWN, "wait")])
