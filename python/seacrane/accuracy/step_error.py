@@ -117,7 +117,6 @@ def step_error(
     model = scene.compile()
     measured = quantities_of(scene, model, quantities)
     channels = sorted({channel for quantity in measured.values() for channel in quantity.channels})
-    recorded = replace(outputs, channels=channels)
     ladder = _Ladder(scene, model, t_end, method, replace(outputs, channels=channels), start, measured)
     return ladder.told()
 
