@@ -255,6 +255,8 @@ def test_slings_take_a_rung() -> None:
         assert {one.rung for name, one in scene.loads.items() if "sling" in name} == {rung}
         pulls[rung] = simulate(scene, 0.5, dt_out=0.1)["line_tension"][-1]
     assert pulls["quasi-static"] == pytest.approx(pulls["elastic"], rel=1e-3)
+    scene = Scene()
+    scene.add_crane(base="ground")
     with pytest.raises(SceneError, match="rung is 'rubber'"):
         scene.add_hoist(
             **BOX, EA=3e7, block_mass=1e3, slings={"angle_deg": 60.0, "EA": 5e7, "rung": "rubber"}
