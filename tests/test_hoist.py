@@ -239,3 +239,25 @@ def test_a_load_described_inside_or_below_its_deck_is_named(height: float, words
         scene.add_seat("bad seat")
     assert f"raise it by {1.5 - height:.4g} m" in str(told.value)
     assert "bad seat" not in scene.loads
+
+
+@pytest.mark.warns("QuasiStaticLineWarning")
+def test_slings_take_a_rung() -> None:
+    """Quasi-static ones carry the same load by no motion of their own."""
+    pulls = {}
+    for rung in ("elastic", "quasi-static"):
+        scene = Scene()
+        scene.add_crane(base="ground")
+        scene.add_hoist(
+            **BOX, EA=3e7, block_mass=1e3, winch={"lag": 0.1},
+            slings={"angle_deg": 60.0, "EA": 5e7, "rung": rung},
+        )  # fmt: skip
+        assert {one.rung for name, one in scene.loads.items() if "sling" in name} == {rung}
+        pulls[rung] = simulate(scene, 0.5, dt_out=0.1)["line_tension"][-1]
+    assert pulls["quasi-static"] == pytest.approx(pulls["elastic"], rel=1e-3)
+    scene = Scene()
+    scene.add_crane(base="ground")
+    with pytest.raises(SceneError, match="rung is 'rubber'"):
+        scene.add_hoist(
+            **BOX, EA=3e7, block_mass=1e3, slings={"angle_deg": 60.0, "EA": 5e7, "rung": "rubber"}
+        )

@@ -1,9 +1,9 @@
-"""The error of a fixed step, told by two longer ones where it falls as the order of the method says."""
+"""The error of a fixed step, told by two others where it falls as the order of the method says."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 CONFIRMED = 0.5  # of a difference: how far it may be from what the next longer step and the order make of it
 ROUNDING = 1e-11  # of the motion: differences below it are rounding, and show no order
+LONGER, SHORTER = (1.0, 2.0, 4.0), (0.25, 0.5, 1.0)
+WILD = 10.0  # motions, that a run is off which is unstable; one that is sensitive is off by its motion
+HALVINGS = 4  # of the interval in which the largest stable step lies: to 4 % of it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,15 +45,18 @@ class StepError:
         Largest over the outputs; None where the run is sensitive: its error does not fall as the method's
         order says, so that no step near the one asked for tells how wrong it is.
     order : float
-        By which the differences of the three runs fall; NaN where one of them failed, or none differ.
+        By which the differences of the three runs fall; NaN where none differ.
     method_order : int
         By which they should.
+    stable_step : float or None
+        Where twice or four times the step is unstable: about the largest at which this run is stable, s.
     """
 
     unit: str
     error: float | None
     order: float
     method_order: int
+    stable_step: float | None = None
 
     @property
     def sensitive(self) -> bool:
@@ -59,6 +65,8 @@ class StepError:
 
     def __str__(self) -> str:
         shown = f"order {self.order:.2g}, {self.method_order} by the method"
+        if self.stable_step is not None:
+            shown += f"; unstable with steps longer than {self.stable_step:.2g} s"
         return f"sensitive ({shown})" if self.error is None else f"{self.error:.3g} {self.unit} ({shown})"
 
 
@@ -75,7 +83,8 @@ def step_error(
     """Error of a run with a fixed step h, from runs with h, 2 h and 4 h.
 
     The first two differ by (2^p - 1) times the error of the first, p the order of the method. That is
-    believed where the second and third differ by 2^p times as much, at every output alike.
+    believed where the second and third differ by 2^p times as much, at every output alike. Where a longer
+    step is unstable, h is compared with h/2 and h/4, and the largest stable step is looked for.
 
     Parameters
     ----------
@@ -108,42 +117,95 @@ def step_error(
     model = scene.compile()
     measured = quantities_of(scene, model, quantities)
     channels = sorted({channel for quantity in measured.values() for channel in quantity.channels})
-    recorded = replace(outputs, channels=channels)
-    runs: list[dict[str, Array]] = []
-    order = 0
-    for longer in (1.0, 2.0, 4.0):
-        tried = replace(method, dt=longer * method.dt)
-        run = Run(scene, t_end, method=tried, outputs=recorded, start=start, model=model)
+    ladder = _Ladder(scene, model, t_end, method, replace(outputs, channels=channels), start, measured)
+    return ladder.told()
+
+
+@dataclass
+class _Ladder:
+    """Runs of one scene that differ in their step alone."""
+
+    scene: Scene
+    model: _core.Model
+    t_end: float
+    method: Method
+    outputs: Outputs
+    start: _core.State | None
+    measured: dict[str, Quantity]
+    order: int = 0
+
+    def told(self) -> dict[str, StepError]:
+        """By quantity; the step itself has to run."""
+        asked = self.values(1.0)
+        runs, good, bad = {1.0: asked}, 1.0, None
+        for factor in LONGER[1:]:
+            found = self.stable(factor, asked)
+            if found is None:
+                bad = factor
+                break
+            runs[factor], good = found, factor
+        if bad is not None:
+            runs |= {shorter: self.values(shorter) for shorter in SHORTER[:-1]}
+        steps = LONGER if bad is None else SHORTER
+        stable = None if bad is None else self.largest_stable(good, bad, asked) * float(self.method.dt or 0.0)
+        return {
+            name: _told(quantity, [runs[one][name] for one in steps], self.order, steps.index(1.0), stable)
+            for name, quantity in self.measured.items()
+        }
+
+    def values(self, factor: float) -> dict[str, Array]:
+        """The quantities of a run with so many times the step; SimulationError where it cannot go on."""
+        tried = replace(self.method, dt=factor * float(self.method.dt or 0.0))
+        run = Run(
+            self.scene, self.t_end, method=tried, outputs=self.outputs, start=self.start, model=self.model
+        )
         if run.core.adaptive:
             raise SceneError(
-                f"integrator {method.integrator!r} chooses its own steps: give accuracy= to simulate()"
+                f"integrator {tried.integrator!r} chooses its own steps: give accuracy= to simulate()"
             )
-        order = run.core.order
-        try:
-            result = finished(run)
-        except SimulationError:
-            if not runs:
-                raise
-            break
+        self.order = run.core.order
+        result = finished(run)
         if result.interrupted:
             raise KeyboardInterrupt
-        runs.append({name: quantity.values(result) for name, quantity in measured.items()})
-    return {name: _told(quantity, [run[name] for run in runs], order) for name, quantity in measured.items()}
+        return {name: quantity.values(result) for name, quantity in self.measured.items()}
+
+    def stable(self, factor: float, asked: Mapping[str, Array]) -> dict[str, Array] | None:
+        """The quantities of a run with so many times the step; None where it cannot go on, or runs away."""
+        try:
+            found = self.values(factor)
+        except SimulationError:
+            return None
+        for name, right in asked.items():
+            motion = compare(right[:1].repeat(len(right), axis=0), right).largest
+            if not compare(right, found[name]).largest <= WILD * motion:
+                return None
+        return found
+
+    def largest_stable(self, good: float, bad: float, asked: Mapping[str, Array]) -> float:
+        """Between a factor that is stable and one that is not."""
+        for _ in range(HALVINGS):
+            middle = math.sqrt(good * bad)
+            if self.stable(middle, asked) is None:
+                bad = middle
+            else:
+                good = middle
+        return good
 
 
-def _told(quantity: Quantity, values: list[Array], order: int) -> StepError:
-    """`values` by step, the shortest first; fewer than three where a longer one failed."""
+def _told(
+    quantity: Quantity, values: Sequence[Array], order: int, asked: int, stable: float | None
+) -> StepError:
+    """`values` by step, the shortest first, and which of them is that of the step that was asked for."""
     error: float | None = None
     found = math.nan
-    if len(values) == 3:
-        fine, coarse = values[1] - values[0], values[2] - values[1]
-        nothing = np.zeros_like(fine)
-        small, large = compare(nothing, fine).largest, compare(nothing, coarse).largest
-        motion = compare(values[0][:1].repeat(len(values[0]), axis=0), values[0]).largest
-        if small > 0.0 and large > 0.0:
-            found = math.log2(large / small)
-        if max(small, large) <= ROUNDING * motion:
-            error = max(small, large)
-        elif compare(2.0**order * fine, coarse).largest <= CONFIRMED * large:
-            error = small / (2.0**order - 1.0)
-    return StepError(unit=quantity.unit, error=error, order=found, method_order=order)
+    fine, coarse = values[1] - values[0], values[2] - values[1]
+    nothing = np.zeros_like(fine)
+    small, large = compare(nothing, fine).largest, compare(nothing, coarse).largest
+    motion = compare(values[0][:1].repeat(len(values[0]), axis=0), values[0]).largest
+    if small > 0.0 and large > 0.0:
+        found = math.log2(large / small)
+    if max(small, large) <= ROUNDING * motion:
+        error = max(small, large)
+    elif compare(2.0**order * fine, coarse).largest <= CONFIRMED * large:
+        error = small / (2.0**order - 1.0) * 2.0 ** (order * asked)
+    return StepError(unit=quantity.unit, error=error, order=found, method_order=order, stable_step=stable)

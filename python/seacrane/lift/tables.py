@@ -138,6 +138,7 @@ SLINGS = keys_of(
         "angle_deg": {"unit": "deg"},
         "breaking_load": {"unit": "N"},
         "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
+        "rung": {"choices": lines.STRETCHING},
     },
 )
 WIRE: dict[str, dict[str, Any]] = {

@@ -20,7 +20,7 @@ from seacrane.description.places import place_of
 from seacrane.description.ratings import note_rating, rating_of
 from seacrane.description.recorded import add_point
 from seacrane.description.roles import CraneRoles
-from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung
+from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import (
     flag_of,
@@ -66,6 +66,8 @@ class Slings:
         Of each, N.
     safety_factor : float or None
         Least breaking load over largest force.
+    rung : {"elastic", "quasi-static", "auto"}
+        Of each, as in `add_line`.
     """
 
     EA: float
@@ -74,6 +76,7 @@ class Slings:
     points: Any = None
     breaking_load: float | None = None
     safety_factor: float | None = None
+    rung: StretchingRung = "elastic"
 
     def __post_init__(self) -> None:
         positive_of("slings: EA", self.EA)
@@ -460,7 +463,7 @@ def _sling(scene: Description, name: str, block: str, load: str, rig: Slings, *,
     add_bridle(
         scene, f"{name} sling", hook=block, load=load, points=ends, EA=rig.EA,
         lengths=lengths / (1.0 + density * lengths / rig.EA),
-        breaking_load=rig.breaking_load, safety_factor=rig.safety_factor,
+        breaking_load=rig.breaking_load, safety_factor=rig.safety_factor, rung=rig.rung,
     )  # fmt: skip
 
 
