@@ -38,6 +38,7 @@ from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.shown import shown
+from seacrane.run.channel_names import require_channels
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -282,6 +283,8 @@ def ensemble(
     for what in wanted.values():
         if isinstance(what, Kept):
             what.require_times(study.t_end, recorded.dt_out)
+    if isinstance(source, Scene):
+        require_channels(source, study.outputs.channels or ())
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = pack_size(pack, len(members), study.lanes, together=len(starts))

@@ -21,6 +21,7 @@ from seacrane.result.result import Result
 from seacrane.run.alike_stages import AlikeStages, Key
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
+from seacrane.run.channel_names import require_channels
 from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
@@ -108,6 +109,7 @@ class StagedRun:
         scene = decided(scene)
         every = checked_stages(scene, stages)
         self.stages, self._whole, time = planned_scene(scene, every, first)
+        require_channels(self._whole, self.outputs.channels or ())
         self._given, self._absent = scene, waiting(self.stages)
         self._scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike

@@ -18,7 +18,6 @@ from seacrane.sea import Current, SeaState, Spreading, WaveSystem, cos_2s, jonsw
 from seacrane.warnings import BlockedWavesWarning, UnitWarning
 
 DEFAULTS: dict[str, Any] = {
-    "hs": 2.0,
     "tp": 8.0,
     "gamma": 3.3,
     "spectrum": "jonswap",
