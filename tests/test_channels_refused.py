@@ -1,4 +1,4 @@
-"""A channel that a scene cannot have is refused by its name, however it is asked for: it is never left out."""
+"""A channel that a scene cannot have is refused by name, however it is asked for."""
 
 from __future__ import annotations
 

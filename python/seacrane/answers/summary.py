@@ -18,6 +18,7 @@ from seacrane.description.suspension import ROD, suspensions
 from seacrane.description.wet_parts import wet_bodies
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
@@ -196,6 +197,7 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
+@named
 def summary(
     result: Result,
     *,
@@ -334,7 +336,17 @@ def _factor(static: float, low: float, high: float) -> float | None:
 def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str]:
     """One sentence each, for the part of a run from the first to the last of `time`."""
     stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
-    return [*stopped, *_short(result, time), *_transient(time, curves)]
+    return [*stopped, *_calm(result), *_short(result, time), *_transient(time, curves)]
+
+
+def _calm(result: Result) -> list[str]:
+    """That nothing of a lift is by waves: of what floats or is wet, and has no sea."""
+    scene = result.scene
+    if scene is None or not (scene.vessels or wet_bodies(scene)):
+        return []
+    if scene.waves is not None and np.any(scene.waves.amplitude):
+        return []
+    return ["Still water: the scene has no sea (add_sea), and nothing here is by waves."]
 
 
 def _short(result: Result, time: Array) -> list[str]:

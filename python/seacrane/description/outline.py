@@ -116,6 +116,11 @@ def box_edges(body: _core.Body) -> list[float]:
     return [float(edge) for edge in np.sqrt(np.maximum(squares, 0.0))]
 
 
+def size_of_ship(scene: Description, body: str) -> tuple[float, float]:
+    """Length and breadth of a vessel, m: those given, or what its radii of gyration suggest."""
+    return shown_size(scene, body)[:2] if body in given_vessels(scene) else ship_size(scene.bodies[body])
+
+
 def ship_size(body: _core.Body) -> tuple[float, float]:
     """Length and breadth that a ship's radii of gyration suggest, m."""
     roll, pitch = GYRATION

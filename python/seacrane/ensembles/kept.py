@@ -14,6 +14,7 @@ from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, positive_of, text_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 
@@ -33,6 +34,7 @@ TEXTS = {
 }
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Kept:
     """One channel of a run, or a number for it.

@@ -11,6 +11,7 @@ from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, text_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.statistics.gaussian import THREE_HOURS
 
@@ -23,6 +24,7 @@ STATISTICS = {
 }
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """What a statistic of a channel may reach.

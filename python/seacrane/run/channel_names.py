@@ -138,9 +138,10 @@ def require_channels(scene: Description, wanted: Iterable[str]) -> None:
     core_channels(scene, with_sources(scene, asked), known)
 
 
-def require_names(scene: Description, wanted: Collection[str]) -> None:
+def require_names(scene: Description, wanted: Iterable[str]) -> None:
     """SceneError where nothing in the scene has a derived channel that is asked for."""
-    for channel, need in missing_names(scene, [*wanted, *with_sources(scene, wanted)]).items():
+    asked = list(wanted)
+    for channel, need in missing_names(scene, [*asked, *with_sources(scene, asked)]).items():
         raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {need}")
 
 

@@ -14,7 +14,9 @@ from seacrane.description.description import LOADS
 from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -40,6 +42,7 @@ from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
+from seacrane.validity.implausible import warn_of_description
 from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.validity.line_checks import warn_of_connected
 
@@ -111,9 +114,11 @@ class StagedRun:
         self.stages, self._whole, time = planned_scene(scene, every, first)
         require_channels(self._whole, self.outputs.channels or ())
         self._given, self._absent = scene, waiting(self.stages)
-        self._scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
+        if not self._shares or self._alike.model is None:
+            self._warn_of_description(time, REST if start is None and first is not None else start)
+        self._scene = without(self._whole, self._absent)
         self._model = self._first_model()
         from_rest = start is None and first is not None
         begin = start_state(self._scene, REST if from_rest else start, time=time)
@@ -133,6 +138,15 @@ class StagedRun:
         self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
+
+    def _warn_of_description(self, begin: float, start: Start) -> None:
+        """What `simulate` tells of a scene: what is said of the pose is of what is there then."""
+        end = begin + sum(one.duration or one.maximum_duration or 0.0 for one in self.stages)
+        whole, there = self._whole, without(self._whole, self._absent)
+        begins = start is None or (isinstance(start, str) and start == REST)
+        with keeping(whole.warned):
+            warn_of_description(whole, start=begin, end=end, described=False, begins=begins)
+            warn_of_description(there, start=begin, end=end, described=start is None, begins=False)
 
     def __repr__(self) -> str:
         done = f"{len(self._spans)} of {len(self.stages)} stages"
@@ -392,6 +406,7 @@ def _loads(scene: Scene) -> set[str]:
     return {name for table in LOADS for name in getattr(scene, table)}
 
 
+@named
 def simulate_stages(
     scene: Scene,
     stages: Sequence[Stage],

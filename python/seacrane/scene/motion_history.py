@@ -17,6 +17,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import rows_of, text_of, vector_of
 from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.keywords import named
 from seacrane.scene.recorded_motion import recorded_motion
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
@@ -32,6 +33,7 @@ LEAST_SHARE = 0.1  # of the acceleration's energy, of what is faster
 ARM = 30.0  # m
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MotionHistory:
     """Six motions of a ship's reference point over time, as the channel `vessel_motion` records them.

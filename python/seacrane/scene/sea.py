@@ -79,8 +79,8 @@ def add_sea(
     vessel : str or None
         Body of the vessel. None puts no vessel into it: a sea for what looks at it by itself.
     hs : float
-        Significant wave height, m; needed but with `sea`, or for one more vessel. 0 leaves the sea out; with a
-        current it is still water that flows.
+        Significant wave height, m; needed but with `sea`, or for one more vessel. 0 leaves the sea out; with
+        a current it is still water that flows.
     tp : float
         Peak period, s; default 8.
     gamma : float or "dnv"
@@ -205,7 +205,7 @@ def _known(hs: Any) -> Any:
     """The height of a sea; SceneError where it is not given."""
     if hs is None:
         raise SceneError(
-            "sea: hs is None; give the significant wave height in m (0: still water), or sea=SeaState(...), or "
+            "sea: hs is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
             "leave out all that describes a sea to put a vessel into the one that is there"
         )
     return hs

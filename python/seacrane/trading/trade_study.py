@@ -16,6 +16,7 @@ from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -225,6 +226,7 @@ class Trade:
             self.plot().savefig(draft, format="png", dpi=110)
 
 
+@named
 def trade(
     scene: Scene,
     t_end: float = 100.0,
