@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 from seacrane.result import Result
+from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
 from seacrane.result.utilisation import Utilisation
 
 if TYPE_CHECKING:
@@ -104,6 +106,8 @@ class Summary(Tabular):
         What limits the numbers: a short record, a transient inside.
     utilisation : Utilisation
         Of the scene's limit states, over the whole run.
+    contacts : ContactLoads
+        Of the scene's contacts, over the whole run.
     """
 
     scene: str
@@ -112,6 +116,7 @@ class Summary(Tabular):
     rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
     utilisation: Utilisation = NO_LIMITS
+    contacts: ContactLoads = NO_CONTACTS
 
     def __iter__(self) -> Iterator[SummaryRow]:
         return iter(self.rows)
@@ -134,13 +139,15 @@ class Summary(Tabular):
         lines = [f"{self.scene}, {self.start:g} to {self.end:g} s"]
         if self.rows:
             lines.append(text_table(HEAD, self._cells(), right=range(2, len(HEAD))))
-        used = ["", str(self.utilisation)] if self.utilisation else []
-        return "\n".join([*lines, *self.notes(), *used])
+        tables = [one for one in (self.contacts, self.utilisation) if one]
+        return "\n".join([*lines, *self.notes(), *(text for one in tables for text in ("", str(one)))])
 
     def _repr_html_(self) -> str:
-        caption = f"{self.scene}, {self.start:g} to {self.end:g} s. {' '.join(self.notes())}"
+        caption = f"{self.scene}, {self.start:g} to {self.end:g} s"
+        notes = "".join(f"<p>{escape(one)}</p>" for one in self.notes())
         used = self.utilisation._repr_html_() if self.utilisation else ""
-        return notebook_table(HEAD, self._cells(), caption=caption) + used
+        hit = self.contacts._repr_html_() if self.contacts else ""
+        return notebook_table(HEAD, self._cells(), caption=caption) + notes + hit + used
 
     def html(self) -> str:
         """The table alone, as HTML."""
@@ -251,7 +258,7 @@ def summary(
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
         remarks=(*remarks_on(result, time, inside), *_restless(told), *([WET] if least else [])),
-        utilisation=result.utilisation,
+        utilisation=result.utilisation, contacts=contact_loads(result),
     )  # fmt: skip
 
 

@@ -110,7 +110,9 @@ def _relative(scene: Description, body: str, point: Any) -> list[float]:
 
 
 def box_edges(body: _core.Body) -> list[float]:
-    """Edges of the even box of a body's mass and moments of inertia, m."""
+    """Edges of a body's size, or of the even box of its mass and moments of inertia, m."""
+    if np.any(body.size):
+        return [float(edge) for edge in body.size]
     inertia = np.diag(np.asarray(body.inertia))
     squares = 6.0 * (inertia.sum() - 2.0 * inertia) / body.mass
     return [float(edge) for edge in np.sqrt(np.maximum(squares, 0.0))]

@@ -139,7 +139,7 @@ class StagedRun:
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
-    def _warn_of_description(self, begin: float, start: Start) -> None:
+    def _warn_of_description(self, begin: float, start: Any) -> None:
         """What `simulate` tells of a scene: what is said of the pose is of what is there then."""
         end = begin + sum(one.duration or one.maximum_duration or 0.0 for one in self.stages)
         whole, there = self._whole, without(self._whole, self._absent)

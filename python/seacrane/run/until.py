@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.channels import CHANNELS, FIXED, unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
@@ -42,7 +42,7 @@ class Level:
     def text(self) -> str:
         """The condition in words."""
         of = "".join(f" of {name!r}" for _, name in self.names)
-        unit = CHANNELS[self.channel].unit
+        unit = unit_of(self.channel, [name for _, name in self.names])
         return f"{self.channel}{of} {'above' if self.above else 'below'} {self.value:.6g} {unit}"
 
     def excess(self, series: Any) -> Any:

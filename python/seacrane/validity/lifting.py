@@ -113,8 +113,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
     And of those that stand on a deck where there is none: beside the hull, or beside a body of known size.
     """
     standing = {joint.second: joint.first for joint in _seats(scene)}
-    for load, deck in standing.items():
-        _warn_of_no_deck(scene, load, deck)
+    for body, support in standing.items():
+        _warn_of_no_deck(scene, body, support)
     for one in hung_loads(scene):
         load = scene.bodies[one.load]
         for vessel in scene.vessels.values():
