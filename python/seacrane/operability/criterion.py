@@ -103,7 +103,8 @@ class Criterion:
     def _require_bound(self) -> None:
         if (self.maximum is None) == (self.minimum is None):
             raise SceneError(f"criterion {self.name!r}: give maximum or minimum, and not both")
-        if not np.isfinite(number_of(f"criterion {self.name!r}: bound", self.bound)):
+        given = self.minimum if self.maximum is None else self.maximum
+        if not np.isfinite(number_of(f"criterion {self.name!r}: bound", given)):
             raise SceneError(f"criterion {self.name!r}: bound is {self.bound}; give a finite number")
         if not flag_of(f"criterion {self.name!r}: motion", self.motion):
             return

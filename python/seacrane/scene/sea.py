@@ -21,7 +21,7 @@ from seacrane.hydro.data.excitation import force_at
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.inputs.caller import tell, warn_caller
-from seacrane.inputs.checked import flag_of, number_of, shaped_of
+from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
@@ -150,7 +150,9 @@ def add_sea(
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
     given = {name: value for name, value in arguments.items() if value is not None}
-    if phase not in ("mean", "slow", "actual"):
+    if vessel is not None:
+        text_of("sea: vessel", vessel)
+    if text_of("sea: phase", phase) not in ("mean", "slow", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
     if current is not None and not isinstance(current, Current):
@@ -283,6 +285,8 @@ def _evaluated(waves: Waves, **given: Any) -> Waves:
     """With the settings given; vessels of one sea share them."""
     given = {name: value for name, value in given.items() if value is not None}
     for name, value in given.items():
+        checked = number_of if name == "relative_bound" else text_of
+        checked(f"sea: {name}", value)
         if waves.hulls and value != getattr(waves, name):
             raise SceneError(
                 f"sea: {name} is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "
