@@ -103,6 +103,16 @@ def test_a_load_beside_a_body_of_known_size_is_told() -> None:
     assert "stands on 'barge'" in told(lambda: simulate(scene, 0.1))["LoadOffDeckWarning"]
 
 
+@pytest.mark.parametrize(("aside", "told_of"), [(0.0, False), (24.0, True)])
+def test_a_load_beside_the_plane_of_a_deck_is_told(aside: float, told_of: bool) -> None:
+    scene = Scene(name="ship")
+    scene.add_vessel(shipped_database())
+    scene.add_body("box", mass=1e3, size=(1, 1, 1), position=(0.0, aside, 6.5))
+    feet = [(x, y, -0.5) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    scene.add_contact("box", on="vessel", points=feet, place=(0, 0, 6))
+    assert ("LoadOffDeckWarning" in told(lambda: simulate(scene, 0.05, **SHORT))) == told_of
+
+
 def test_a_summary_says_that_there_is_no_sea() -> None:
     scene = on_deck(0.0, 10.0)
     assert "no sea" in str(summary(simulate(scene, 0.1, **SHORT)))

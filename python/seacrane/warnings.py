@@ -381,13 +381,13 @@ class LoadInHullWarning(SceneWarning):
 
 
 class LoadOffDeckWarning(SceneWarning):
-    """A load stands, by a seat, on a body where that has no deck: beside the hull of a ship, or beside a body
-    of known size.
+    """A load stands, by a seat or on the plane of a contact, on a body where that has no deck: beside the
+    hull of a ship, or beside a body of known size.
 
-    A seat holds wherever it is described, in the air too. Turn the crane in before `Scene.add_hoist` puts the
-    load on deck, or let it hang. Length and breadth are those given, or those that the radii of gyration
-    suggest; a tenth more is not told. A load more than 3 m below the lowest joint on the hull is a
-    `LoadInHullWarning`.
+    A seat holds wherever it is described, in the air too, and a plane has no end. Turn the crane in before
+    `Scene.add_hoist` puts the load on deck, or let it hang. Length and breadth are those given, or those that
+    the radii of gyration suggest; a tenth more is not told. A load more than 3 m below the lowest joint on
+    the hull is a `LoadInHullWarning`.
     """
 
 

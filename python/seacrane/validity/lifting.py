@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.description.capacity import allowed_at
 from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.outline import box_edges, size_of_ship
+from seacrane.description.places import place_of
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below, hung_loads, suspensions, weights_on
 from seacrane.description.wet_parts import carried_by_water
@@ -20,7 +22,6 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckWarning, OverloadWarning
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.description.description import Description
     from seacrane.description.roles import CraneRoles
 
@@ -31,6 +32,8 @@ _Place = tuple[str, Any]  # a body and a point in its coordinates, m
 LARGEST_SWING = np.radians(20.0)
 CLEAR = 0.01  # m of a load below a deck on which it stands
 PEDESTAL = 3.0  # m from the deck on which a load stands up to where a crane's lowest joint may be
+STANDS = 0.5  # m over a plane, below which a load is described as standing on it
+LEVEL = 0.9  # cosine, from which a plane is a deck
 ASIDE = 1.1  # times a hull's half size, up to which a load may stand on what sticks out
 WATER = 1025.0  # kg/m3
 BLOCK = 0.7  # of a hull: its volume over that of the box around it
@@ -113,7 +116,7 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
     And of those that stand on a deck where there is none: beside the hull, or beside a body of known size.
     """
     standing = {joint.second: joint.first for joint in _seats(scene)}
-    for body, support in standing.items():
+    for body, support in [*standing.items(), *_on_planes(scene)]:
         _warn_of_no_deck(scene, body, support)
     for one in hung_loads(scene):
         load = scene.bodies[one.load]
@@ -144,6 +147,20 @@ def _seats(scene: Description) -> list[_core.Joint]:
     return [scene.joints[name] for name in seats if scene.joints[name].first in scene.bodies]
 
 
+def _on_planes(scene: Description) -> Iterator[tuple[str, str]]:
+    """Bodies whose lowest points stand, as described, on a level plane of another, and that one."""
+    for contact in scene.loads.values():
+        if not isinstance(contact, _core.Contact) or contact.surface != "plane":
+            continue
+        if not {contact.body, contact.on} <= scene.bodies.keys() or contact.axes[2, 2] < LEVEL:
+            continue
+        points = np.array([place_of(scene, body=contact.body, point=one) for one in contact.points])
+        deck = place_of(scene, body=contact.on, point=contact.place)
+        normal = rotation_matrix(scene.bodies[contact.on].quaternion) @ contact.axes[:, 2]
+        if float(((points - deck) @ normal).min()) < STANDS:
+            yield contact.body, contact.on
+
+
 def _warn_of_no_deck(scene: Description, load: str, support: str) -> None:
     ship = support in {vessel.body for vessel in scene.vessels.values()}
     deck = scene.bodies[support]
@@ -154,8 +171,8 @@ def _warn_of_no_deck(scene: Description, load: str, support: str) -> None:
     if abs(x) > 0.5 * ASIDE * size[0] or abs(y) > 0.5 * ASIDE * size[1]:
         warn_caller(
             f"body {load!r}: stands on {support!r}, {x:.4g} m forward and {y:.4g} m to port of its origin, "
-            f"where there is no deck: {support!r} is {size[0]:.4g} m long and {size[1]:.4g} m broad. Turn "
-            "the crane so that its tip is over the deck, or let the load hang (leave on out)",
+            f"where there is no deck: {support!r} is {size[0]:.4g} m long and {size[1]:.4g} m broad. Put "
+            "it over the deck, with the crane turned so, or let it hang",
             LoadOffDeckWarning,
         )
 
