@@ -55,7 +55,15 @@ class SceneError(SeacraneError, ValueError):
 
 
 class KeywordError(SceneError, TypeError):
-    """A call with a keyword that there is not, or without what it needs; the message names the nearest."""
+    """A call with a keyword that there is not, or without what it needs; the message names the nearest.
+
+    Attributes
+    ----------
+    known : tuple of str
+        Keywords of which the one that was given is none, where more are known to the call.
+    """
+
+    known: tuple[str, ...] = ()
 
 
 class OutputMemoryError(SceneError, MemoryError):

@@ -58,6 +58,7 @@ USUAL_END = 100.0  # s
 POOLED = ("seed", START_TIME)
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Ensemble:
     """What the members of an ensemble kept.

@@ -6,41 +6,64 @@ import inspect
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from functools import wraps
+from types import FunctionType
 from typing import Any, TypeVar
 
 from seacrane.errors import KeywordError
 from seacrane.inputs.shown import shown
 
 Callee = TypeVar("Callee", bound=Callable[..., Any])
-ALIKE = 0.5  # of two names, as difflib counts
+SETTINGS = "shorthand"  # what a call hands on, word by word
+ALIKE = 0.6  # of two names, as difflib counts
 KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 BY_PLACE = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
 
-def named(what: Callee, *, owned: bool = False) -> Callee:
-    """The function, or the class, that raises KeywordError where its arguments do not fit.
+def named(what: Callee, label: str = "", *, owners: int = 0) -> Callee:
+    """The function, or the class, that raises KeywordError where arguments do not fit it, or its methods.
 
-    `owned`: a function that is a method, whose first argument nobody writes.
+    `label`: what messages call it; `owners`: how many of a function's first arguments nobody writes.
     """
     if isinstance(what, type):
         made: Any = what
         made.__init__ = _named(made.__init__, what.__name__, 1)
+        for name, member in list(vars(what).items()):
+            if not name.startswith("_"):
+                setattr(made, name, _of_class(member, name))
         return what
-    return _named(what, what.__name__, int(owned))  # type: ignore[no-any-return]
+    return _named(what, label or what.__name__, owners)  # type: ignore[no-any-return]
+
+
+def _of_class(member: Any, name: str) -> Any:
+    """A method that tells the same; anything else as it is."""
+    if isinstance(member, FunctionType):
+        return _named(member, name, 1)
+    if isinstance(member, staticmethod):
+        return staticmethod(_named(member.__func__, name, 0))
+    return classmethod(_named(member.__func__, name, 1)) if isinstance(member, classmethod) else member
 
 
 def _named(function: Any, name: str, owners: int) -> Any:
     @wraps(function)
     def called(*args: Any, **given: Any) -> Any:
+        text: str | None
+        known: tuple[str, ...] = ()
         try:
             return function(*args, **given)
-        except KeywordError:
-            raise
+        except KeywordError as error:
+            unknown = [key for key in given if error.known and key not in error.known]
+            own = [key for key in inspect.signature(function).parameters if key not in ("self", SETTINGS)]
+            unknown = [key for key in unknown if key not in own]
+            if not unknown:
+                raise
+            text, known = no_keyword(unknown[0], given[unknown[0]], [*own, *error.known]), error.known
         except TypeError:
             text = _misfit(inspect.signature(function), owners, args, given)
             if text is None:
                 raise
-        raise KeywordError(f"{name}: {text}")
+        told = KeywordError(f"{name}: {text}")
+        told.known = known
+        raise told
 
     return called
 

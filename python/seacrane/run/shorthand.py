@@ -46,7 +46,9 @@ def settled(
     for word in shorthand:
         if word not in METHOD_WORDS and word not in OUTPUT_WORDS:
             known = ["method", "outputs", *METHOD_WORDS, *OUTPUT_WORDS]
-            raise KeywordError(f"settings: {no_keyword(word, shorthand[word], known)}")
+            error = KeywordError(f"settings: {no_keyword(word, shorthand[word], known)}")
+            error.known = (*METHOD_WORDS, *OUTPUT_WORDS)
+            raise error
     return (
         _settled("method", Method, method, METHOD_WORDS, shorthand),
         _settled("outputs", Outputs, outputs, OUTPUT_WORDS, shorthand),

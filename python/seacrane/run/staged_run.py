@@ -117,7 +117,7 @@ class StagedRun:
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
         if not self._shares or self._alike.model is None:
-            self._warn_of_description(time, REST if start is None and first is not None else start)
+            self._warn_of_description(time, start, begins=first is None)
         self._scene = without(self._whole, self._absent)
         self._model = self._first_model()
         from_rest = start is None and first is not None
@@ -139,14 +139,14 @@ class StagedRun:
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
-    def _warn_of_description(self, begin: float, start: Any) -> None:
+    def _warn_of_description(self, begin: float, start: Any, *, begins: bool) -> None:
         """What `simulate` tells of a scene: what is said of the pose is of what is there then."""
         end = begin + sum(one.duration or one.maximum_duration or 0.0 for one in self.stages)
         whole, there = self._whole, without(self._whole, self._absent)
-        begins = start is None or (isinstance(start, str) and start == REST)
+        begins = begins and (start is None or (isinstance(start, str) and start == REST))
         with keeping(whole.warned):
             warn_of_description(whole, start=begin, end=end, described=False, begins=begins)
-            warn_of_description(there, start=begin, end=end, described=start is None, begins=False)
+            warn_of_description(there, start=begin, end=end, described=begins and start is None, begins=False)
 
     def __repr__(self) -> str:
         done = f"{len(self._spans)} of {len(self.stages)} stages"

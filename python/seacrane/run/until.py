@@ -12,6 +12,7 @@ from seacrane.description.channels import CHANNELS, FIXED, unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
+from seacrane.inputs.keywords import named
 from seacrane.run.channel_names import all_names
 from seacrane.run.run import Run
 
@@ -104,6 +105,7 @@ def names_along(run: Run) -> dict[str, tuple[str, ...]]:
     return {dim: tuple(names) for dim, names in known.items()}
 
 
+@named
 class Until:
     """What ends a stage. Each of these makes a condition for `Stage(until=...)`.
 

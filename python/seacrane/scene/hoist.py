@@ -245,7 +245,7 @@ def add_hoist(
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
         if winch is not False:
-            named(add_winch)(scene, name, **drive)
+            named(add_winch, owners=1)(scene, name, **drive)
         if rig is not None:
             _sling(scene, name, hook[0], load, rig, standing=on is not None)
         if flag_of(f"{what}: damping", damping):

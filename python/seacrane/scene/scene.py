@@ -212,9 +212,7 @@ class Scene(Description):
 
 for _name, _method in list(vars(Scene).items()):
     if _name.startswith(("add_", "use_", "hold_")):
-        setattr(Scene, _name, heard(named(_method, owned=True)))
-    elif _name in ("record_coordinate", "sea_at", "place_of", "compile", "replace", "remove"):
-        setattr(Scene, _name, named(_method, owned=True))
+        setattr(Scene, _name, heard(_method))
 
 
 def rows(scene: Description) -> list[tuple[str, list[str]]]:

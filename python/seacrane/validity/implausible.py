@@ -54,7 +54,7 @@ def warn_of_description(
     _warn_of_winds(scene)
     _warn_of_masses(scene)
     if begins:
-        warn_of_units(scene, start, end)
+        warn_of_units(scene, start, end, described=described)
         warn_of_free_cranes(scene)
         warn_of_loads_in_hulls(scene)
         warn_of_parts_near_hulls(scene)

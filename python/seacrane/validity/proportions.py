@@ -59,9 +59,9 @@ class Proportion:
         )
 
 
-def disproportions(scene: Description, times: Array) -> Iterator[str]:
-    """One message for each value that does not fit; `times` (n,) s of the run."""
-    around = _Around(scene, times)
+def disproportions(scene: Description, times: Array, *, described: bool) -> Iterator[str]:
+    """One message for each value that does not fit; `times` (n,) s of the run, `described`: as it starts."""
+    around = _Around(scene, times, described)
     for kind, element, look in _looks(scene):
         for one in look(around, element):
             if one.beyond:
@@ -82,7 +82,8 @@ def _looks(scene: Description) -> Iterator[tuple[str, Any, Callable[..., Iterato
 class _Around:
     """What elements are compared with: the scene as described."""
 
-    def __init__(self, scene: Description, times: Array) -> None:
+    def __init__(self, scene: Description, times: Array, described: bool) -> None:
+        self.described = described
         self.scene, self.times, self.hung = scene, times, line_weights(scene)
         weights = weights_on(scene)
         self.on_chains = {  # N at the upper end and at the lower one, by the first segment of lines with mass
@@ -146,7 +147,8 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
         share = _over(line.tensions[-1] * falls, weight)
         yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
     else:
-        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.EA), 0.0)
+        stretched = _over(path, start) - 1.0 if around.described else 0.0
+        strain = max(stretched, _over(weight, falls * line.EA), 0.0)
         yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, LARGEST_STRAIN, "N")
     if line.name == f"{whole_of(line.name, line)}.1":  # of all segments of one with mass
         speed = math.sqrt(max(_over(line.EA * start, line.mass), 0.0))
