@@ -130,7 +130,7 @@ def require_channels(scene: Description, wanted: Iterable[str]) -> None:
     """
     limits, asked = [state.channel for state in scene.limit_states.values()], list(wanted)
     require_names(scene, [*asked, *limits])
-    if not asked:
+    if all(name in CHANNELS and "body" in CHANNELS[name].dims for name in asked):  # what has bodies has these
         return
     known = list(CHANNELS)
     with suppress(SceneError), silently():
