@@ -122,3 +122,9 @@ def test_one_curve_has_one_unit_and_a_report_prints_in_lines() -> None:
     lines = str(scene.report()).splitlines()
     assert len(lines) > 30 and max(map(len, lines)) <= 110
     assert "<table" in scene.report()._repr_html_()
+
+
+def test_a_contact_has_no_impulse_of_an_instant_in_the_report() -> None:
+    html = report(landed()).html
+    rows = re.findall(r"<tr><td[^>]*>[\d.]+</td><td>deck\.\d</td><td>contact</td>(.*?)</tr>", html)
+    assert rows and all(row.endswith("<td></td><td></td>") for row in rows)

@@ -34,7 +34,7 @@ ARM = 30.0  # m
 
 
 @named
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MotionHistory:
     """Six motions of a ship's reference point over time, as the channel `vessel_motion` records them.
 
@@ -65,6 +65,13 @@ class MotionHistory:
     time: Any
     motion: Any
     record: str = ""
+
+    def __repr__(self) -> str:
+        most = np.abs(self.motion).max(axis=0)
+        return (
+            f"<MotionHistory: {self.time.size} samples, {self.time[0]:g} to {self.time[-1]:g} s, heave to "
+            f"{most[2]:.3g} m, roll to {np.degrees(most[3]):.3g} deg, pitch to {np.degrees(most[4]):.3g} deg>"
+        )
 
     def __post_init__(self) -> None:
         time = np.array(vector_of("motion history: time", self.time))

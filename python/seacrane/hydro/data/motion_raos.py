@@ -23,7 +23,7 @@ STEEPEST_PITCH = 6.0  # of the wave's slope, at the longest wave of a table: hul
 
 
 @named
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MotionRaos:
     """Motions of a ship per metre of wave amplitude: its displacement RAOs.
 
@@ -67,6 +67,13 @@ class MotionRaos:
     symmetric: bool = True
     name: str = "RAOs"
     g: float = 9.81
+
+    def __repr__(self) -> str:
+        low, high = float(np.min(self.omega)), float(np.max(self.omega))
+        return (
+            f"<MotionRaos: {np.size(self.heading)} headings, {np.size(self.omega)} frequencies, {low:.3g} to "
+            f"{high:.3g} rad/s>"
+        )
 
     def __post_init__(self) -> None:
         what = f"RAOs {text_of('RAOs: name', self.name)!r}"
