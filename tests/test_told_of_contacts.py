@@ -128,3 +128,8 @@ def test_a_contact_has_no_impulse_of_an_instant_in_the_report() -> None:
     html = report(landed()).html
     rows = re.findall(r"<tr><td[^>]*>[\d.]+</td><td>deck\.\d</td><td>contact</td>(.*?)</tr>", html)
     assert rows and all(row.endswith("<td></td><td></td>") for row in rows)
+
+
+def test_notes_of_a_summary_stand_apart_in_a_notebook() -> None:
+    told = summary(landed())
+    assert told._repr_html_().count("<p>") == len(told.notes())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -144,10 +143,9 @@ class Summary(Tabular):
 
     def _repr_html_(self) -> str:
         caption = f"{self.scene}, {self.start:g} to {self.end:g} s"
-        notes = "".join(f"<p>{escape(one)}</p>" for one in self.notes())
         used = self.utilisation._repr_html_() if self.utilisation else ""
         hit = self.contacts._repr_html_() if self.contacts else ""
-        return notebook_table(HEAD, self._cells(), caption=caption) + notes + hit + used
+        return notebook_table(HEAD, self._cells(), caption=caption, notes=self.notes()) + hit + used
 
     def html(self) -> str:
         """The table alone, as HTML."""
