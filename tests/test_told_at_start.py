@@ -169,6 +169,7 @@ SLIPS: dict[str, Callable[[], Scene]] = {
     "box in cm": lambda: hung(BoxPart(size=(400, 300, 200))),
     "open box in cm": lambda: hung(BoxPart(size=(400, 300, 200), fill=0.0)),
     "box, one side in cm": lambda: hung(BoxPart(size=(4, 3, 200), fill=0.2)),
+    "box, slam as a force": lambda: hung(BoxPart(size=(4, 3, 2), slam=5000.0)),
     "sphere in cm": lambda: hung(SpherePart(diameter=200.0)),
     "wire in g/m": lambda: wire(mass_per_length=25e3),
     "wire in N/m": lambda: wire(mass_per_length=245.0),
@@ -190,6 +191,11 @@ def test_a_ship_whose_motion_is_given_makes_no_slip_of_what_is_on_it() -> None:
     scene.add_body("box", mass=2e4, size=(4, 3, 2), position=(0, 0, 11.05))
     feet = [(x, y, -1) for x in (-2, 2) for y in (-1.5, 1.5)]
     scene.add_contact("box", on="vessel", points=feet, place=(0, 0, 10.0), friction=0.3)
+    pads = [(0, y, 9.5) for y in (-1.0, 1.0)]
+    scene.add_contact(
+        "vessel", on="box", points=pads, surface="box", size=(4, 3, 1), place=(0, 0, -2.0), friction=0.2,
+        name="pads",
+    )  # fmt: skip
     scene.add_point_force("thrust", body="vessel", force=(2e5, 0, 0))
     scene.add_spring(
         "sea fastening", first="vessel", first_point=(0, 0, 5), second="box", stiffness=1e6,

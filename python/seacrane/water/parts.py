@@ -45,6 +45,7 @@ CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it t
 MOST_PERFORATION = 0.5  # where the factor ends
 RAMP_KNOTS = 40
 MOST_STRIPS = 1000
+MOST_SLAM = 100.0
 THICK = 0.5  # m: no plate is as thick, nor as half its side
 SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
 
@@ -506,6 +507,11 @@ def _check_slam(kind: str, value: Any, least: float) -> None:
         raise SceneError(
             f"{kind}: slam is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
             f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})"
+        )
+    if value > MOST_SLAM:
+        warn_caller(
+            f"{kind}: slam is {float(value):.6g}, and no C_S is above {MOST_SLAM:g}: it is a ratio",
+            UnitWarning,
         )
 
 
