@@ -24,9 +24,10 @@ from seacrane import (
     simulate_stages,
 )
 from seacrane.result import heavy_line_tension
-from seacrane.warnings import StiffWarning
+from seacrane.warnings import ScatteredWavesWarning, StiffWarning
 from seacrane.water import BoxPart
 
+warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 7.0  # m/s2, kg/m3, m, s
 MASS, SIZE, FILL, OPEN = 120e3, (8.0, 6.0, 4.0), 0.15, 0.2  # kg, m, shares
 EA, WIRE, DIAMETER, SEGMENTS = 1.5e8, 20.0, 0.06, 6  # N, kg/m, m

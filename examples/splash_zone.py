@@ -6,13 +6,16 @@ By hand is the simplified method of DNV-RP-N103 as others quote it: unverified. 
 """
 
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from seacrane import Result, Scene, Stage, Until, shipped_database, simulate_stages
+from seacrane.warnings import ScatteredWavesWarning
 from seacrane.water import BoxPart, PlatePart
 
+warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 6.0  # m/s2, kg/m3, m, s
 TZ, SEEDS = TP / 1.287, range(1, 4)  # s, of a JONSWAP spectrum with gamma 3.3; passages through the surface
 MASS, BLOCK, SIZE, MAT, LEG = 40e3, 1.5e3, (6.0, 4.0, 3.0), (1.5, 1.2), 0.2  # kg, kg, m, m, m

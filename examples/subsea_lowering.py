@@ -4,6 +4,7 @@ Usage: python subsea_lowering.py [FOLDER FOR A PICTURE]
 """
 
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +21,10 @@ from seacrane import (
     shipped_database,
     simulate_stages,
 )
+from seacrane.warnings import ScatteredWavesWarning
 from seacrane.water import BoxPart
 
+warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP, SEEDS = 9.80665, 1025.0, 1.5, 7.0, (1, 2)  # m/s2, kg/m3, m, s
 MASS, BLOCK, SIZE, FILL, OPEN = 40e3, 3e3, (6.0, 4.0, 3.0), 0.2, 0.3  # kg, kg, m, shares
 EA, SLING, ANGLE, SEABED = 1.5e8, 5e7, 60.0, 100.0  # N, N, deg, m

@@ -24,7 +24,7 @@ def with_drift() -> HydroDatabase:
 def scene_of(**options: object) -> Scene:
     scene = Scene(name="sea")
     scene.add_vessel(with_drift())
-    scene.add_sea(count=30, **options)  # type: ignore[arg-type]
+    scene.add_sea(hs=2.0, count=30, **options)  # type: ignore[arg-type]
     return scene
 
 

@@ -212,7 +212,9 @@ def test_what_does_not_fit_is_named_and_leaves_the_scene_as_it_was(given: dict[s
 def test_one_load_a_crane_and_tonnes_are_named() -> None:
     scene = Scene()
     scene.add_crane(base="ground", payload=Payload())
-    with pytest.raises(SceneError, match="'payload' hangs on crane '' already"):
+    with pytest.raises(
+        SceneError, match="'payload' hangs on the crane already; add the crane without payload"
+    ):
         scene.add_hoist(**BOX, EA=3e7)
     with pytest.raises(SceneError, match="add_crane first"):
         Scene().add_hoist(**BOX, EA=3e7)

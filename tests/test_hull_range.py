@@ -156,10 +156,10 @@ def test_the_peak_is_found_from_the_components() -> None:
     scene.add_vessel(shipped_database())
     for tp in (7.0, 10.0, 14.0):
         scene.waves = None
-        scene.add_sea(tp=tp, count=200)
+        scene.add_sea(hs=2.0, tp=tp, count=200)
         assert scene.waves is not None
         assert peak_frequency(scene.waves) == pytest.approx(2.0 * np.pi / tp, rel=0.1)
     scene.waves = None
-    scene.add_sea(count=1)
+    scene.add_sea(hs=2.0, count=1)
     assert scene.waves is not None
     assert peak_frequency(scene.waves) == pytest.approx(float(scene.waves.omega[0]), rel=1e-12)

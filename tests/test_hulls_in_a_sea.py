@@ -192,7 +192,7 @@ def two_hulls(**options: Any) -> Scene:
     scene = Scene(name="two")
     scene.add_vessel(database(), name="ship")
     scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=90.0)
-    scene.add_sea(vessel="ship", count=20, direction_deg=0.0, **options)
+    scene.add_sea(vessel="ship", **{"hs": 2.0, "count": 20, "direction_deg": 0.0} | options)
     scene.add_sea(vessel="barge")
     return scene
 
@@ -222,7 +222,7 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
     for phase in ("mean", "slow", "actual"):
         scene = Scene(name="ahead")
         scene.add_vessel(database(), position=(60.0, 0.0, 0.0), heading_deg=40.0)
-        scene.add_sea(count=30, phase=phase)  # type: ignore[arg-type]
+        scene.add_sea(hs=2.0, count=30, phase=phase)  # type: ignore[arg-type]
         loads.append(simulate(scene, t_end=0.1, channels=["wave_force"])["wave_force"][0])
     for other in loads[1:]:
         np.testing.assert_allclose(loads[0], other, atol=1e-7 * np.abs(loads[0]).max())
@@ -231,7 +231,7 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
 def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
     scene = Scene(name="given")
     scene.add_vessel(database(), position=(5.0, 0.0, 0.0))
-    scene.add_sea(count=20, position=(12.0, -7.0), heading_deg=30.0)
+    scene.add_sea(hs=2.0, count=20, position=(12.0, -7.0), heading_deg=30.0)
     assert scene.waves is not None
     hull = scene.waves.hull()
     assert hull.position == (12.0, -7.0) and hull.heading == pytest.approx(np.radians(30.0))
@@ -387,7 +387,7 @@ def test_balance_tells_the_wrench_on_every_vessel() -> None:
 def test_a_prescribed_vessel_moves_along_its_own_heading() -> None:
     scene = Scene(name="prescribed")
     scene.add_vessel(database(), position=(30.0, 10.0, 0.0), heading_deg=-70.0)
-    scene.add_sea(count=20)
+    scene.add_sea(hs=2.0, count=20)
     run = simulate(scene, t_end=8.0, dt_out=0.05, rtol=1e-9)
     held = simpler_scenes.with_prescribed_vessel(scene, run.time, run["vessel_motion"])
     again = simulate(held, t_end=8.0, dt_out=0.5, rtol=1e-9)

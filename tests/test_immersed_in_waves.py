@@ -56,6 +56,7 @@ def amplitude(result: Any, axis: str) -> float:
     return float(2.0 * abs(np.mean(force * turn)))
 
 
+@pytest.mark.warns("UnitWarning")  # far from any real one, so that its formula shows
 @pytest.mark.parametrize("strips", [1, 4])
 def test_froude_and_krylov_on_a_box_are_those_of_the_pressure_on_its_sides(strips: int) -> None:
     """12 x 6 x 4 m, 2 m under water, in a wave of 8 s and 1 m; strips change nothing."""
@@ -72,6 +73,7 @@ def test_froude_and_krylov_on_a_box_are_those_of_the_pressure_on_its_sides(strip
     assert amplitude(result, "z") == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.warns("UnitWarning")  # far from any real one, so that its formula shows
 def test_a_sphere_feels_the_acceleration_at_its_centre() -> None:
     """The mean of a harmonic function over a sphere; up to the fourth order in k times its radius."""
     scene = Scene(name="sphere", gravity=G)

@@ -313,7 +313,9 @@ BUILT = {
     "a joint that is not there": (
         HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
     ),
-    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
+    "a vessel that is not there": (
+        HEAD + '[sea]\nhs_m = 1\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"
+    ),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
     "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),

@@ -276,6 +276,7 @@ def drawn_aside(speed: float, segments: int) -> float:
     return float(np.asarray(still.select("position", body="load", axis="x"))[0])
 
 
+@pytest.mark.warns("UnitWarning")  # far from any real one, so that its formula shows
 def test_a_current_draws_a_long_wire_aside_as_its_integral_says() -> None:
     """(F + q s) / (W + w s) from the load up, in the limit of small angles; second order in the segments."""
     force, push = 0.5 * RHO * 1.5 * 20.0 * 0.25, 0.5 * RHO * 1.2 * 0.06 * 0.25

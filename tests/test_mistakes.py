@@ -34,7 +34,7 @@ from seacrane.hydro import HydroDatabase, HydroGroup, ikeda_roll_damping, shippe
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import jonswap
-from seacrane.water import BoxPart, TablePart
+from seacrane.water import BoxPart, PlatePart, TablePart
 
 PAGE = (Path(__file__).parents[1] / "docs" / "mistakes.md").read_text()
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
@@ -417,6 +417,41 @@ def added_mass_in_tonnes() -> None:
     on_its_side(BoxPart(size=(6, 4, 3), added_mass=(30, 40, 90), source="a tank"))
 
 
+def a_plate_in_millimetres() -> None:
+    on_its_side(PlatePart(size=(6, 4), thickness=20))
+
+
+def a_box_in_centimetres() -> None:
+    on_its_side(BoxPart(size=(600, 400, 300)))
+
+
+def a_hoist_described_under_water() -> None:
+    scene = on_a_ship(height=-9.0)
+    scene.add_immersed("load", parts=[BoxPart(size=(6, 4, 4), fill=0.2)])
+    simulate(scene, t_end=0.1)
+
+
+def on_a_ship(slew: float = -np.pi / 2, **hoist: Any) -> Scene:
+    scene = Scene(name="on a ship")
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(slew=slew, s1=2.0, s2=2.0)
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), EA=6e7, **hoist)
+    scene.add_ballast()
+    return scene
+
+
+def a_load_on_the_deck_of_a_crane_turned_out() -> None:
+    simulate(on_a_ship(on="vessel", height=10.0), t_end=0.1)
+
+
+def a_load_below_the_deck() -> None:
+    simulate(on_a_ship(slew=0.0, on="vessel", height=5.0), t_end=0.1)
+
+
+def a_sea_of_no_height() -> None:
+    Scene(name="settings").add_sea(vessel=None, hs=None, tp=8.0, direction_deg=90.0)
+
+
 def a_part_in_millimetres() -> None:
     on_its_side(BoxPart(size=(6, 4, 3), point=(0, 0, 1500)))
 
@@ -456,11 +491,15 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     ],
     "kilonewtons for newtons at a winch": [a_motor_in_kilonewtons],
     "a line too short for the pose": [a_hoist_ten_centimetres_short],
+    "a load that carries itself under water": [a_hoist_described_under_water],
+    "a load on no deck": [a_load_on_the_deck_of_a_crane_turned_out, a_load_below_the_deck],
+    "a sea without its height": [a_sea_of_no_height],
     "a line connected too short": [a_tagline_connected_short],
     "a wire that resonates, as quasi-static": [a_resonant_wire_as_quasi_static],
     "water shallower than the path": [a_stage_below_the_seabed, a_winch_that_pays_out_too_long],
     "drag along axes of the world": [drag_of_the_world],
     "added mass in tonnes": [added_mass_in_tonnes],
+    "sizes in water in another unit": [a_plate_in_millimetres, a_box_in_centimetres],
     "a part far from its body": [a_part_in_millimetres],
     "texts for numbers": [forces_as_text],
     **mistaken_units.SCRIPTS,

@@ -11,7 +11,18 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import Curve, Run, Scene, _core, cases, linear_model, natural_modes, response_statistics
+from seacrane import (
+    Curve,
+    MotionHistory,
+    MotionRaos,
+    Run,
+    Scene,
+    _core,
+    cases,
+    linear_model,
+    natural_modes,
+    response_statistics,
+)
 from seacrane.accuracy import model_error
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.hydro import DriftCoefficients, retardation_functions, shipped_database
@@ -84,6 +95,8 @@ def with_arrays() -> dict[str, Any]:
         KnuckleBoomCrane.load(), retardation_functions(database=database),
         model_error(scene, body="payload", times=np.linspace(0.0, 1.0, 11)),
         DriftCoefficients(heading=np.arange(7), omega=np.arange(1.0, 9.0), coefficient=np.zeros((7, 8, 6))),
+        MotionHistory(time=np.arange(99.0), motion=np.full((99, 6), 0.1)),
+        MotionRaos(omega=np.arange(1.0, 9.0), heading=[0.0, np.pi], values=np.full((2, 8, 6), 0.1 + 0j)),
         MeasuredWaves(time=np.arange(99.0), elevation=np.sin(np.arange(99.0)), direction_deg=180.0),
     ]  # fmt: skip
     return {type(thing).__name__: thing for thing in things}

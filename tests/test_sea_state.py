@@ -206,7 +206,7 @@ def sea_of(scene: Scene) -> dict[str, Any]:
 def afloat(**sea: object) -> Scene:
     scene = Scene(name="afloat")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_sea(**sea)
+    scene.add_sea(**({} if "sea" in sea else {"hs": 2.0}) | sea)
     return scene
 
 
@@ -274,7 +274,7 @@ def test_a_sea_is_as_deep_as_its_database() -> None:
     shallow = dataclasses.replace(shipped_database(), depth=20.0)
     scene = Scene(name="shallow")
     scene.add_vessel(shallow, memory="none")
-    scene.add_sea(tp=14.0)
+    scene.add_sea(hs=2.0, tp=14.0)
     waves = scene.waves
     assert waves is not None and waves.depth == 20.0
     k = wavenumber(waves.omega, g=9.80665, depth=20.0)
@@ -293,8 +293,8 @@ def test_vessels_in_one_sea_share_its_depth() -> None:
     scene = Scene(name="two")
     scene.add_vessel(shipped_database(), memory="none")
     scene.add_vessel(shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
-    scene.add_sea(tp=12.0)
-    for arguments in ({}, {"tp": 12.0}):
+    scene.add_sea(hs=2.0, tp=12.0)
+    for arguments in ({}, {"hs": 2.0, "tp": 12.0}):
         with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
             scene.add_sea(vessel="barge", **arguments)
     assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
@@ -322,7 +322,7 @@ def test_waves_that_put_no_load_on_a_vessel_are_warned_of_by_name() -> None:
     scene = Scene(name="short table")
     scene.add_vessel(shipped_database().select(omega=(0.1, 1.5)), memory="none")
     with pytest.warns(WavesWithoutLoadWarning, match=r"waves on 'vessel': those above 1\.5 rad/s") as caught:
-        scene.add_sea(tp=6.0, direction_deg=90.0)
+        scene.add_sea(hs=2.0, tp=6.0, direction_deg=90.0)
     assert caught[0].filename == __file__
     assert scene.waves is not None and (scene.waves.provenance.load_variance_without_load or 0.0) > 0.1
 
@@ -340,7 +340,7 @@ def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
     )  # fmt: skip
     scene = Scene(name="turning")
     scene.add_vessel(database, memory="none")
-    scene.add_sea(tp=7.0, direction_deg=60.0, phase="actual", drift=True)
+    scene.add_sea(hs=2.0, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
     waves = scene.waves
     assert waves is not None and waves.omega.min() < 0.4 and waves.omega.max() > 2.0
     table = waves.hull().force_by_heading

@@ -213,6 +213,7 @@ def test_sensitivity_takes_stages() -> None:
     assert slope == pytest.approx(-np.sqrt(EA / 27.0 * MASS), rel=0.15)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_what_contradicts_is_refused_by_name() -> None:
     given: dict[str, Any] = {"over": {"seed": [1]}, "keep": KEEP}
     with pytest.raises(SceneError, match=r"t_end is 10\.0, and stages tell their end"):

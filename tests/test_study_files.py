@@ -158,11 +158,19 @@ def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixt
 
 @pytest.mark.warns("FailedSeedsWarning")
 def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    study.write_text(STUDY.replace('channel = "position"', 'channel = "posture"'))
+    study.write_text(STUDY.replace('body = "vessel"', 'body = "vassal"'))
     assert main(["study", str(study), "--out", str(study.parent / "out")]) == 0
     told = capsys.readouterr().out
     assert "40 of 40 members run, 40 failed" in told
-    assert "posture" in told
+    assert "vassal" in told
+
+
+def test_a_study_of_a_channel_that_is_not_there_is_refused(
+    study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study.write_text(STUDY.replace('channel = "position"', 'channel = "swing"'))
+    assert main(["study", str(study), "--out", str(study.parent / "out")]) == 1
+    assert "channel 'swing' is unknown to this scene; it needs" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("workers", [[], ["--workers", "2"]])

@@ -96,6 +96,9 @@ def test_a_sea_in_an_empty_scene(sea: dict[str, Any], words: str) -> None:
         ({"count": 1_000_000}, "count is 1,000,000, components .* give at most 50,000"),
         ({"sea": SeaState(systems=SYSTEMS)}, "count is 60,000, components"),
         ({"hs": -1.0}, "hs is -1"),
+        ({"hs": None}, "hs is None; give the significant wave height in m"),
+        ({"hs": np.array([1.2])}, r"hs is a ndarray of shape \(1,\); give a number"),
+        ({"tp": np.array([1.2, 7.0])}, r"tp is a ndarray of shape \(2,\); give a number"),
         ({"tp": 0.0}, "tp is 0"),
         ({"gamma": 99.0}, "gamma is 99"),
         ({"seed": -1}, "seed is -1"),
@@ -107,7 +110,7 @@ def test_a_sea_that_cannot_be_is_a_scene_error(sea: dict[str, Any], words: str) 
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="none")
     with pytest.raises(SceneError, match=words):
-        scene.add_sea(**sea)
+        scene.add_sea(**({} if "sea" in sea else {"hs": 1.0}) | sea)
     assert scene.waves is None
 
 

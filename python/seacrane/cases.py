@@ -94,7 +94,7 @@ def _afloat(
     scene.add_vessel(chosen, memory=memory, kinematics=kinematics, mooring_period=mooring_period)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
-    scene.add_sea(**({} if "sea" in sea else {"direction_deg": 135.0}) | sea)
+    scene.add_sea(**({} if "sea" in sea else {"hs": 2.0, "tp": 8.0, "direction_deg": 135.0}) | sea)
     return scene
 
 

@@ -54,6 +54,18 @@ class SceneError(SeacraneError, ValueError):
     """A scene, or one of its elements, contradicts itself or holds a value out of range."""
 
 
+class KeywordError(SceneError, TypeError):
+    """A call with a keyword that there is not, or without what it needs; the message names the nearest.
+
+    Attributes
+    ----------
+    known : tuple of str
+        Keywords of which the one that was given is none, where more are known to the call.
+    """
+
+    known: tuple[str, ...] = ()
+
+
 class OutputMemoryError(SceneError, MemoryError):
     """The outputs asked for would not fit into this computer's memory; nothing has been allocated."""
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from seacrane.accuracy.choice import run_to_accuracy
+from seacrane.inputs.keywords import named
 from seacrane.result.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+@named
 def simulate(
     scene: Scene,
     t_end: float = 100.0,

@@ -166,9 +166,11 @@ class WinchLimitWarning(RunWarning):
 
 class LiftedStartWarning(RunWarning):
     """Lines start by lifting a body with more than 1.5 times its weight: one of them is too short for the
-    described pose.
+    described pose. Or with more than 1.25 times what it weighs under water, where it is described: they are
+    stretched by its weight in air.
 
-    The load jumps at once, and opens its seat. Correct the length, or give `tension_at_start`.
+    The load jumps at once, and opens its seat. Correct the length, give `tension_at_start`, or under water
+    `start="rest"`.
     """
 
 
@@ -375,6 +377,17 @@ class LoadInHullWarning(SceneWarning):
     Nothing keeps bodies apart, so the run would look well. Shorten the link, slew out before the load is
     lowered, or ignore it for a load in a moonpool. Length and breadth are those that the radii of gyration
     suggest, the keel follows from the displaced mass.
+    """
+
+
+class LoadOffDeckWarning(SceneWarning):
+    """A load stands, by a seat or on the plane of a contact, on a body where that has no deck: beside the
+    hull of a ship, or beside a body of known size.
+
+    A seat holds wherever it is described, in the air too, and a plane has no end. Turn the crane in before
+    `Scene.add_hoist` puts the load on deck, or let it hang. Length and breadth are those given, or those that
+    the radii of gyration suggest; a tenth more is not told. A load more than 3 m below the lowest joint on
+    the hull is a `LoadInHullWarning`.
     """
 
 
@@ -605,6 +618,14 @@ class LostMembersWarning(SeaWarning):
     program took a chunk or a pack.
 
     They are run again, and nothing else is to be done. Where it comes again, look at the disk.
+    """
+
+
+class FailedMembersWarning(SeaWarning):
+    """All members of an ensemble failed: its dataset holds nothing of what was to be kept.
+
+    The message gives the first failure, `Ensemble.failures` all: most often a function of `keep` that raises,
+    or a name that no result has. Try it on one result of `simulate`, or give `on_error="raise"`.
     """
 
 

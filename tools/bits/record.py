@@ -70,7 +70,7 @@ def offered(scene: Scene) -> list[str]:
     derived = [name for name in DERIVED if name not in COSTLY and set(DERIVED[name].made_of) & set(known)]
     without = missing_names(scene, derived)
     names = [*known, *(name for name in derived if name not in without)]
-    return [name for name in names if core_channels([name], known)]
+    return [name for name in names if core_channels(scene, [name], known)]
 
 
 def _channels(result: Result) -> tuple[dict[str, Values], dict[str, list[str]]]:

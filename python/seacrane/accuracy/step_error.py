@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane.accuracy.quantities import compare, quantities_of
 from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.keywords import named
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -70,6 +71,7 @@ class StepError:
         return f"sensitive ({shown})" if self.error is None else f"{self.error:.3g} {self.unit} ({shown})"
 
 
+@named
 def step_error(
     scene: Scene,
     t_end: float = 100.0,

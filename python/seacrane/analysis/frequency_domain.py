@@ -19,6 +19,7 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+@named
 @one_thread
 def motion_rao(
     scene: Description | LinearModel,

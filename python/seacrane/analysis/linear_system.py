@@ -26,6 +26,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
+from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
@@ -327,6 +328,7 @@ class Resolvent:
         return np.asarray(x @ self.unitary.T * self.scale)
 
 
+@named
 @one_thread
 def linear_model(
     scene: Description,

@@ -14,6 +14,7 @@ from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.description import Description
 from seacrane.inputs.brief import brief
 from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
@@ -156,6 +157,7 @@ def _label(bodies: tuple[str, ...], energy: Array) -> str:
     return f"{bodies[body]} {MOTIONS[motion]}"
 
 
+@named
 @one_thread
 def natural_modes(
     scene: Description | LinearModel,

@@ -31,6 +31,7 @@ from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
+from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 from seacrane.sea.crossings import level_crossed
 from seacrane.sea.spreading import Spreading
@@ -127,6 +128,7 @@ class ResponseStatistics:
         return np.asarray(self.std * levels)
 
 
+@named
 @one_thread
 def response_statistics(
     scene: Description | LinearModel,

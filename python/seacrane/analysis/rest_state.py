@@ -25,6 +25,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
+from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
@@ -81,6 +82,7 @@ def _frozen(curve: _core.Curve, time: float) -> _core.Curve:
     return _core.Curve.constant(value=float(curve.evaluate([time])[0, 0]))
 
 
+@named
 @one_thread
 def equilibrium(scene: Description, *, state: _core.State | None = None, time: float = 0.0) -> _core.State:
     """State at rest of the scene with its references held at one time, without waves.

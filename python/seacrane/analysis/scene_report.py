@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,10 @@ from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.holding import Drive, held_drives, with_holds
 from seacrane.description.loads import kind_of, named
 from seacrane.description.wet_parts import sources_in_water
+from seacrane.plotting.html import format_value, notebook_table
 
 Rows = list[tuple[str, Any]]
+WIDTH = 110  # characters of a line
 REPETITIONS = 500  # of each part when its cost is measured
 LABELS = {  # of kinds of loads that are not called by their kind
     "function force": "C functions",
@@ -28,12 +31,30 @@ LABELS = {  # of kinds of loads that are not called by their kind
 WORK_STATES = 2  # the work integral and its absolute counterpart
 
 
-def scene_report(scene: Description) -> dict[str, Rows]:
+class SceneReport(dict[str, Rows]):
+    """Sections of rows by their titles; prints row by row, and as tables in notebooks."""
+
+    def __repr__(self) -> str:
+        lines = []
+        for title, rows in self.items():
+            lines += [title, *(f"  {name}: {format_value(value)}" for name, value in rows)]
+        return "\n".join(wrapped for line in lines for wrapped in _wrapped(line))
+
+    def _repr_html_(self) -> str:
+        return "".join(notebook_table((), rows, caption=title) for title, rows in self.items())
+
+
+def _wrapped(line: str) -> list[str]:
+    return wrap(line, WIDTH, subsequent_indent="      ", break_long_words=False, break_on_hyphens=False)
+
+
+def scene_report(scene: Description) -> SceneReport:
     """Compile a scene and tell what came out.
 
     Returns
     -------
-    dict of str to list of (str, value)
+    SceneReport
+        A dict of str to lists of (str, value), which prints row by row.
         Sections "size", "elements", "merged", "assembly", "left out", "cost", "lines" of scenes with elastic
         lines and, for models small enough for a dense eigenvalue problem, "modes". Values are numbers, texts
         or lists of texts. Costs are nanoseconds per evaluation, measured while the report is made; all else
@@ -44,14 +65,16 @@ def scene_report(scene: Description) -> dict[str, Rows]:
     held = held_drives(scene)
     scene = with_holds(scene)
     model = compile_scene(scene)
-    report = {
-        "size": _size(scene, model),
-        "elements": [*elements_of(scene), *_held(held)],
-        "merged": _merged(model),
-        "assembly": _assembly(scene, model),
-        "left out": _left_out(scene, model),
-        "cost": _cost(model),
-    }
+    report = SceneReport(
+        {
+            "size": _size(scene, model),
+            "elements": [*elements_of(scene), *_held(held)],
+            "merged": _merged(model),
+            "assembly": _assembly(scene, model),
+            "left out": _left_out(scene, model),
+            "cost": _cost(model),
+        }
+    )
     if model.line_bounces:
         report["lines"] = _bounces(model)
     modes = _modes(model)

@@ -21,6 +21,7 @@ from seacrane.description.places import place_of
 from seacrane.description.wet_parts import immersed_parts, waters_in, wet_bodies
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.keywords import named
 
 Array = NDArray[np.float64]
 WET = {"position", "quaternion", "load_force", "load_moment"}
@@ -58,6 +59,7 @@ class Balance:
         return next(iter(self.vessel_wrenches.values()), None)
 
 
+@named
 def balance(scene: Description) -> Balance:
     """Loads that keep the described scene at rest.
 

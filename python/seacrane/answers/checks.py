@@ -111,10 +111,12 @@ def _beside_stages(result: Result) -> list[Event]:
 
 def _events(result: Result) -> str:
     events = _beside_stages(result)
+    lasting = set(result.coords.get("contact_point", ()))  # whose force has no impulse of an instant
     rows: list[Sequence[Any]] = [
-        (one.time, one.name, one.kind, one.speed, one.impulse, one.energy_lost)
+        (one.time, one.name, one.kind, one.speed,
+         *(("", "") if one.name in lasting else (one.impulse, one.energy_lost)))
         for one in events[:MOST_EVENTS]
-    ]
+    ]  # fmt: skip
     head = ("time [s]", "limit", "event", "speed [m/s or rad/s]", "impulse [N s or N m s]", "energy lost [J]")
     more = len(events) - len(rows)
     return table(head, rows) + (note(f"{more} later events are not shown.") if more else "")

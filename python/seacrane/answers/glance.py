@@ -10,6 +10,7 @@ from seacrane.answers.measures import energy_balanced, findings_of, joints_close
 from seacrane.answers.reported_curves import hook_loads
 from seacrane.answers.section import Section
 from seacrane.result import Result
+from seacrane.result.contact_loads import contact_loads
 from seacrane.result.traces import Trace, traces
 
 Cards = dict[str, tuple[str, bool | None]]
@@ -71,6 +72,14 @@ def _limits(result: Result) -> Cards:
     }
 
 
+def _contacts(result: Result) -> Cards:
+    known = [one for one in contact_loads(result) if one.peak > 0.0]
+    if not known:
+        return {}
+    worst = max(known, key=lambda one: one.peak)
+    return {"Hardest press of a contact": (f"{worst.peak / 1e3:.4g} kN, {worst.point}", None)}
+
+
 def _utilisation(result: Result) -> Cards:
     known = [state for state in result.utilisation if state.kept is not None]
     if not known:
@@ -100,6 +109,7 @@ def _html(result: Result) -> str:
             **_largest(result, "cylinder_force", "Largest cylinder force"),
             **_largest(result, "slew_torque", "Largest slew torque"),
             **_roll(result),
+            **_contacts(result),
             **_limits(result),
             **_utilisation(result),
             **_trust(result),

@@ -12,6 +12,7 @@ import numpy as np
 from seacrane.answers.blocks import note, verdict
 from seacrane.answers.section import Section
 from seacrane.result import Result
+from seacrane.result.events import Event
 from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
 
 OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
@@ -48,7 +49,9 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     count = sum(event.kind in ("release", "rebound") for event in mine)
     starts_open = _force_at_start(result, name) == 0.0
     fallen = sum(event.kind == "through" for event in mine)
+    asked = _asked_for(result, mine)
     words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
+    words += f", as stage {asked!r} asks" if asked else ""
     hardest = max((abs(event.impulse) for event in mine), default=0.0)
     if hardest > 0.0:
         words += f", hardest snatch {hardest:.3g} N s"
@@ -56,8 +59,20 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
         words += f", then through it {_often(fallen)}"
     return Judged(
         name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
-        reached=_forces(result, name), held=not count and not starts_open, words=words,
+        reached=_forces(result, name), words=words,
+        held=not starts_open and (not count or (bool(asked) and count == 1 and not fallen)),
     )  # fmt: skip
+
+
+def _asked_for(result: Result, events: Sequence[Event]) -> str:
+    """The stage that waits for a limit to let go, or releases it; none where nobody asked."""
+    gone = [event for event in events if event.kind in ("release", "rebound")]
+    for span in result.stages:
+        for event in gone:
+            waited = span.start <= event.time <= span.end and f"{event.name!r} lets go" in span.ended_by
+            if waited or event.time == span.start:
+                return str(span.name)
+    return ""
 
 
 def _often(count: int) -> str:

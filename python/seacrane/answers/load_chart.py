@@ -21,6 +21,7 @@ from seacrane.description.description import Description
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
@@ -119,6 +120,7 @@ class LoadChart(Tabular):
         return f"{value / 1e3:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
 
 
+@named
 @one_thread
 def load_chart(
     scene: Description,

@@ -6,6 +6,7 @@ A new section is a module with a `Section` and an entry here.
 from __future__ import annotations
 
 from seacrane.answers.checks import CHECKS, COST, EVENTS, WARNINGS
+from seacrane.answers.contacts_section import CONTACTS
 from seacrane.answers.glance import GLANCE
 from seacrane.answers.histories import HISTORIES, LOADS, SCENE_PICTURE, THREE_DIMENSIONS, TRACKS
 from seacrane.answers.limits_section import LIMITS
@@ -25,6 +26,7 @@ SECTIONS: tuple[Section[Result], ...] = (
     THREE_DIMENSIONS,
     LOADS,
     LIMITS,
+    CONTACTS,
     STATISTICS,
     HISTORIES,
     TRACKS,

@@ -12,6 +12,7 @@ from seacrane.answers.section import compose
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import AXES_NOTE
+from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.result import Result
 
@@ -71,6 +72,7 @@ class Report:
         return path
 
 
+@named
 def report(result: Result, *, title: str | None = None) -> Report:
     """One page about a run: what was lifted and how, the loads, the limits, the numbers, and the checks.
 

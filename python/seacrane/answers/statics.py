@@ -20,6 +20,7 @@ from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
@@ -148,6 +149,7 @@ def _unit(roles: CraneRoles | None, name: str) -> str:
     return "rad" if place is not None and place[1] in ANGLES else "m"
 
 
+@named
 @one_thread
 def statics(
     scene: Description,

@@ -18,10 +18,12 @@ from seacrane.description.suspension import ROD, suspensions
 from seacrane.description.wet_parts import wet_bodies
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 from seacrane.result import Result
+from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
 from seacrane.result.utilisation import Utilisation
 
 if TYPE_CHECKING:
@@ -103,6 +105,8 @@ class Summary(Tabular):
         What limits the numbers: a short record, a transient inside.
     utilisation : Utilisation
         Of the scene's limit states, over the whole run.
+    contacts : ContactLoads
+        Of the scene's contacts, over the whole run.
     """
 
     scene: str
@@ -111,6 +115,7 @@ class Summary(Tabular):
     rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
     utilisation: Utilisation = NO_LIMITS
+    contacts: ContactLoads = NO_CONTACTS
 
     def __iter__(self) -> Iterator[SummaryRow]:
         return iter(self.rows)
@@ -133,13 +138,14 @@ class Summary(Tabular):
         lines = [f"{self.scene}, {self.start:g} to {self.end:g} s"]
         if self.rows:
             lines.append(text_table(HEAD, self._cells(), right=range(2, len(HEAD))))
-        used = ["", str(self.utilisation)] if self.utilisation else []
-        return "\n".join([*lines, *self.notes(), *used])
+        tables = [one for one in (self.contacts, self.utilisation) if one]
+        return "\n".join([*lines, *self.notes(), *(text for one in tables for text in ("", str(one)))])
 
     def _repr_html_(self) -> str:
-        caption = f"{self.scene}, {self.start:g} to {self.end:g} s. {' '.join(self.notes())}"
+        caption = f"{self.scene}, {self.start:g} to {self.end:g} s"
         used = self.utilisation._repr_html_() if self.utilisation else ""
-        return notebook_table(HEAD, self._cells(), caption=caption) + used
+        hit = self.contacts._repr_html_() if self.contacts else ""
+        return notebook_table(HEAD, self._cells(), caption=caption, notes=self.notes()) + hit + used
 
     def html(self) -> str:
         """The table alone, as HTML."""
@@ -196,6 +202,7 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
+@named
 def summary(
     result: Result,
     *,
@@ -249,7 +256,7 @@ def summary(
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
         remarks=(*remarks_on(result, time, inside), *_restless(told), *([WET] if least else [])),
-        utilisation=result.utilisation,
+        utilisation=result.utilisation, contacts=contact_loads(result),
     )  # fmt: skip
 
 
@@ -334,7 +341,17 @@ def _factor(static: float, low: float, high: float) -> float | None:
 def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str]:
     """One sentence each, for the part of a run from the first to the last of `time`."""
     stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
-    return [*stopped, *_short(result, time), *_transient(time, curves)]
+    return [*stopped, *_calm(result), *_short(result, time), *_transient(time, curves)]
+
+
+def _calm(result: Result) -> list[str]:
+    """That nothing of a lift is by waves: of what floats or is wet, and has no sea."""
+    scene = result.scene
+    if scene is None or not (scene.vessels or wet_bodies(scene)):
+        return []
+    if scene.waves is not None and np.any(scene.waves.amplitude):
+        return []
+    return ["Still water: the scene has no sea (add_sea), and nothing here is by waves."]
 
 
 def _short(result: Result, time: Array) -> list[str]:

@@ -11,12 +11,14 @@ import numpy.typing as npt
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.damping import BOX_DRAG, SWING_RATIO
 from seacrane.inputs.checked import not_negative_of, positive_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Payload:
     """A uniform box hanging on a link of constant length from the crane tip, attached at its top's centroid.

@@ -166,7 +166,8 @@ def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
         has = next((of for of, one in _core.LOAD_KINDS.items() if isinstance(held, one)), kind)
         raise SceneError(
             f"{kind} {element.name!r}: the name is used twice: {has} {element.name!r} has it; give this one "
-            "another, or remove that one first (Scene.remove)"
+            "another, or remove that one first (Scene.remove); a cell that is run twice adds it twice: "
+            "run it from Scene() on"
         )
     table[element.name] = element
     return element

@@ -12,6 +12,7 @@ from seacrane.description.description import GROUND, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, shaped_of, text_of
 from seacrane.inputs.frames import axes_across, axes_along, rotation_matrix
+from seacrane.inputs.keywords import nearest
 
 Array = NDArray[np.float64]
 
@@ -136,5 +137,6 @@ def _lengths(kind: _core.JointKind | None) -> list[str]:
 def _misplaced(key: str, kind: str) -> str:
     owners = [name for name, other in _core.joint_kinds().items() if key in _own(other)]
     if not owners:
-        return f"no joint takes {key!r}"
+        near = nearest(key, [one for other in _core.joint_kinds().values() for one in _own(other)])
+        return f"no joint takes {key!r}" + (f" (did you mean {near!r}?)" if near else "")
     return f"{key} belongs to a {' or '.join(owners)} joint, this one is {kind}"

@@ -110,10 +110,17 @@ def _relative(scene: Description, body: str, point: Any) -> list[float]:
 
 
 def box_edges(body: _core.Body) -> list[float]:
-    """Edges of the even box of a body's mass and moments of inertia, m."""
+    """Edges of a body's size, or of the even box of its mass and moments of inertia, m."""
+    if np.any(body.size):
+        return [float(edge) for edge in body.size]
     inertia = np.diag(np.asarray(body.inertia))
     squares = 6.0 * (inertia.sum() - 2.0 * inertia) / body.mass
     return [float(edge) for edge in np.sqrt(np.maximum(squares, 0.0))]
+
+
+def size_of_ship(scene: Description, body: str) -> tuple[float, float]:
+    """Length and breadth of a vessel, m: those given, or what its radii of gyration suggest."""
+    return shown_size(scene, body)[:2] if body in given_vessels(scene) else ship_size(scene.bodies[body])
 
 
 def ship_size(body: _core.Body) -> tuple[float, float]:

@@ -36,14 +36,18 @@ from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.ensembles.variables import NOT_RUN, RESERVED
 from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import not_negative_of, number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
+from seacrane.run.channel_names import require_channels
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.start import REST
 from seacrane.scene.scene import Scene
 from seacrane.statistics.distribution import Distribution, distribution
+from seacrane.warnings import FailedMembersWarning
 
 if TYPE_CHECKING:
     import pandas
@@ -54,6 +58,7 @@ USUAL_END = 100.0  # s
 POOLED = ("seed", START_TIME)
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Ensemble:
     """What the members of an ensemble kept.
@@ -150,6 +155,7 @@ class Ensemble:
         return _ensemble(members, store.dataset(members), lanes_in(data))
 
 
+@named
 def ensemble(
     source: Source,
     *,
@@ -246,6 +252,8 @@ def ensemble(
 
     Warns
     -----
+    FailedMembersWarning
+        Where all members failed.
     FailedSeedsWarning
         Where seeds of an ensemble with `until` failed.
     FewSeedsWarning
@@ -282,6 +290,8 @@ def ensemble(
     for what in wanted.values():
         if isinstance(what, Kept):
             what.require_times(study.t_end, recorded.dt_out)
+    if isinstance(source, Scene):
+        require_channels(source, study.outputs.channels or ())
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = pack_size(pack, len(members), study.lanes, together=len(starts))
@@ -305,10 +315,21 @@ def ensemble(
             packs = Packs(order=order_of(study, members), size=size)
             _run(study, members, packs, kept, executor, raises=raises, progress=progress)
             done = _ensemble(members, kept.dataset(members), study.lanes)
+        _warn_if_all_failed(done)
     if accuracy is None:
         return done
     ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]
     return replace(done, accuracy=checked(study, done.members, accuracy, probes, ran, executor))
+
+
+def _warn_if_all_failed(done: Ensemble) -> None:
+    if len(done.failures) == len(done.members):
+        warn_caller(
+            f"ensemble: all {len(done.members)} members failed, and nothing is kept; the first by "
+            f"{next(iter(done.failures.values()))}. Try what is kept on one result of simulate, or give "
+            'on_error="raise"',
+            FailedMembersWarning,
+        )
 
 
 def _checked_start(start: Any) -> Start:

@@ -9,11 +9,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from seacrane.description.channels import attributes
+from seacrane.description.channels import attributes, unit_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.labelled import Labelled
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, positive_of, text_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 
@@ -33,6 +34,7 @@ TEXTS = {
 }
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Kept:
     """One channel of a run, or a number for it.
@@ -130,7 +132,7 @@ class Kept:
         channel = result.select(self.channel, **self.names)
         dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.names)
         coords = {dim: np.array(result.coords[dim]) for dim in dims[1:]}
-        told = attributes(self.channel)
+        told = attributes(self.channel) | {"units": unit_of(self.channel, self.names.values())}
         part = result.part(after=self.after, stage=self.stage or None)
         time, channel = result.time[part], channel[part]
         if not time.size:

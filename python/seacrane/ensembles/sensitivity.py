@@ -15,6 +15,7 @@ from seacrane.ensembles.members import Value
 from seacrane.ensembles.study import Source
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.plotting.text import text_table
 from seacrane.result import Result
@@ -70,6 +71,7 @@ class Sensitivity:
     __repr__ = __str__
 
 
+@named
 def sensitivity(
     source: Source,
     *,

@@ -51,7 +51,10 @@ def flag_of(what: str, value: Any) -> bool:
 
 
 def number_of(what: str, value: Any) -> float:
-    """A float; not a text that reads like one."""
+    """A float; not a text that reads like one, nor a row of one number."""
+    if getattr(value, "ndim", 0):
+        kind, shape = type(value).__name__, getattr(value, "shape", "")
+        raise SceneError(f"{what} is a {kind} of shape {shape}; give a number: one of its values, not a row")
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError

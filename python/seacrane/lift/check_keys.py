@@ -19,6 +19,8 @@ from seacrane.lift.keys import Key
 from seacrane.lift.tables import CURVES, FROM, TABLES, Table
 from seacrane.lift.text_lines import Place
 
+LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
+AS_NEAR = 0.1  # "see" is as near to "scene" as to "sea"
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 SHIPPED = ("hull_115",)  # databases that come with the package, by their names
 
@@ -227,8 +229,11 @@ def _file(node: Node, folder: Path) -> str:
 
 def nearest(name: str, known: tuple[str, ...]) -> str:
     """What a message adds to an unknown name."""
-    near = difflib.get_close_matches(name[:LONGEST_NAME], known, n=1, cutoff=0.5)
-    return f"nearest: {near[0]}" if near else f"known are {', '.join(known)}"
+    asked = name[:LONGEST_NAME]
+    ratio = {one: difflib.SequenceMatcher(None, one, asked).ratio() for one in known}
+    near = [one for one in known if ratio[one] >= max([*ratio.values(), LEAST + AS_NEAR]) - AS_NEAR]
+    near = sorted(near, key=lambda one: (-ratio[one], abs(len(one) - len(asked))))[:MOST_NEAR]
+    return f"nearest: {' or '.join(near)}" if near else f"known are {', '.join(known)}"
 
 
 def plain(value: Any) -> Any:

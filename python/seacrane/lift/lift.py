@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.keywords import named
 from seacrane.lift.build import made, scene_of
 from seacrane.lift.check_keys import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
@@ -30,6 +31,7 @@ T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 LIFTS = ("case1", "case2", "case3", "vessel")
 
 
+@named
 @dataclass(frozen=True, init=False, eq=False, repr=False)
 class Lift:
     """A lift as tables of keys with units: what `seacrane run my_lift.toml` reads. Immutable.

@@ -25,6 +25,7 @@ from seacrane.ensembles.study import Start
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
@@ -58,6 +59,7 @@ DELAY = 2.0  # s before a progress bar shows
 LARGEST_TURN = 0.2  # rad, of a body: what the linear model says of more is no state to start from
 
 
+@named
 def allowable_hs(
     scene: Scene,
     *,

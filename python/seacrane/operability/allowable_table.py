@@ -166,7 +166,7 @@ class AllowableHs:
         return "\n".join([self._title(), text_table(*self._cells(), right=right), *self._words()])
 
     def _repr_html_(self) -> str:
-        return notebook_table(*self._cells(), caption=" ".join([self._title(), *self._words()]))
+        return notebook_table(*self._cells(), caption=self._title(), notes=self._words())
 
     def _title(self) -> str:
         return f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves"

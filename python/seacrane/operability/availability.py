@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.scatter import ScatterDiagram
@@ -75,6 +76,7 @@ class Availability:
         ]
 
 
+@named
 def availability(allowable: AllowableHs, scatter: ScatterDiagram, *, forecast: bool = True) -> Availability:
     """Find the share of the time in which the lift may go ahead.
 

@@ -11,6 +11,7 @@ from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, text_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.statistics.gaussian import THREE_HOURS
 
@@ -23,6 +24,7 @@ STATISTICS = {
 }
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """What a statistic of a channel may reach.
@@ -101,7 +103,8 @@ class Criterion:
     def _require_bound(self) -> None:
         if (self.maximum is None) == (self.minimum is None):
             raise SceneError(f"criterion {self.name!r}: give maximum or minimum, and not both")
-        if not np.isfinite(number_of(f"criterion {self.name!r}: bound", self.bound)):
+        given = self.minimum if self.maximum is None else self.maximum
+        if not np.isfinite(number_of(f"criterion {self.name!r}: bound", given)):
             raise SceneError(f"criterion {self.name!r}: bound is {self.bound}; give a finite number")
         if not flag_of(f"criterion {self.name!r}: motion", self.motion):
             return

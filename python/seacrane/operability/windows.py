@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
@@ -92,6 +93,7 @@ class WeatherWindows:
         return [*rows, ["all", *(_shown(float(getattr(self, name))) for name in names)]]
 
 
+@named
 def weather_windows(
     hindcast: WaveHindcast,
     allowable: AllowableHs | float,

@@ -13,6 +13,7 @@ from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.page_sea import sea_words
 from seacrane.pictures.pose_curves import Motion
 from seacrane.result import Result
+from seacrane.result.contact_loads import contact_loads
 from seacrane.result.kept_scene import NOT_KEPT
 
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
@@ -53,6 +54,7 @@ def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:
         ("method", _method(result)),
         ("accuracy", _accuracy(result)),
         ("energy balance", _energy(result)),
+        ("contacts", _contacts(result)),
         (
             "shown",
             f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm "
@@ -88,6 +90,14 @@ def _energy(result: Result) -> str:
     balance, work = _largest(result, "energy_balance"), _largest(result, "absolute_work")
     share = f", {balance / work:.2g} of the absolute work {work:.3g} J" if work > 0.0 else ""
     return f"closes to {balance:.2g} J{share}"
+
+
+def _contacts(result: Result) -> str:
+    """How hard and how fast each was hit."""
+    return "; ".join(
+        f"{one.name}: {one.peak / 1e3:.1f} kN at most, {one.speed:.3g} m/s, {one.rehits} re-hits"
+        for one in contact_loads(result)
+    )
 
 
 def _largest(result: Result, channel: str) -> float:

@@ -20,6 +20,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.inputs.shown import shown
+from seacrane.pictures.contact_surfaces import surfaces_of_contacts
 from seacrane.pictures.drawn_bodies import Look, looks
 from seacrane.pictures.pose_curves import Motion, motion_of
 from seacrane.pictures.wheels import Wheel, wheels_of
@@ -57,8 +58,9 @@ class Drawing:
 
     @cached_property
     def wheels(self) -> list[Wheel]:
-        """Sheaves and drums."""
-        return wheels_of(self.scene, self.result, self.motion)
+        """Sheaves and drums, and what contacts press on."""
+        turning = wheels_of(self.scene, self.result, self.motion)
+        return [*turning, *surfaces_of_contacts(self.scene, self.motion)]
 
     @cached_property
     def tracks(self) -> list[dict[str, Any]]:

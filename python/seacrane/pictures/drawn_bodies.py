@@ -175,12 +175,16 @@ def _is_shipped(scene: Description, name: str) -> bool:
 
 
 def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
-    """Tubes between the points at which other bodies take hold of it; with fewer than two, a box.
+    """The box of its size; else tubes between the points at which other bodies take hold of it, or a box.
 
     And its parts in the water.
     """
     body, wet = scene.bodies[name], wet_shapes(scene, name)
     more = " and its parts in water" if wet else ""
+    if np.any(body.size):
+        at = -np.asarray(body.center_of_mass, dtype=float)
+        sized = BoxShape(centre=at, axes=np.eye(3), size=np.maximum(body.size, SMALLEST * extent))
+        return Look(role=role, shapes=[sized, *wet], note=f"the box of its size{more}")
     points = distinct([point - np.asarray(body.center_of_mass) for point in body_points(scene, name)])
     span = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if role != "payload" and len(points) > 1 and span > SMALLEST * extent:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import AXES_NOTE
+from seacrane.inputs.keywords import named
 from seacrane.plotting.panel import Panel, Sheet, draw
 from seacrane.result import Result
 from seacrane.result.history import axes_note, marks_of, panels_of, title_of
@@ -98,6 +99,7 @@ def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> lis
     ]
 
 
+@named
 def plot_overview(result: Result) -> Figure:
     """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
 

@@ -25,6 +25,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import flag_of, number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.inputs.shown import shown
 from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
@@ -133,6 +134,7 @@ def _written(path: str | os.PathLike[str], data: bytes, overwrite: bool | None, 
     return path
 
 
+@named
 def view(
     what: Result | Scene,
     *,

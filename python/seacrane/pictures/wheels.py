@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ from seacrane.description.line_path import Array, described_poses, laid
 from seacrane.description.loads import lines_of, winch_of
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import Motion, linear_rows
-from seacrane.pictures.shapes import TubeShape, plain
+from seacrane.pictures.shapes import Shape, TubeShape, plain
 from seacrane.pictures.wires import end_of
 from seacrane.result import Result
 
@@ -26,14 +27,14 @@ BARREL, FLANGE_WIDTH, FLANGE, MARK = 1.8, 0.1, 1.3, 0.08
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Wheel:
-    """A sheave or a drum on its body.
+    """A sheave or a drum on its body; or a surface of a contact, which does not turn.
 
     Attributes
     ----------
     name : Such as "hoist sheave 1" or "hoist drum".
     at : Its centre, as the end of a wire.
     axis : (3,) Of length one, body axes.
-    kind : "sheave" or "drum".
+    kind : "sheave", "drum" or "surface".
     shapes : Relative to the centre, body axes.
     angle : ndarray, shape (frames,), or None
         By which it has turned about its axis, rad; None for what stands still on its body.
@@ -43,13 +44,15 @@ class Wheel:
     at: list[float]
     axis: Array
     kind: str
-    shapes: list[TubeShape]
+    shapes: Sequence[Shape]
     angle: Array | None = None
 
     @property
     def reach(self) -> float:
         """How far from its centre it goes, m."""
-        return float(max(np.linalg.norm(one.points, axis=1).max() + one.radius for one in self.shapes))
+        radii = [one.radius if isinstance(one, TubeShape) else 0.0 for one in self.shapes]
+        far = [float(np.linalg.norm(one.points, axis=1).max()) for one in self.shapes]
+        return max(map(sum, zip(far, radii, strict=True)))
 
     @property
     def look(self) -> Look:

@@ -43,6 +43,9 @@ def table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = 
     return f"<table{kind}>{above}{top}<tbody>\n{lines}\n</tbody></table>"
 
 
-def notebook_table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str) -> str:
-    """A table for an output cell, whose own style would set texts to the right."""
-    return f'<div class="seacrane"><style>{NOTEBOOK}</style>{table(head, rows, caption=caption)}</div>'
+def notebook_table(
+    head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str, notes: Iterable[str] = ()
+) -> str:
+    """A table for an output cell, whose own style would set texts to the right, and notes, each by itself."""
+    below = "".join(f"<p>{escape(one)}</p>" for one in notes)
+    return f'<div class="seacrane"><style>{NOTEBOOK}</style>{table(head, rows, caption=caption)}{below}</div>'

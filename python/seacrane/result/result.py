@@ -18,6 +18,7 @@ from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import on_body
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.keywords import named
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_to_bytes
@@ -56,6 +57,7 @@ def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
     return {name: CHANNELS[name].dims_of(array.ndim) for name, array in channels.items()}
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result(Mapping[str, Array]):
     """What one run recorded, a mapping of its channels by name.

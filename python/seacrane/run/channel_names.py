@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence, Set
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,8 @@ from seacrane.analysis.least_pulls import least_pulls, weighed_suspensions
 from seacrane.description.body_motion import position_of
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.clearances import Clearance, distance_from_box
-from seacrane.description.crane_parts import cylinders, piston_areas, slews, tips
+from seacrane.description.compilation import compile_scene
+from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import winches_of
@@ -20,10 +22,13 @@ from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.description.wet_parts import immersed_depths, wet_names
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import silently
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.run.hanging import (
     lead_angles,
     on_cranes,
+    rated_hooks,
+    slewing_hooks,
     sling_angles,
     swings,
     tip_velocities,
@@ -41,14 +46,16 @@ Array = NDArray[np.float64]
 NEEDED = ("position", "quaternion")
 
 
-def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
+def core_channels(scene: Description, wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     """The core's channels that the wanted ones are made of; raises SceneError for an unknown name."""
     made_of: set[str] = set()
     for name in wanted:
         made_from = DERIVED[name].made_of if name in DERIVED else (name,)
         sources = [source for source in made_from if source in known]
         if not sources:
-            possible = [crane for crane, channel in DERIVED.items() if set(channel.made_of) & set(known)]
+            missing = missing_names(scene, DERIVED)
+            derived = [one for one, channel in DERIVED.items() if set(channel.made_of) & set(known)]
+            possible = [one for one in derived if one not in missing]
             raise SceneError(
                 f"channel {name!r} is unknown to this scene; it offers: {', '.join([*known, *possible])}"
             )
@@ -88,10 +95,11 @@ def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, 
     wanted = with_sources(scene, usual if asked is None else asked)
     if "slack_margin" in wanted:
         least_pulls(scene)  # before the run: what comes to no rest is refused
-    return core_channels(wanted, model.channel_names(defaults_only=False))
+    return core_channels(scene, wanted, model.channel_names(defaults_only=False))
 
 
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
+    "cylinder": "a crane with cylinders: add_crane, or name them by add_roles(cylinders=...)",
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
     "weighed": "a link, a wire or lines that carry a load which nothing else holds: add one",
@@ -101,21 +109,54 @@ NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "expression": "an expression: add_channel one",
     "winch": "a line on a winch: add_winch one",
 }
+_SLEW = "a slew drive: add_crane, or name it by add_roles(slew=...)"
+_HOOK = "a load on a crane: add_hoist one, or name link or line by add_roles"
+PARTS: Mapping[str, tuple[Callable[[Description], Any], str]] = {  # of those that have no names where one is
+    "slew_angle": (slews, _SLEW),
+    "slew_torque": (slews, _SLEW),
+    "tip_velocity": (tips, "the tip of a crane: add_crane, or name it by add_roles(tip=...)"),
+    "link_tension": (hooks, "a link on a crane: name a distance joint by add_roles(link=...)"),
+    "swing": (on_cranes, _HOOK),
+    "offlead": (slewing_hooks, f"{_HOOK}, on a crane with a tip and a slew drive"),
+    "sidelead": (slewing_hooks, f"{_HOOK}, on a crane with a tip and a slew drive"),
+    "utilisation": (rated_hooks, f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table"),
+}
+
+
+def require_channels(scene: Description, wanted: Iterable[str]) -> None:
+    """SceneError for channels that a scene has at no time, and for those of its limit states.
+
+    Of a scene that cannot be compiled as it is described, those that Python derives are known.
+    """
+    limits, asked = [state.channel for state in scene.limit_states.values()], list(wanted)
+    require_names(scene, [*asked, *limits])
+    if all(name in CHANNELS and "body" in CHANNELS[name].dims for name in asked):  # what has bodies has these
+        return
+    known = list(CHANNELS)
+    with suppress(SceneError), silently():
+        known = compile_scene(scene).channel_names(defaults_only=False)
+    core_channels(scene, with_sources(scene, asked), known)
 
 
 def require_names(scene: Description, wanted: Iterable[str]) -> None:
     """SceneError where nothing in the scene has a derived channel that is asked for."""
-    for channel, need in missing_names(scene, wanted).items():
+    asked = list(wanted)
+    for channel, need in missing_names(scene, [*asked, *with_sources(scene, asked)]).items():
         raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {need}")
 
 
 def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
     """What derived channels that nothing in the scene has: what each needs."""
     names = derived_coords(scene)
-    dims = {channel: CHANNELS[channel].dims for channel in wanted if channel in DERIVED}
-    return {
-        channel: NEEDS[dim] for channel, own in dims.items() for dim in own if dim in NEEDS and not names[dim]
+    derived = [channel for channel in wanted if channel in DERIVED]
+    unnamed = {
+        channel: NEEDS[dim]
+        for channel in derived
+        for dim in CHANNELS[channel].dims
+        if dim in NEEDS and not names[dim]
     }
+    parts = {channel: PARTS[channel] for channel in derived if channel in PARTS}
+    return unnamed | {channel: need for channel, (there, need) in parts.items() if not there(scene)}
 
 
 @once
@@ -124,9 +165,10 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
     known = model.channel_names(defaults_only=False)
     axes = {**all_names(scene, model), **FIXED}
     require_own(scene, axes)
+    require_names(scene, [OWN] if scene.channels else [])
     for name, state in scene.limit_states.items():
         try:
-            core_channels(with_sources(scene, [state.channel]), known)
+            core_channels(scene, with_sources(scene, [state.channel]), known)
             require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error

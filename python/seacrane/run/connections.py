@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from seacrane.description.channels import NAMED
@@ -11,6 +11,7 @@ from seacrane.description.loads import named
 from seacrane.description.own_channels import picks
 from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
+from seacrane.run.channel_names import missing_names
 from seacrane.scene.scene import Scene
 
 TABLES = ("joints", "drivers", *LOADS)
@@ -35,8 +36,8 @@ def table_of(scene: Scene, what: str, name: str) -> str:
     return found[0]
 
 
-def without(scene: Some, names: Iterable[str]) -> Some:
-    """The scene without these connections, and without what acts on or records joints among them."""
+def without(scene: Some, names: Collection[str]) -> Some:
+    """The scene without these connections, and without what acts on, records or limits them alone."""
     out = scene.copy()
     for name in names:
         joint = name in out.joints
@@ -51,6 +52,10 @@ def without(scene: Some, names: Iterable[str]) -> Some:
             _forget(out, name)
         for channel in [key for key, curves in picks(out).items() if _told_of(curves, name)]:
             del out.channels[channel]
+    states = out.limit_states
+    for one in missing_names(out, [state.channel for state in states.values()]) if names else ():
+        for state in [key for key, state in states.items() if state.channel == one]:
+            del states[state]
     return out
 
 

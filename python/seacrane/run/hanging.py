@@ -81,7 +81,7 @@ def utilisations(scene: Description, arrays: Mapping[str, Array], loads: Array) 
     NaN of a crane without a table; infinite beyond its last radius. None where no crane has one.
     """
     every, names = on_cranes(scene), names_of_suspensions(scene)
-    if not all(name in arrays for name in POSE) or not any(_rated(one.crane) for one in every):
+    if not all(name in arrays for name in POSE) or not rated_hooks(scene):
         return None
     return np.stack(
         [_utilisation(scene, arrays, one, loads[:, names.index(one.suspension.channel)]) for one in every],
@@ -110,6 +110,16 @@ def swing_of(hang: Array) -> Array:
 def on_cranes(scene: Description) -> list[Hung]:
     """What hangs on the cranes, in their order."""
     return [one for one in hung_loads(scene) if one.crane is not None]
+
+
+def rated_hooks(scene: Description) -> list[Hung]:
+    """Those on cranes whose capacity is known."""
+    return [one for one in on_cranes(scene) if _rated(one.crane)]
+
+
+def slewing_hooks(scene: Description) -> list[Hung]:
+    """Those on cranes that slew."""
+    return [one for one in on_cranes(scene) if _slews(scene, one.crane)]
 
 
 def _slews(scene: Description, crane: CraneRoles | None) -> bool:

@@ -9,12 +9,14 @@ from typing import Any
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 
 DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE = "dopri5", 1e-6
 LARGEST_TOLERANCE = 0.1
 FORMULATIONS = ("auto", "recursive", "redundant")
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Method:
     """How a scene is stepped: integrator, tolerance or step, formulation. What is None is the default.

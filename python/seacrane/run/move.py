@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from seacrane._core import Curve
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of
+from seacrane.inputs.keywords import named
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Move:
     """A smooth way of a commanded value from where it is to another, held from there on.

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 
 DEFAULT_INTERVAL = 0.1  # s
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Outputs:
     """What a run records, and how often.

@@ -25,6 +25,7 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
+from seacrane.inputs.keywords import named
 from seacrane.result.about import About
 from seacrane.result.checked_parts import plain_stats
 from seacrane.result.events import Event
@@ -55,7 +56,7 @@ from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.own import own_values, with_sources
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.start import Start, start_state
+from seacrane.run.start import REST, Start, start_state
 from seacrane.run.stats import (
     about_of,
     lasting_stats,
@@ -78,6 +79,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+@named
 class Run:
     """One run of a compiled scene, to be advanced piece by piece.
 
@@ -144,7 +146,7 @@ class Run:
         scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled
-        self.described = start is None
+        self.described, begins = start is None, start is None or (isinstance(start, str) and start == REST)
         self.rungs = self._chosen_rungs(model)
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
@@ -152,7 +154,7 @@ class Run:
         self._warned = dict(self.scene.warned)
         with keeping(self._warned):
             check_references(self.scene, self.model, start=begin, end=end, described=described)
-            warn_of_description(self.scene, start=begin, end=end, described=described)
+            warn_of_description(self.scene, start=begin, end=end, described=described, begins=begins)
             if begin == 0.0:
                 warn_of_quasi_static(self._given, self.model, end=end)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import positive_of
+from seacrane.inputs.keywords import named
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class SampledController:
     """A Python controller called at its own period, between integration steps.

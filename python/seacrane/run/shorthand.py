@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypedDict
 
-from seacrane.errors import SceneError
+from seacrane.errors import KeywordError, SceneError
+from seacrane.inputs.keywords import no_keyword
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 
@@ -39,13 +40,15 @@ def settled(
     SceneError
         For an object of another type, a value that makes no sense, or a word beside the object that it
         contradicts.
-    TypeError
+    KeywordError
         For a word that is none.
     """
     for word in shorthand:
         if word not in METHOD_WORDS and word not in OUTPUT_WORDS:
-            known = ", ".join([*METHOD_WORDS, *OUTPUT_WORDS])
-            raise TypeError(f"unexpected keyword argument {word!r}; settings are method, outputs, {known}")
+            known = ["method", "outputs", *METHOD_WORDS, *OUTPUT_WORDS]
+            error = KeywordError(f"settings: {no_keyword(word, shorthand[word], known)}")
+            error.known = (*METHOD_WORDS, *OUTPUT_WORDS)
+            raise error
     return (
         _settled("method", Method, method, METHOD_WORDS, shorthand),
         _settled("outputs", Outputs, outputs, OUTPUT_WORDS, shorthand),

@@ -9,11 +9,13 @@ from typing import Any
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, positive_of, texts_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.commands import Command
 from seacrane.run.until import Condition, Contact, Level
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Stage:
     """One part of a lift: what is connected and released as it begins, commanded during it, and ends it.

@@ -14,8 +14,9 @@ from seacrane.description.given import in_calm_water
 from seacrane.description.holding import decided
 from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError, SimulationError
-from seacrane.inputs.caller import silently
+from seacrane.inputs.caller import keeping, silently
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -23,6 +24,7 @@ from seacrane.run.alike_stages import AlikeStages, Key
 from seacrane.run.before import Begin, There, rest_after
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import compiled_there, lifted_seats, redescribed
+from seacrane.run.channel_names import require_channels
 from seacrane.run.commands import commanded
 from seacrane.run.connections import without
 from seacrane.run.controller_calls import Calls
@@ -41,6 +43,7 @@ from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
+from seacrane.validity.implausible import warn_of_description
 from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.validity.line_checks import warn_of_connected
 
@@ -101,16 +104,21 @@ class StagedRun:
         begin: Start = REST if start is None and first is not None else start
         if count:
             there = start if isinstance(start, _core.State) else None
-            calm = StagedRun(
-                in_calm_water(scene), every, start=start if there is None else None, method=self.method,
-                outputs=Outputs(dt_out=self.outputs.dt_out, channels=()), controllers=controllers,
-            )  # fmt: skip
+            with silently():  # of what the lift itself tells
+                calm = StagedRun(
+                    in_calm_water(scene), every, start=start if there is None else None, method=self.method,
+                    outputs=Outputs(dt_out=self.outputs.dt_out, channels=()), controllers=controllers,
+                )  # fmt: skip
             rest = rest_after(calm.carried_to(count), self.stages, scene, there)
             self._whole, begin = rest.scene, rest.state
+        require_channels(self._whole, self.outputs.channels or ())
         self._absent = waiting(self.stages)
         self._scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
+        if not self._shares or self._alike.model is None:
+            time = begin.time if isinstance(begin, _core.State) else 0.0
+            self._warn_of_description(time, start, begins=first is None)
         self._model = compiled_there(self._scene) if count else self._first_model()
         begin = start_state(self._scene, begin)
         self._state = _core.initial_state(self._model) if begin is None else begin
@@ -129,6 +137,15 @@ class StagedRun:
         self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
+
+    def _warn_of_description(self, begin: float, start: Any, *, begins: bool) -> None:
+        """What `simulate` tells of a scene: what is said of the pose is of what is there then."""
+        end = begin + sum(one.duration or one.maximum_duration or 0.0 for one in self.stages)
+        whole, there = self._whole, without(self._whole, self._absent)
+        begins = begins and (start is None or (isinstance(start, str) and start == REST))
+        with keeping(whole.warned):
+            warn_of_description(whole, start=begin, end=end, described=False, begins=begins)
+            warn_of_description(there, start=begin, end=end, described=begins and start is None, begins=False)
 
     def __repr__(self) -> str:
         done = f"{len(self._spans)} of {len(self.stages)} stages"
@@ -435,6 +452,7 @@ def _loads(scene: Scene) -> set[str]:
     return {name for table in LOADS for name in getattr(scene, table)}
 
 
+@named
 def simulate_stages(
     scene: Scene,
     stages: Sequence[Stage],

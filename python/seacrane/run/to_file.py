@@ -15,6 +15,7 @@ import numpy as np
 from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.result.about import About
@@ -71,6 +72,7 @@ class StreamedResult:
         return Result.load(self.path, channels=channels)
 
 
+@named
 def simulate_to_file(
     scene: Scene,
     path: str | os.PathLike[str],

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, FIXED
+from seacrane.description.channels import CHANNELS, FIXED, unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
+from seacrane.inputs.keywords import named
 from seacrane.run.channel_names import all_names
 from seacrane.run.run import Run
 
@@ -43,7 +44,7 @@ class Level:
     def text(self) -> str:
         """The condition in words."""
         of = "".join(f" of {name!r}" for _, name in self.names)
-        unit = CHANNELS[self.channel].unit
+        unit = unit_of(self.channel, [name for _, name in self.names])
         return f"{self.channel}{of} {'above' if self.above else 'below'} {self.value:.6g} {unit}"
 
     def excess(self, series: Any) -> Any:
@@ -106,6 +107,7 @@ def names_along(run: Run) -> dict[str, tuple[str, ...]]:
     return {dim: tuple(names) for dim, names in known.items()}
 
 
+@named
 class Until:
     """What ends a stage. Each of these makes a condition for `Stage(until=...)`.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
+from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, rows_of, shaped_of, text_of
@@ -159,7 +160,11 @@ def add_seabed(
 
 
 def _mass(scene: Description, body: str, on: str) -> float:
-    return float((scene.bodies[body] if body in scene.bodies else scene.bodies[on]).mass)
+    """Of the body whose points they are; of the other where it is the ground, or a light one that stands for
+    a ship whose motion is given."""
+    known = [one for one in (body, on) if one in scene.bodies]
+    heavy = [one for one in known if one not in given_vessels(scene)]
+    return float(scene.bodies[[*heavy, *known][0]].mass)
 
 
 def _extent(what: str, surface: str, size: Any) -> Array:

@@ -32,6 +32,7 @@ from seacrane.inputs.checked import (
     text_of,
 )
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
 from seacrane.scene.bridles import add_bridle
@@ -48,6 +49,7 @@ OF_A_WIRE = tuple(key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,
 WIRE_KEYS = ("settling", "damping_ratio", *OF_A_WIRE)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Slings:
     """Slings from a block to a load, alike: from one point to points of the load.
@@ -246,7 +248,7 @@ def add_hoist(
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
         if winch is not False:
-            add_winch(scene, name, **drive)
+            named(add_winch, owners=1)(scene, name, **drive)
         if rig is not None:
             _sling(scene, name, hook[0], load, rig, standing=on is not None)
         if flag_of(f"{what}: damping", damping):
@@ -281,11 +283,13 @@ def _crane(scene: Description, what: str, crane: CraneRoles | str | None) -> Cra
     roles = scene.roles[prefix]
     if roles.tip is None:
         raise SceneError(f"{what}: crane {prefix!r} has no tip; give it one by add_roles")
-    if roles.payload is not None:
-        raise SceneError(
-            f"{what}: body {roles.payload!r} hangs on crane {prefix!r} already; add the crane without payload"
-        )
-    return roles
+    if roles.payload is None:
+        return roles
+    which = f"crane {prefix!r}" if prefix else "the crane"
+    fix = "give this one to another crane. A cell that is run twice adds it twice: run it from Scene() on"
+    if roles.line is None and f"{prefix}hook" not in scene.points:  # no hoist, but a Payload
+        fix = "add the crane without payload"
+    raise SceneError(f"{what}: body {roles.payload!r} hangs on {which} already; {fix}")
 
 
 @contextmanager

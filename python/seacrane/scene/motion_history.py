@@ -17,6 +17,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import rows_of, text_of, vector_of
 from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.keywords import named
 from seacrane.scene.recorded_motion import recorded_motion
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
@@ -32,7 +33,8 @@ LEAST_SHARE = 0.1  # of the acceleration's energy, of what is faster
 ARM = 30.0  # m
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@named
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MotionHistory:
     """Six motions of a ship's reference point over time, as the channel `vessel_motion` records them.
 
@@ -63,6 +65,13 @@ class MotionHistory:
     time: Any
     motion: Any
     record: str = ""
+
+    def __repr__(self) -> str:
+        most = np.abs(self.motion).max(axis=0)
+        return (
+            f"<MotionHistory: {self.time.size} samples, {self.time[0]:g} to {self.time[-1]:g} s, heave to "
+            f"{most[2]:.3g} m, roll to {np.degrees(most[3]):.3g} deg, pitch to {np.degrees(most[4]):.3g} deg>"
+        )
 
     def __post_init__(self) -> None:
         time = np.array(vector_of("motion history: time", self.time))

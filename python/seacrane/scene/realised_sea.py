@@ -13,12 +13,11 @@ from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import number_of, text_of
 from seacrane.sea import Current, SeaState, Spreading, WaveSystem, cos_2s, jonswap
 from seacrane.warnings import BlockedWavesWarning, UnitWarning
 
 DEFAULTS: dict[str, Any] = {
-    "hs": 2.0,
     "tp": 8.0,
     "gamma": 3.3,
     "spectrum": "jonswap",
@@ -135,7 +134,7 @@ def _warn_of_period(tp: float) -> None:
 
 def spectrum_named(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
     """One of SPECTRA; only "jonswap" takes gamma. Raises SceneError."""
-    if name == "jonswap":
+    if text_of("sea: spectrum", name) == "jonswap":
         return jonswap(hs=hs, tp=tp, gamma=gamma)
     if name == "pierson-moskowitz":
         return _core.pierson_moskowitz(hs=hs, tp=tp)

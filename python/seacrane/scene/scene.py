@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from textwrap import wrap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
@@ -31,6 +31,7 @@ from seacrane.description import (
 )
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
+from seacrane.inputs.keywords import named, no_attribute
 from seacrane.plotting.html import notebook_table
 from seacrane.scene import (
     bridles,
@@ -81,6 +82,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     return compilation.compile_scene(scene, merge=merge)
 
 
+@named
 class Scene(Description):
     """Bodies, joints and loads by name; every `add_` method checks and returns the element it adds.
 
@@ -188,6 +190,11 @@ class Scene(Description):
 
     def _repr_html_(self) -> str:
         return as_html(self)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute(self, name)
 
     def report(self) -> dict[str, list[tuple[str, Any]]]:
         """What the compiled model holds: {section: [(name, value), ...]}."""

@@ -21,7 +21,7 @@ from seacrane.hydro.data.excitation import force_at
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.inputs.caller import tell, warn_caller
-from seacrane.inputs.checked import flag_of, shaped_of
+from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
@@ -78,9 +78,11 @@ def add_sea(
     ----------
     vessel : str or None
         Body of the vessel. None puts no vessel into it: a sea for what looks at it by itself.
-    hs, tp : float
-        Significant wave height (default 2 m) and peak period (8 s). 0 leaves the sea out; with a current it
-        is still water that flows.
+    hs : float
+        Significant wave height, m; needed but with `sea`, or for one more vessel. 0 leaves the sea out; with
+        a current it is still water that flows.
+    tp : float
+        Peak period, s; default 8.
     gamma : float or "dnv"
         Peak enhancement of JONSWAP, 1 to 7 (3.3), or by DNV-RP-C205.
     spectrum : str
@@ -120,12 +122,14 @@ def add_sea(
     Returns
     -------
     Waves or None
-        `scene.waves`; None for an hs of 0. A direction or gamma that is not given is told on the terminal.
+        `scene.waves`; None for an hs of 0. A period, direction or gamma that is not given is told on the
+        terminal.
 
     Raises
     ------
     SceneError
-        For a value out of range, `sea` beside what it replaces, a second sea, a vessel that is not there, or
+        For a sea without hs, a value out of range, `sea` beside what it replaces, a second sea, a vessel that
+        is not there, or
         a sea whose waves have another length at its depth than at the database's.
 
     Warns
@@ -146,14 +150,16 @@ def add_sea(
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
     given = {name: value for name, value in arguments.items() if value is not None}
-    if phase not in ("mean", "slow", "actual"):
+    if vessel is not None:
+        text_of("sea: vessel", vessel)
+    if text_of("sea: phase", phase) not in ("mean", "slow", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
     if current is not None and not isinstance(current, Current):
         raise SceneError(f"sea: current is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
-    if sea is None and given.get("hs") == 0.0:
+    if sea is None and (given or scene.waves is None) and number_of("sea: hs", _known(hs)) == 0.0:
         depth = float("inf") if vessel not in scene.bodies else _depth_of(source_of(scene, str(vessel)))
         scene.waves = None if current is None else flowing_water(current, depth, stretching or STRETCHING[0])
         return scene.waves
@@ -197,13 +203,26 @@ def add_sea(
     return scene.waves
 
 
+def _known(hs: Any) -> Any:
+    """The height of a sea; SceneError where it is not given."""
+    if hs is None:
+        raise SceneError(
+            "sea: hs is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
+            "leave out all that describes a sea to put a vessel into the one that is there"
+        )
+    return hs
+
+
 def _tell_assumed(given: dict[str, Any]) -> None:
-    """The direction of a sea that was given without it, and the peakedness where that is left out too."""
-    if "direction_deg" in given:
-        return
-    peaked = given.get("spectrum", "jonswap") == "jonswap" and "gamma" not in given
-    told = "direction_deg=135 and gamma=3.3" if peaked else "direction_deg=135"
-    tell(f"sea: {told} assumed (135 deg: from the starboard bow)")
+    """The period and the direction of a sea that was given without, and with the latter the peakedness."""
+    assumed = [] if "tp" in given else ["tp=8"]
+    from_where = ""
+    if "direction_deg" not in given:
+        peaked = given.get("spectrum", "jonswap") == "jonswap" and "gamma" not in given
+        assumed += ["direction_deg=135", *(["gamma=3.3"] if peaked else [])]
+        from_where = " (135 deg: from the starboard bow)"
+    if assumed:
+        tell(f"sea: {' and '.join(assumed)} assumed{from_where}")
 
 
 def _sea_of(
@@ -266,6 +285,8 @@ def _evaluated(waves: Waves, **given: Any) -> Waves:
     """With the settings given; vessels of one sea share them."""
     given = {name: value for name, value in given.items() if value is not None}
     for name, value in given.items():
+        checked = number_of if name == "relative_bound" else text_of
+        checked(f"sea: {name}", value)
         if waves.hulls and value != getattr(waves, name):
             raise SceneError(
                 f"sea: {name} is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "

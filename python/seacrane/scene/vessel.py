@@ -20,6 +20,7 @@ from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 from seacrane.hydro.memory.retardation import retardation_functions
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring, without_rounding
@@ -139,7 +140,9 @@ def add_vessel(
         return add_hydrodynamics(scene, body=body, name=name, database=database, **_buoyant(hydrodynamics))
     if body is not None:
         raise SceneError(f"vessel: body {body!r} is given beside a database, which brings its own; use name=")
-    return _from_database(scene, database, name="vessel" if name is None else name, **hydrodynamics)
+    return named(_from_database, "add_vessel", owners=1)(
+        scene, database, name="vessel" if name is None else name, **hydrodynamics
+    )
 
 
 def _buoyant(hydrodynamics: dict[str, Any]) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from seacrane.inputs.checked import (
     text_of,
     vector_of,
 )
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.warnings import DoubleCountedDampingWarning
 from seacrane.water.density import SEA_WATER
@@ -33,6 +34,7 @@ PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FlowCoefficients:
     """Load coefficients of wind or current over the angle of the flow relative to the vessel.

@@ -11,10 +11,12 @@ from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import numbers_of
+from seacrane.inputs.keywords import named
 
 Array = NDArray[np.float64]
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Current:
     """Steady horizontal current over depth, the same at every place.

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.sea.measured import MeasuredWaves
@@ -25,6 +26,7 @@ MOST_COMPONENTS = 1_000_000
 DIRECTION_STREAM = 2  # of the three Philox streams of each system
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class WaveSystem:
     """Waves of one spectrum about one direction.
@@ -145,6 +147,7 @@ class RealisedSea:
         return float(self.waves.mean_period)
 
 
+@named
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SeaState:
     """A sea as the sum of wave systems, independent of each other; immutable.

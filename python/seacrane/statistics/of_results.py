@@ -13,6 +13,7 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
+from seacrane.inputs.keywords import named
 from seacrane.result import Result
 from seacrane.statistics.gaussian import THREE_HOURS
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -24,6 +25,7 @@ Array = NDArray[np.float64]
 EVEN = 1e-6  # of a step by which output times may be uneven
 
 
+@named
 def extremes(
     result: Result | Iterable[Result],
     *,

@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane.accuracy.quantities import Quantity, limits_of, quantities_of
+from seacrane.description.description import Description
 from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -225,6 +227,7 @@ class Trade:
             self.plot().savefig(draft, format="png", dpi=110)
 
 
+@named
 def trade(
     scene: Scene,
     t_end: float = 100.0,
@@ -272,6 +275,8 @@ def trade(
         For an unknown quantity, or a scene of which no two tight runs work.
     """
     _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
+    if not isinstance(scene, Description):
+        raise SceneError(f"trade: scene is {shown(scene)}; give a Scene, such as seacrane.cases.case2()")
     case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out)
     measured = quantities_of(scene, case.model, quantities)
     metadata = {

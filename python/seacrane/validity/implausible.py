@@ -43,20 +43,26 @@ WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or
 
 
 @once
-def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:
-    """All that a scene tells by itself, from `start` to `end` (s); `described`: from its described pose."""
+def warn_of_description(
+    scene: Description, *, start: float, end: float, described: bool, begins: bool
+) -> None:
+    """All that a scene tells by itself, from `start` to `end` (s).
+
+    `described`: from its described pose; `begins`: from there or from its state at rest, not further on.
+    """
     _warn_of_angles(scene, start, end)
     _warn_of_winds(scene)
     _warn_of_masses(scene)
-    if described:
-        warn_of_units(scene, start, end)
+    if begins:
+        warn_of_units(scene, start, end, described=described)
         warn_of_free_cranes(scene)
-        _warn_of_ballast(scene)
-        warn_of_capsize(scene)
         warn_of_loads_in_hulls(scene)
-        warn_of_line_starts(scene)
         warn_of_parts_near_hulls(scene)
         warn_of_drag_axes(scene)
+    if described:
+        _warn_of_ballast(scene)
+        warn_of_capsize(scene)
+        warn_of_line_starts(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:

@@ -8,19 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.description.capacity import allowed_at
 from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
-from seacrane.description.outline import box_edges, ship_size
+from seacrane.description.outline import box_edges, size_of_ship
+from seacrane.description.places import place_of
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below, hung_loads, suspensions, weights_on
 from seacrane.description.wet_parts import carried_by_water
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, OverloadWarning
+from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckWarning, OverloadWarning
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.description.description import Description
     from seacrane.description.roles import CraneRoles
 
@@ -30,6 +31,10 @@ Finding = tuple[type[Warning], str]
 _Place = tuple[str, Any]  # a body and a point in its coordinates, m
 LARGEST_SWING = np.radians(20.0)
 CLEAR = 0.01  # m of a load below a deck on which it stands
+PEDESTAL = 3.0  # m from the deck on which a load stands up to where a crane's lowest joint may be
+STANDS = 0.5  # m over a plane, below which a load is described as standing on it
+LEVEL = 0.9  # cosine, from which a plane is a deck
+ASIDE = 1.1  # times a hull's half size, up to which a load may stand on what sticks out
 WATER = 1025.0  # kg/m3
 BLOCK = 0.7  # of a hull: its volume over that of the box around it
 
@@ -106,7 +111,13 @@ def _rated(scene: Description, roles: CraneRoles) -> bool:
 
 @once_in_any_sea
 def warn_of_loads_in_hulls(scene: Description) -> None:
-    """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel."""
+    """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel.
+
+    And of those that stand on a deck where there is none: beside the hull, or beside a body of known size.
+    """
+    standing = {joint.second: joint.first for joint in _seats(scene)}
+    for body, support in [*standing.items(), *_on_planes(scene)]:
+        _warn_of_no_deck(scene, body, support)
     for one in hung_loads(scene):
         load = scene.bodies[one.load]
         for vessel in scene.vessels.values():
@@ -114,11 +125,12 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
             if load is hull:
                 continue
             centre, half = _inside(hull, load)
-            length, breadth = ship_size(hull)
+            length, breadth = size_of_ship(scene, vessel.body)
+            clear = PEDESTAL if standing.get(one.load) == vessel.body else CLEAR
             deck = _deck(scene, vessel.body)
             keel = -hull.mass / (WATER * BLOCK * length * breadth)
             across = abs(centre[0]) < 0.5 * length and abs(centre[1]) < 0.5 * breadth
-            if across and centre[2] - half < deck - CLEAR and centre[2] + half > keel:
+            if across and centre[2] - half < deck - clear and centre[2] + half > keel:
                 warn_caller(
                     f"body {one.load!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
                     f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
@@ -127,6 +139,42 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
                     "load is lowered",
                     LoadInHullWarning,
                 )
+
+
+def _seats(scene: Description) -> list[_core.Joint]:
+    """Welds that hold only what stands on a body."""
+    seats = [load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"]
+    return [scene.joints[name] for name in seats if scene.joints[name].first in scene.bodies]
+
+
+def _on_planes(scene: Description) -> Iterator[tuple[str, str]]:
+    """Bodies whose lowest points stand, as described, on a level plane of another, and that one."""
+    for contact in scene.loads.values():
+        if not isinstance(contact, _core.Contact) or contact.surface != "plane":
+            continue
+        if not {contact.body, contact.on} <= scene.bodies.keys() or contact.axes[2, 2] < LEVEL:
+            continue
+        points = np.array([place_of(scene, body=contact.body, point=one) for one in contact.points])
+        deck = place_of(scene, body=contact.on, point=contact.place)
+        normal = rotation_matrix(scene.bodies[contact.on].quaternion) @ contact.axes[:, 2]
+        if float(((points - deck) @ normal).min()) < STANDS:
+            yield contact.body, contact.on
+
+
+def _warn_of_no_deck(scene: Description, load: str, support: str) -> None:
+    ship = support in {vessel.body for vessel in scene.vessels.values()}
+    deck = scene.bodies[support]
+    size = np.array(size_of_ship(scene, support) if ship else deck.size[:2])
+    if not np.all(size):
+        return
+    (x, y, _), _ = _inside(deck, scene.bodies[load])
+    if abs(x) > 0.5 * ASIDE * size[0] or abs(y) > 0.5 * ASIDE * size[1]:
+        warn_caller(
+            f"body {load!r}: stands on {support!r}, {x:.4g} m forward and {y:.4g} m to port of its origin, "
+            f"where there is no deck: {support!r} is {size[0]:.4g} m long and {size[1]:.4g} m broad. Put "
+            "it over the deck, with the crane turned so, or let it hang",
+            LoadOffDeckWarning,
+        )
 
 
 def _inside(hull: _core.Body, load: _core.Body) -> tuple[Array, float]:
@@ -139,6 +187,7 @@ def _inside(hull: _core.Body, load: _core.Body) -> tuple[Array, float]:
 
 def _deck(scene: Description, hull: str) -> float:
     """Height of the lowest joint on a hull above its origin, m; the waterline where there is none above."""
-    ends = [(joint.first, joint.first_frame) for joint in scene.joints.values()]
-    ends += [(joint.second, joint.second_frame) for joint in scene.joints.values()]
+    joints = [joint for joint in scene.joints.values() if joint not in _seats(scene)]
+    ends = [(joint.first, joint.first_frame) for joint in joints]
+    ends += [(joint.second, joint.second_frame) for joint in joints]
     return max(0.0, min((float(frame.point[2]) for body, frame in ends if body == hull), default=0.0))

@@ -12,8 +12,10 @@ from seacrane import _core
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of
 from seacrane.description.once import once_in_any_sea
-from seacrane.description.suspension import line_weights
+from seacrane.description.suspension import bodies_below, line_weights
+from seacrane.description.wet_parts import carried_by_water, immersed_parts
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.validity.line_checks import STRONGEST
 from seacrane.warnings import LiftedStartWarning, WinchLimitWarning
 
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 LARGEST_LIFT = 1.5  # of a body's weight, by its lines
+DRY = 1.25  # times what a body weighs under water, likewise
 
 
 @once_in_any_sea
@@ -35,6 +38,7 @@ def warn_of_line_starts(scene: Description) -> None:
     if all(np.isfinite(tension) for tension in tensions.values()):
         for body in _hung(scene, lines):
             _warn_of_lift(scene, body, lines, paths, tensions)
+        _warn_of_dry_weights(scene, lines, tensions)
     weights = line_weights(scene)
     for name, line in lines.items():
         weight, falls = weights.get(name, (0.0, 1))
@@ -84,6 +88,37 @@ def _warn_of_lift(
             "Correct its length, or give tension_at_start",
             LiftedStartWarning,
         )
+
+
+def _warn_of_dry_weights(
+    scene: Description, lines: dict[str, _core.Line], tensions: dict[str, float]
+) -> None:
+    """Warn of the uppermost lines that start with the weight in air of what hangs on them under water."""
+    told: set[str] = set()
+    for one, bodies in bodies_below(scene):
+        if told & set(bodies) or one.top not in lines:
+            continue
+        told |= set(bodies)
+        weight = sum(scene.bodies[body].mass for body in bodies if scene.bodies[body].gravity) * scene.gravity
+        carried = float(carried_by_water(scene, _described(scene), bodies)[0])
+        pull = tensions[one.top] * one.falls
+        if carried > 0.0 and weight > carried and pull > DRY * (weight - carried):
+            wet = next(part.body for part in immersed_parts(scene).values() if part.body in bodies)
+            warn_caller(
+                f"body {wet!r}: starts under water on line {one.name!r}, which is stretched by {pull:.4g} N; "
+                f"water carries {carried:.4g} N of the weight of {weight:.4g} N, so that the load leaps and "
+                'the line may go slack. Give start="rest", or a length or tension_at_start for the '
+                f"{weight - carried:.4g} N that are left",
+                LiftedStartWarning,
+            )
+
+
+def _described(scene: Description) -> dict[str, Array]:
+    """Poses as channels have them, at one output."""
+    turns = {name: rotation_matrix(body.quaternion) for name, body in scene.bodies.items()}
+    centres = [body.position + turns[name] @ body.center_of_mass for name, body in scene.bodies.items()]
+    turned = [body.quaternion for body in scene.bodies.values()]
+    return {"position": np.array([centres]), "quaternion": np.array([turned])}
 
 
 def _longest(body: str, lines: dict[str, _core.Line], paths: dict[str, Laid]) -> float:

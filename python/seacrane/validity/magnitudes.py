@@ -34,8 +34,11 @@ FRAMES = ("first_frame", "second_frame")
 POINTS = ("point", "first_point", "second_point", "points")
 
 
-def warn_of_units(scene: Description, start: float, end: float) -> None:
-    """Every value of every element that is no default, over a run from `start` to `end` (s)."""
+def warn_of_units(scene: Description, start: float, end: float, *, described: bool) -> None:
+    """Every value of every element that is no default, over a run from `start` to `end` (s).
+
+    `described`: in the pose that is described, where lines are as long as they begin.
+    """
     times = np.linspace(start, max(end, start), LOOKS)
     for table in ELEMENTS:
         for name, element in getattr(scene, table).items():
@@ -44,7 +47,7 @@ def warn_of_units(scene: Description, start: float, end: float) -> None:
             for text in (*_unusual(element, times), *_far_points(element)):
                 what = kind_of(element) if table in LOADS else KINDS[table]
                 warn_caller(f"{what} {name!r}: {text}", UnitWarning)
-    for text in disproportions(scene, times):
+    for text in disproportions(scene, times, described=described):
         warn_caller(text, UnitWarning)
 
 

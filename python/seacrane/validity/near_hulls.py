@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.given import floating_bodies, given_vessels, shown_size
+from seacrane.description.given import floating_bodies
 from seacrane.description.once import once
-from seacrane.description.outline import ship_size
+from seacrane.description.outline import size_of_ship
 from seacrane.description.places import placed
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -37,7 +37,7 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
     deepest = -DEEP / peak_of(scene).wavenumber if places else 0.0
     places = {name: place for name, place in places.items() if place[2] > deepest}
     for ship in sorted(ships) if places else ():
-        length, breadth = _size(scene, ship)
+        length, breadth = size_of_ship(scene, ship)
         away = {name: _beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
         nearest = min(away, key=lambda name: away[name])
         if away[nearest] < breadth:
@@ -48,13 +48,6 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
                 "lee lower. Give wave_factor what this hull makes of them",
                 ScatteredWavesWarning,
             )
-
-
-def _size(scene: Description, ship: str) -> tuple[float, float]:
-    """Length and breadth, m."""
-    if ship in given_vessels(scene):
-        return shown_size(scene, ship)[:2]
-    return ship_size(scene.bodies[ship])
 
 
 def _beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:

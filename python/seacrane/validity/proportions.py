@@ -11,9 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import GROUND
+from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.loads import whole_of
 from seacrane.description.places import placed
-from seacrane.description.suspension import line_weights
+from seacrane.description.rungs import WITH_MASS
+from seacrane.description.suspension import line_weights, suspensions, weights_on
+from seacrane.description.wet_parts import displaced_volume, immersed_parts
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -23,6 +28,11 @@ FAST_WATER = 5.0  # m/s
 FASTEST_SLIDE, FASTEST_TURN = 50.0, 30.0  # m/s, rad/s: of what a driver moves
 LEAST_ADDED_MASS = 5e-3  # over the mass of what floats
 WATER = 500.0  # kg/m3: fluids that are heavier
+LIGHT = 8.0  # times a body's mass: water that its parts displace; of foam 10
+WIRES = 100.0, 4e4  # kg/m3 over the section by the diameter: fibre ropes 600, steel 6,000, chains 25,000
+SOUND = 60.0, 3e4  # m/s along a line: nylon 1,000, chain 2,000, steel 4,000; models are often softer
+HEAVIEST_LINE = 50.0  # times what hangs on it
+LARGEST_STRAIN = 0.3  # at rest, of lines of one EA: nylon
 
 
 @dataclass(frozen=True)
@@ -49,9 +59,9 @@ class Proportion:
         )
 
 
-def disproportions(scene: Description, times: Array) -> Iterator[str]:
-    """One message for each value that does not fit; `times` (n,) s of the run."""
-    around = _Around(scene, times)
+def disproportions(scene: Description, times: Array, *, described: bool) -> Iterator[str]:
+    """One message for each value that does not fit; `times` (n,) s of the run, `described`: as it starts."""
+    around = _Around(scene, times, described)
     for kind, element, look in _looks(scene):
         for one in look(around, element):
             if one.beyond:
@@ -72,8 +82,18 @@ def _looks(scene: Description) -> Iterator[tuple[str, Any, Callable[..., Iterato
 class _Around:
     """What elements are compared with: the scene as described."""
 
-    def __init__(self, scene: Description, times: Array) -> None:
+    def __init__(self, scene: Description, times: Array, described: bool) -> None:
+        self.described = described
         self.scene, self.times, self.hung = scene, times, line_weights(scene)
+        weights = weights_on(scene)
+        self.on_chains = {  # N at the upper end and at the lower one, by the first segment of lines with mass
+            one.top: (weights[one.top][0], weights[one.channel][0])
+            for one in suspensions(scene) if one.rung == WITH_MASS and one.channel in weights
+        }  # fmt: skip
+        self.led = set(given_vessels(scene))  # whose light bodies stand for ships
+        self.parts: dict[str, list[_core.ImmersedPart]] = {}  # by the body
+        for part in immersed_parts(scene).values():
+            self.parts.setdefault(part.body, []).append(part)
 
     def distance(self, element: Any) -> float:
         """Between the two points of an element, m."""
@@ -81,16 +101,34 @@ class _Around:
         return float(np.linalg.norm(placed(self.scene, *ends[1]) - placed(self.scene, *ends[0])))
 
     def mass(self, *bodies: str) -> float:
-        """The smallest of these bodies', kg; infinite of the ground."""
-        there = [self.scene.bodies[body].mass for body in bodies if body in self.scene.bodies]
+        """The smallest of these bodies', kg; infinite of the ground, and of a ship whose motion is given."""
+        moved = self.scene.bodies.keys() - self.led
+        there = [self.scene.bodies[body].mass for body in bodies if body in moved]
         return min(there, default=math.inf)
 
     def weight(self, *bodies: str) -> float:
         return self.mass(*bodies) * abs(self.scene.gravity)
 
-    def as_weight(self, field: str, force: float, unit: str) -> Proportion:
-        """A force over the weight of all bodies."""
-        heaviest = sum(body.mass for body in self.scene.bodies.values()) * abs(self.scene.gravity)
+    def afloat(self, contact: _core.Contact) -> bool:
+        """Whether a contact is between ships, which press sideways, and none stands on the other."""
+        ships = floating_bodies(self.scene) | self.led
+        return contact.body in ships and contact.on in {*ships, GROUND}
+
+    def welded_mass(self, body: str) -> float:
+        """Of a body and of those welded to it, kg."""
+        welds = [(one.first, one.second) for one in self.scene.joints.values() if one.kind == "weld"]
+        found, ahead = {body}, [body]
+        while ahead:
+            here = ahead.pop()
+            beside = {other for ends in welds if here in ends for other in ends} - found
+            found |= beside
+            ahead += beside
+        return sum(self.scene.bodies[one].mass for one in found if one in self.scene.bodies)
+
+    def as_weight(self, field: str, force: float, unit: str, on: str = "") -> Proportion:
+        """A force over the weight of all bodies; one on a ship whose motion is given has none to compare."""
+        bodies = self.scene.bodies.values() if on not in self.led else ()
+        heaviest = sum(body.mass for body in bodies) * abs(self.scene.gravity)
         makes = "{:.3g} times the weight of all bodies"
         return Proportion(field, makes, _over(force, heaviest), 0.0, 100.0, unit)
 
@@ -109,8 +147,16 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
         share = _over(line.tensions[-1] * falls, weight)
         yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
     else:
-        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.EA), 0.0)
-        yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
+        stretched = _over(path, start) - 1.0 if around.described else 0.0
+        strain = max(stretched, _over(weight, falls * line.EA), 0.0)
+        yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, LARGEST_STRAIN, "N")
+    if line.name == f"{whole_of(line.name, line)}.1":  # of all segments of one with mass
+        speed = math.sqrt(max(_over(line.EA * start, line.mass), 0.0))
+        yield Proportion("EA", "{:.3g} m/s of sound along it", speed, *SOUND, "N")
+        whole, below = around.on_chains.get(line.name, (0.0, 0.0))
+        yield Proportion("EA", "a strain of {:.3g} at rest", _over(whole, line.EA), 0.0, LARGEST_STRAIN, "N")
+        share = _over(whole - below, below)
+        yield Proportion("mass", "all of it {:.3g} times the mass on it", share, 0.0, HEAVIEST_LINE, "kg")
     share = _over(line.mass, mass)
     yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
     if not line.winch:
@@ -214,7 +260,7 @@ def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
 def _seabed(around: _Around, bed: _core.SeabedNode) -> Iterator[Proportion]:
     """A seabed gives by millimetres to metres under what lies on it."""
     weight = around.weight(bed.body)
-    yield Proportion("stiffness", "{:.3g} m by the weight", _over(weight, bed.stiffness), 1e-4, 20.0, "N/m")
+    yield Proportion("stiffness", "{:.3g} m by the weight", _over(weight, bed.stiffness), 1e-4, 2.0, "N/m")
     if bed.friction > 0.0:
         away = np.asarray(bed.anchor) - placed(around.scene, bed.body, bed.point)
         aside = float(np.linalg.norm(away[:2]))
@@ -223,12 +269,33 @@ def _seabed(around: _Around, bed: _core.SeabedNode) -> Iterator[Proportion]:
         yield Proportion("load", "{:.3g} times the weight on it", share, 1e-2, 100.0, "N")
 
 
+def _immersed_span(around: _Around, span: _core.ImmersedSpan) -> Iterator[Proportion]:
+    """Beside the segment of a line with mass that it is the water of: what its section is made of."""
+    yield from _wet_span(around, span)
+    line = around.scene.loads.get(span.name.removesuffix(" water"))
+    section = math.pi / 4.0 * span.diameter**2
+    if not isinstance(line, _core.Line) or not section or line.name != f"{whole_of(line.name, line)}.1":
+        return
+    start = float(span.length.evaluate(around.times[:1])[0, 0])
+    density = _over(line.mass, section * start)
+    yield Proportion("diameter", "{:.3g} kg/m3 of its mass per length", density, *WIRES, "m")
+
+
 def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     """Its size counts beside that of the body, its coefficients beside those of a plate of its size."""
+    if part.body in around.led:
+        return
+    own = around.parts[part.body]
+    if own[0] is part:
+        water = part.density * sum(displaced_volume(one) for one in own)
+        share = _over(water, around.welded_mass(part.body))
+        yield Proportion("size", "all parts displace {:.3g} times the body's mass", share, 0.0, LIGHT, "m")
     body, sizes = around.scene.bodies[part.body], np.sort(part.size)
     reach = 2.0 * math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)  # of a box with it
     longest, face = float(sizes[2]), float(sizes[1] * sizes[2])
-    yield Proportion("size", "{:.3g} times the body's size", _over(longest, reach), 3e-3, 100.0, "m")
+    if part.place == 0:
+        whole = max(longest, part.count * float(np.linalg.norm(part.step)))
+        yield Proportion("size", "{:.3g} times the body's size", _over(whole, reach), 3e-3, 20.0, "m")
     share = _over(float(np.linalg.norm(part.step)), longest)
     yield Proportion("step", "{:.3g} times the size of a strip", share, 4e-3, 20.0, "m")
     share = _over(part.depths[-1], longest)
@@ -266,15 +333,15 @@ def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
         share = _over(float(contact.forces[-1]), weight)
         yield Proportion("forces", "{:.3g} times the weight on a point", share, 0.02, 500.0, "N")
     else:
-        sunk = _over(weight, contact.stiffness)
-        yield Proportion("stiffness", "{:.3g} m of compression at rest", sunk, 2e-5, 1.0, "N/m")
+        sunk, most = _over(weight, contact.stiffness), 100.0 if around.afloat(contact) else 1.0
+        yield Proportion("stiffness", "{:.3g} m of compression at rest", sunk, 2e-5, most, "N/m")
     if contact.friction > 0.0:
         give = _over(contact.friction * weight, contact.shear_stiffness)
         yield Proportion("shear_stiffness", "{:.3g} m before a point slides", give, 5e-6, 0.3, "N/m")
         ratio = _damped("shear_damping", contact.shear_damping, contact.shear_stiffness, mass, "N s/m")
         yield replace(ratio, least=2e-3)
     owner = around.scene.bodies.get(contact.body)
-    if owner is None:
+    if owner is None or contact.body in around.led:
         return
     reach = math.sqrt(1.5 * float(np.trace(np.asarray(owner.inertia))) / owner.mass)  # of a box with it
     levers = np.linalg.norm(np.asarray(contact.points) - np.asarray(owner.center_of_mass), axis=1)
@@ -304,11 +371,12 @@ def _spring(around: _Around, spring: _core.Spring) -> Iterator[Proportion]:
 
 
 def _pushed(around: _Around, force: _core.PointForce) -> Iterator[Proportion]:
-    yield around.as_weight("force", float(np.linalg.norm(force.force)), "N")
+    yield around.as_weight("force", float(np.linalg.norm(force.force)), "N", force.body)
 
 
 def _tabled(around: _Around, table: _core.ForceTable) -> Iterator[Proportion]:
-    yield around.as_weight("wrenches", float(np.abs(np.asarray(table.wrenches)[:, :3]).max()), "N, N m")
+    largest = float(np.abs(np.asarray(table.wrenches)[:, :3]).max())
+    yield around.as_weight("wrenches", largest, "N, N m", table.body)
 
 
 def _actuator(around: _Around, actuator: _core.Actuator) -> Iterator[Proportion]:
@@ -357,7 +425,7 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.HydraulicCylinder: ("hydraulic cylinder", _hydraulic),
     _core.FlowForce: ("flow force", _flow),
     _core.SpanDrag: ("span drag", _span),
-    _core.ImmersedSpan: ("immersed span", _wet_span),
+    _core.ImmersedSpan: ("immersed span", _immersed_span),
     _core.ImmersedPart: ("immersed part", _part),
     _core.EntrappedWater: ("entrapped water", _compartment),
     _core.Contact: ("contact", _contact),

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from seacrane.inputs.checked import positive_of, shaped_of
+from seacrane.inputs.keywords import named
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Opening:
     """A hole in the wall of a compartment, small against its section.

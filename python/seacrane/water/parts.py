@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import (
     finite_of,
     not_negative_of,
@@ -20,6 +21,9 @@ from seacrane.inputs.checked import (
     text_of,
     vector_of,
 )
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
+from seacrane.warnings import UnitWarning
 from seacrane.water.added_mass import (
     CIRCLE_SOURCE,
     PLATE_SOURCE,
@@ -41,6 +45,8 @@ CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it t
 MOST_PERFORATION = 0.5  # where the factor ends
 RAMP_KNOTS = 40
 MOST_STRIPS = 1000
+MOST_SLAM = 100.0
+THICK = 0.5  # m: no plate is as thick, nor as half its side
 SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
 
 
@@ -103,6 +109,7 @@ class _Part(ABC):
         """Where its coefficients are from."""
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class BoxPart(_Part):
     """A box, flat below: height along its z, upright where that is vertical.
@@ -204,6 +211,7 @@ class BoxPart(_Part):
         return depths, np.stack([deep[0] * along, deep[1] * along, upright], axis=1)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class PlatePart(_Part):
     """A flat plate, thin along its z: a mudmat, a grating, a stiffened panel.
@@ -233,8 +241,15 @@ class PlatePart(_Part):
     def __post_init__(self) -> None:
         super().__post_init__()
         shaped_of(f"{self.kind}: size", self.size, (2,))
-        not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
+        thick = not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
         self._box()
+        side = float(np.min(np.asarray(self.size, dtype=float)))
+        if thick >= max(THICK, 0.5 * side):
+            warn_caller(
+                f"plate: thickness is {thick:.6g} m beside sides of {shown(self.size)} m: a slip in its "
+                "unit? Give it in m, or a BoxPart",
+                UnitWarning,
+            )
 
     def _box(self) -> BoxPart:
         size = (*np.asarray(self.size, dtype=float), self.thickness)
@@ -256,6 +271,7 @@ class PlatePart(_Part):
         yield from self._box().pieces(density)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class CylinderPart(_Part):
     """A circular cylinder along its x.
@@ -331,6 +347,7 @@ class CylinderPart(_Part):
             )  # fmt: skip
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class SpherePart(_Part):
     """A sphere.
@@ -378,6 +395,7 @@ class SpherePart(_Part):
         )  # fmt: skip
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class TablePart(_Part):
     """A part of any shape by tables over the depth of its lowest point, at whatever attitude.
@@ -489,6 +507,11 @@ def _check_slam(kind: str, value: Any, least: float) -> None:
         raise SceneError(
             f"{kind}: slam is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
             f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})"
+        )
+    if value > MOST_SLAM:
+        warn_caller(
+            f"{kind}: slam is {float(value):.6g}, and no C_S is above {MOST_SLAM:g}: it is a ratio",
+            UnitWarning,
         )
 
 

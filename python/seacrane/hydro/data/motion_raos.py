@@ -13,6 +13,7 @@ from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOA
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.hydro.data.long_waves import warn_of_phases
 from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of, vector_of
+from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber
 
 Array = NDArray[np.float64]
@@ -21,7 +22,8 @@ TURN = 2.0 * np.pi
 STEEPEST_PITCH = 6.0  # of the wave's slope, at the longest wave of a table: hulls follow it, 57 is degrees
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@named
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MotionRaos:
     """Motions of a ship per metre of wave amplitude: its displacement RAOs.
 
@@ -65,6 +67,13 @@ class MotionRaos:
     symmetric: bool = True
     name: str = "RAOs"
     g: float = 9.81
+
+    def __repr__(self) -> str:
+        low, high = float(np.min(self.omega)), float(np.max(self.omega))
+        return (
+            f"<MotionRaos: {np.size(self.heading)} headings, {np.size(self.omega)} frequencies, {low:.3g} to "
+            f"{high:.3g} rad/s>"
+        )
 
     def __post_init__(self) -> None:
         what = f"RAOs {text_of('RAOs: name', self.name)!r}"

@@ -28,6 +28,7 @@ from seacrane.hydro.readers import (
 )
 from seacrane.hydro.readers.format import Format, Loaded, of_one_speed
 from seacrane.inputs.caller import silently
+from seacrane.inputs.keywords import named
 from seacrane.warnings import RoughDataWarning
 
 OF_SEVERAL = tuple(kind.FORMAT for kind in (capytaine_group, wamit_group, bemio_group, nemoh_group))
@@ -37,6 +38,7 @@ NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 
 
+@named
 def load_database(
     path: str | PathLike[str],
     *,
