@@ -57,6 +57,7 @@ def test_packs_threads_processes_and_a_resumed_store_give_the_same(
 
 
 @pytest.mark.warns("LineLengthWarning")
+@pytest.mark.warns("FailedMembersWarning")
 def test_what_waits_is_told_where_it_fails() -> None:
     scene = feeder()
     state = simulate(scene, 5.0).state
