@@ -56,8 +56,7 @@ def test_packs_threads_processes_and_a_resumed_store_give_the_same(
     assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(lifts.dataset)
 
 
-@pytest.mark.warns("LineLengthWarning")
-@pytest.mark.warns("FailedMembersWarning")
+@pytest.mark.warns("FailedMembersWarning", "LineLengthWarning")
 def test_what_waits_is_told_where_it_fails() -> None:
     scene = feeder()
     state = simulate(scene, 5.0).state
