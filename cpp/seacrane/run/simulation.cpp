@@ -142,14 +142,13 @@ void Simulation::reset_integrator() {
 }
 
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
-/// sides. Methods that lose much by a reset are left to their step control: they would lose it twice.
+/// sides. Methods that lose much by a reset are left to their step control, which would lose it twice, but
+/// for what they step over.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  if (integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_)) {
-    switches_->watch(stepper(), time(), integrator().state());
-    return false;
-  }
-  const std::optional<double> found = switches_->find(stepper(), integrator());
+  const bool is_left = integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
+  const std::optional<double> found =
+      is_left ? switches_->find_between(stepper(), integrator()) : switches_->find(stepper(), integrator());
   if (!found) return false;
   switch_at_ = *found;
   const double* const before = integrator().previous_state();

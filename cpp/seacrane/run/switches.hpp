@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/run/sight.hpp"
 #include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
@@ -47,6 +48,9 @@ class Switches {
   /// just after the step's start. If the step came no nearer to its crossing, it is made longer, to lead
   /// across. Nothing, if the step stands: the next one starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
+  /// As find(), of a step whose own crossings are left to the step control: where it is to end before what it
+  /// would step over. Nothing: the step stands.
+  std::optional<double> find_between(Stepper& at, LastStep& step);
   /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
   /// on kinks.
   static bool any_jumps(const Model& model);
@@ -71,7 +75,21 @@ class Switches {
     double from_start = 0.0;
   };
 
-  void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
+  /// What a step met and left again: on which side it was then.
+  struct Between {
+    double time;
+    int side;
+  };
+
+  void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
+                  std::vector<Sight>& sights);
+  void begin_from(Stepper& at, double t, const double* y);
+  void turn();
+  std::optional<double> look_between(Stepper& at, LastStep& step);
+  std::optional<Between> look_between(Stepper& at, const LastStep& step, const LoadList& list, std::size_t i,
+                                      std::size_t load);
+  void end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
+              std::optional<double>& first);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
@@ -81,10 +99,12 @@ class Switches {
   bool began_behind(Stepper& at, const LastStep& step, double margin);
   void pass_start(Stepper& at, const LastStep& step);
   LoadInput<double> read(Stepper& at, double t, const double* y);
+  LoadInput<double> read_within(Stepper& at, const LastStep& step, double t);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
-  std::vector<int> before_, after_, passed_;  // by load with sides
-  std::vector<int> left_;                     // likewise, where states last jumped or the last step began
+  std::vector<int> before_, after_, passed_;                   // by load with sides
+  std::vector<Sight> seen_before_, seen_after_, seen_passed_;  // likewise
+  std::vector<int> left_;  // likewise, where states last jumped or the last step began
   double settled_at_ = std::numeric_limits<double>::quiet_NaN();
   bool has_jumped_ = false;
   std::vector<double> instants_;  // of their change, likewise

@@ -19,6 +19,7 @@ from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
+from seacrane.validity.contact_starts import warn_of_contact_starts
 from seacrane.validity.drag_axes import warn_of_drag_axes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_starts import warn_of_line_starts
@@ -55,6 +56,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
         warn_of_capsize(scene)
         warn_of_loads_in_hulls(scene)
         warn_of_line_starts(scene)
+        warn_of_contact_starts(scene)
         warn_of_parts_near_hulls(scene)
         warn_of_drag_axes(scene)
 

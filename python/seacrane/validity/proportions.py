@@ -14,6 +14,7 @@ from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.places import placed
 from seacrane.description.suspension import line_weights
+from seacrane.description.welded import welded_mass
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -258,7 +259,8 @@ def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Propo
 def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
     """Each point counts with its share of the lighter body."""
     count = len(contact.points)
-    mass = around.mass(contact.body, contact.on) / count
+    bodies = [one for one in (contact.body, contact.on) if one in around.scene.bodies]
+    mass = min(welded_mass(around.scene, one) for one in bodies) / count
     weight = mass * abs(around.scene.gravity)
     if len(contact.forces):
         deepest = float(contact.compressions[-1])

@@ -41,6 +41,7 @@ CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it t
 MOST_PERFORATION = 0.5  # where the factor ends
 RAMP_KNOTS = 40
 MOST_STRIPS = 1000
+LONGEST = 1e5  # m: no load is
 SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
 
 
@@ -147,7 +148,7 @@ class BoxPart(_Part):
         super().__post_init__()
         size = shaped_of(f"{self.kind}: size", self.size, (3,))
         for value in size:
-            not_negative_of(f"{self.kind}: size", value, "m")
+            _length_of(f"{self.kind}: size", value)
         _check_strips(self.kind, self.strips, 2)
         _check_slam(self.kind, self.slam, LEAST_SLAM)
         not_negative_of(f"{self.kind}: drag", self.drag)
@@ -233,7 +234,7 @@ class PlatePart(_Part):
     def __post_init__(self) -> None:
         super().__post_init__()
         shaped_of(f"{self.kind}: size", self.size, (2,))
-        not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
+        _length_of(f"{self.kind}: thickness", self.thickness)
         self._box()
 
     def _box(self) -> BoxPart:
@@ -292,8 +293,8 @@ class CylinderPart(_Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        not_negative_of("cylinder: length", self.length, "m")
-        not_negative_of("cylinder: diameter", self.diameter, "m")
+        _length_of("cylinder: length", self.length)
+        _length_of("cylinder: diameter", self.diameter)
         if self.strips is not None:
             _check_strips("cylinder", (self.strips,), 1)
         _check_slam("cylinder", self.slam, LEAST_SLAM_ROUND)
@@ -352,7 +353,7 @@ class SpherePart(_Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        not_negative_of("sphere: diameter", self.diameter, "m")
+        _length_of("sphere: diameter", self.diameter)
         not_negative_of("sphere: drag", self.drag)
 
     @property
@@ -490,6 +491,11 @@ def _check_slam(kind: str, value: Any, least: float) -> None:
             f"{kind}: slam is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
             f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})"
         )
+
+
+def _length_of(what: str, value: Any) -> None:
+    if not_negative_of(what, value, "m") > LONGEST:
+        raise SceneError(f"{what} is {value:g} m; give a length in m, of {LONGEST:g} at the most")
 
 
 def _share_of(what: str, value: Any, most: float) -> None:
