@@ -39,17 +39,20 @@ class Drop:
 
     def misses(self) -> str:
         """What is wrong with the first contact of a run; empty: nothing."""
-        result = simulate(self.scene, self.end, channels=["position"], dt_out=0.005, **self.how)
-        hits, left = ([one for one in result.events if one.kind == kind] for kind in ("contact", "release"))
-        met, rtol = self.met, self.how["rtol"]
+        result = simulate(self.scene, self.end, channels=["contact_gap"], dt_out=0.002, **self.how)
+        hits = [one for one in result.events if one.kind == "contact"]
         if not hits:
-            return f"steps over {self.thick:.3g} m at t = {met.time:.6g} s, with {met.speed:.4g} m/s"
-        late, fast = hits[0].time - met.time, hits[0].speed - met.speed
-        if abs(late) > 1e-6 + 50.0 * rtol / met.speed or abs(fast) > 1e-6 + 50.0 * rtol:
+            return (
+                f"steps over {self.thick:.3g} m at t = {self.met.time:.6g} s, with {self.met.speed:.4g} m/s"
+            )
+        late, fast = hits[0].time - self.met.time, hits[0].speed - self.met.speed
+        off = 1e-5 + (2e3 if self.how["integrator"] == "cvode-bdf" else 100.0) * self.how["rtol"]  # m
+        round_edge = min(0.05, 0.5 * self.thick)
+        if abs(late) * self.met.speed > off or abs(fast) > off * (1.0 + 30.0 / round_edge):
             return f"touches {late:.3g} s late, {fast:.3g} m/s too fast"
-        after = result["position"][result.time >= (left[0].time if left else self.end), 0]
-        if len(after) and float(met.way @ (after[0] - met.place)) < -0.5 * self.thick:
-            return f"leaves {self.thick:.3g} m by another face, met with {met.speed:.4g} m/s"
+        deepest = -float(result["contact_gap"].min())
+        if deepest > 0.45 * self.thick:
+            return f"sinks {deepest:.3g} m into {self.thick:.3g} m, met with {self.met.speed:.4g} m/s"
         return ""
 
 
@@ -82,12 +85,17 @@ def _drop(rng: np.random.Generator, shape: str) -> Drop | None:
     met = _met(contact, position, began, down, flies + 1.0, thick)
     if met is None:
         return None
+    method = METHODS[rng.integers(len(METHODS))]
+    finest = (
+        -6.0 if method == "rosenbrock" else -8.0
+    )  # of low order: below, friction takes it thousands of steps
     how = {
-        "integrator": METHODS[rng.integers(len(METHODS))],
-        "rtol": float(10.0 ** rng.uniform(-8.0, -2.0)),
+        "integrator": method,
+        "rtol": float(10.0 ** rng.uniform(finest, -2.0)),
         "formulation": ("recursive", "redundant")[rng.integers(2)],
     }
-    return Drop(scene, how, met.time + rng.uniform(0.5, 4.0), thick, met)
+    least = {"box": float(min(contact.size)), "post": float(min(contact.size[1:])), "pipe": thick}
+    return Drop(scene, how, met.time + rng.uniform(0.1, 1.0), least.get(shape, np.inf), met)
 
 
 def _surface(scene: Scene, rng: np.random.Generator, shape: str, thick: float, axis: Any, place: Any) -> Any:
@@ -126,7 +134,7 @@ def _met(
     fastest = float(np.linalg.norm(velocity) + np.linalg.norm(down) * until)
     before, t = 0.0, 0.0
     while (gap := beside(t)[0]) > 0.0:
-        before, t = t, t + max(gap, 0.1 * thick) / fastest
+        before, t = t, t + max(gap, min(0.1 * thick, 0.01)) / fastest
         if t > until:
             return None
     if t == 0.0:

@@ -274,7 +274,9 @@ def test_a_load_that_starts_inside_a_guide_is_told() -> None:
                    EA=2e8, tension_at_start=50e3 * GRAVITY)  # fmt: skip
     scene.add_contact("module", on="ground", points=[(4, 0, 0)], surface="post", place=(4.15, 0, 0),
                       size=(0.5, 6), stiffness=3e6, name="post")  # fmt: skip
-    told = r"point 1 of 'module' starts 0\.1 m inside the surface of 'ground', which presses .* 6 m/s2 at once"
+    told = (
+        r"point 1 of 'module' starts 0\.1 m inside the surface of 'ground', which presses .* 6 m/s2 at once"
+    )
     with pytest.warns(ContactStartWarning, match=told):
         simulate(scene, 0.1)
 
@@ -284,9 +286,14 @@ def test_a_contact_connected_deep_inside_is_refused() -> None:
     scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, 5.0))
     scene.add_line("w", first="ground", first_point=(0, 0, 40), second="load", EA=1e8,
                    tension_at_start=20e3 * GRAVITY)  # fmt: skip
-    scene.add_contact("load", on="ground", points=[(0, 0, -1)], place=(0, 0, 6.0), name="deck")
-    with pytest.raises(SceneError, match=r"stage 'on': contact 'deck' connects with point 1 .* 2 m inside"):
-        simulate_stages(scene, [Stage(name="on", duration=1.0, connect=["deck"])])
+    scene.add_winch("w", lag=0.2)
+    scene.add_contact("load", on="ground", points=[(0, 0, -1)], place=(0, 0, 3.0), name="deck")
+    stages = [Stage(name="down", duration=6.0, commands={"w.rate": 0.4}),
+              Stage(name="on", duration=1.0, connect=["deck"])]  # fmt: skip
+    with pytest.raises(
+        SceneError, match=r"stage 'on': contact 'deck' connects with point 1 .* inside 'ground'"
+    ):
+        simulate_stages(scene, stages)
 
 
 def test_a_bumper_bears_no_weight() -> None:

@@ -41,6 +41,7 @@ Sight from(const Contact& load, const Input& in, int side) {
       b.velocity + b.angular_velocity.cross(lever) - s.velocity - s.angular_velocity.cross(ball);
   Sight out{.pace = over.norm() + (b.angular_velocity - s.angular_velocity).norm() * load.radius,
             .thin = load.surface.thin(),
+            .strikes = true,
             .at = load.axes.transpose() * (s.rotation.transpose() * ball - load.place)};
   const double apart = load.surface.at<double>(out.at).distance - load.radius;
   for (std::size_t i = 0; i < load.points.size(); ++i) {
@@ -54,10 +55,11 @@ Sight from(const Contact& load, const Input& in, int side) {
 Sight from(const SoftStop& load, const Input& in, int side) {
   const auto &a = in.bodies[load.coordinate.joint.first], &b = in.bodies[load.coordinate.joint.second];
   const CoordinateRow<double> row = evaluate_coordinate<double>(load.coordinate, a, b);
-  if (side != 0) return {};
+  if (side != 0) return {.pace = std::abs(coordinate_rate<double>(row, a, b))};
   return {.watched = ~0,
           .clear = std::max(0.0, std::min(row.value - load.d.minimum, load.d.maximum - row.value)),
           .pace = std::abs(coordinate_rate<double>(row, a, b)),
+          .strikes = true,
           .at = {row.value, 0.0, 0.0}};
 }
 
@@ -103,7 +105,10 @@ Sight from(const Line& load, const Input& in, int side) {
   Sight out;
   if ((side & kSlack) == kSlack) {
     const Line::Motion<double> now = load.motion(in);
-    out = {.watched = kSlack, .clear = std::max(0.0, -now.stretch()), .pace = std::abs(now.straining())};
+    out = {.watched = kSlack,
+           .clear = std::max(0.0, -now.stretch()),
+           .pace = std::abs(now.straining()),
+           .strikes = true};
     out.at[0] = now.stretch();
   }
   if (!load.winch || (side & kHauledIn) != 0) return out;

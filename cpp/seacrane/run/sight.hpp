@@ -16,6 +16,7 @@ struct Sight {
   double clear = kFar;       // m or rad
   double pace = 0.0;         // m/s or rad/s
   double thin = kFar;        // m: no shorter way leads through what is met
+  bool strikes = false;      // what is met throws it back
   Vec3d at = Vec3d::Zero();  // where that is which moves
 };
 

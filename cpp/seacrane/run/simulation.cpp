@@ -213,9 +213,10 @@ void Simulation::finish_step(double now, double stop) {
     stepper().bodies.sample_histories(now, bodies_.data());
   }
   record_until(now);
-  if (now < stop && !(switches_ && switches_->has_jumped())) return;
+  const double strike = switches_ ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
+  if (now < stop && strike == kNever && !(switches_ && switches_->has_jumped())) return;
   // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
-  switch_at_ = kNever;
+  switch_at_ = strike;
   end_of_smooth_stretch(now);
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);

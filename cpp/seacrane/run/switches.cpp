@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/elements/loads/load_kind.hpp"
+#include "seacrane/integrate/one_step.hpp"
 
 namespace seacrane {
 namespace {
@@ -23,8 +23,12 @@ constexpr double kShort = 0.5;
 /// Part of a step so near whose start a crossing may be led across.
 constexpr double kNear = 1e-3;
 /// A way within a step that is not looked at: what is met and left on it is shallower, m or rad; and a part
-/// of the longest way that the step may have led.
-constexpr double kShallow = 1e-4, kPart = 0.01;
+/// of the longest way that the step may have led, and of what is thin.
+constexpr double kShallow = 1e-4, kPart = 0.01, kPartOfThin = 0.125;
+/// m or rad, into what is struck: the first step there, where steps would lead that many times as far.
+constexpr double kFirst = 0.01, kFar = 4.0;
+double first_way(double thin) { return std::min(kFirst, 0.25 * thin); }
+bool leads_far(double way, double thin) { return way > kFar * first_way(thin); }
 
 /// The fastest that a load came near to something within a step of length h: what its speeds at both ends
 /// tell, and in the middle the parabola that leads through these and over its way. Speeds have no direction
@@ -200,13 +204,27 @@ void Switches::finish(Stepper& at, const LastStep& step) {
   note(at);
   note_contacts(at, step.time(), step.state());
   has_jumped_ = false;
+  strike_pace_ = 0.0;
+  strike_thin_ = Sight::kFar;
   std::size_t k = 0;
   for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
     const Contact* const contact = contact_of(list, i);
     has_jumped_ = has_jumped_ || (contact != nullptr && contact->touches(left_[k], after_[k]));
+    const Sight &from = seen_before_[k], &to = seen_after_[k];
+    if (from.strikes && ((left_[k] ^ after_[k]) & from.watched) != 0) {
+      strike_pace_ = std::max({strike_pace_, from.pace, to.pace});
+      strike_thin_ = std::min(strike_thin_, from.thin);
+    }
     ++k;
   });
   turn();
+}
+
+/// A stage without weight may be the only one that sees what is struck: it throws the others clear of it, and
+/// the step leads through. The next one sees it at its start.
+double Switches::end_of_strike(double now, double step) const {
+  if (!leads_far(strike_pace_ * step, strike_thin_)) return Sight::kFar;
+  return now + first_way(strike_thin_) / strike_pace_;
 }
 
 void Switches::settle(Stepper& at, double t, const double* y, double* load_states) {
@@ -268,7 +286,6 @@ bool Switches::fell_short(Stepper& at, const LastStep& step) {
 
 std::optional<double> Switches::find(Stepper& at, LastStep& step) {
   find_sides(at, step.time(), step.state(), after_, seen_after_);
-  std::fprintf(stderr, "DBG find %.17g %.17g sides %d %d\n", step.previous_time(), step.time(), before_[0], after_[0]);
   const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
   refuse(at, end, after_);
   instants_.assign(after_.size(), end);
@@ -319,27 +336,50 @@ std::optional<double> Switches::find_between(Stepper& at, LastStep& step) {
 
 /// Where the last step is to end because loads met something within it and left it again, which ends of steps
 /// do not tell and errors do not either: nothing else may press. Just after its start where they met it
-/// there.
+/// there. A method whose dense output takes evaluations of its own may have lost its way there by what they
+/// met: steps that lead far are looked at on the cubic of their ends too.
 std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
   std::optional<double> first;
   std::size_t k = 0;
+  bool has_slopes = false;
   for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
     const std::size_t load = k++;
-    const std::optional<Between> met = look_between(at, step, list, i, load);
+    const double pace = pace_between(step, load);
+    if (!(pace > 0.0)) return;
+    std::optional<Between> met = look_between(at, step, list, i, load, pace, false);
+    const double h = step.time() - step.previous_time();
+    if (!met && leads_far(pace * h, seen_before_[load].thin)) {
+      if (!std::exchange(has_slopes, true)) {
+        at.stepped.derivative(step.previous_time(), step.previous_state(), rate_.data());
+        at.stepped.derivative(step.time(), step.state(), end_rate_.data());
+      }
+      met = look_between(at, step, list, i, load, pace, true);
+    }
     if (met) end_on(at, step, *met, load, first);
   });
   return first;
+}
+
+/// The fastest that a load came near to what it saw within the last step; 0 where it could not reach it.
+double Switches::pace_between(const LastStep& step, std::size_t load) const {
+  const Sight &from = seen_before_[load], &to = seen_after_[load];
+  const double h = step.time() - step.previous_time();
+  if (!(from.clear < Sight::kFar && h > 0.0)) return 0.0;
+  const double pace = fastest(from, to, h);
+  return from.clear + clear_at_end(load) > pace * h ? 0.0 : pace;
+}
+
+double Switches::clear_at_end(std::size_t load) const {
+  return after_[load] == before_[load] ? seen_after_[load].clear : 0.0;
 }
 
 /// The step is to end on what a load met, unless it ends there anyway, or something comes first.
 void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
                       std::optional<double>& first) {
   const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
-  const double then = across(at, read_within(at, step, met.time), load, before_[load], met.side);
   const auto margin_at = [&](double t, const double* y) {
-    return t >= met.time ? then : across(at, read(at, t, y), load, before_[load], met.side);
+    return t >= met.time ? met.across : across(at, read(at, t, y), load, before_[load], met.side);
   };
-  std::fprintf(stderr, "DBG met %g side %d then %g\n", met.time, met.side, then);
   const double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
   if (end - found <= margin || (first && *first <= found)) return;
   first = std::max(found, start + margin);
@@ -353,8 +393,17 @@ void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size
           .from_start = margin_at(start, step.previous_state())};
 }
 
-LoadInput<double> Switches::read_within(Stepper& at, const LastStep& step, double t) {
-  step.interpolate(t, state_.data());
+/// On the dense output, or on the cubic of both ends' states and slopes.
+LoadInput<double> Switches::read_within(Stepper& at, const LastStep& step, double t, bool on_cubic) {
+  if (on_cubic) {
+    const double start = step.previous_time(), h = step.time() - start, part = (t - start) / h;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      state_[i] =
+          cubic_hermite(step.previous_state()[i], step.state()[i], h * rate_[i], h * end_rate_[i], part);
+    }
+  } else {
+    step.interpolate(t, state_.data());
+  }
   return read(at, t, state_.data());
 }
 
@@ -362,23 +411,22 @@ LoadInput<double> Switches::read_within(Stepper& at, const LastStep& step, doubl
 /// Berkeley 1996): what is that far away is not met before that way is gone, and need not be looked at
 /// earlier.
 std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastStep& step,
-                                                        const LoadList& list, std::size_t i,
-                                                        std::size_t load) {
-  const Sight &from = seen_before_[load], &to = seen_after_[load];
-  const double end = step.time(), h = end - step.previous_time();
-  if (!(from.clear < Sight::kFar && h > 0.0)) return std::nullopt;
-  const double pace = fastest(from, to, h), clear_at_end = after_[load] == before_[load] ? to.clear : 0.0;
-  std::fprintf(stderr, "DBG %g %g clear %g %g pace %g sides %d %d\n", step.previous_time(), end, from.clear, clear_at_end, pace, before_[load], after_[load]);
-  if (from.clear + clear_at_end > pace * h) return std::nullopt;
-  const double least = std::min(from.thin, std::max(kPart * pace * h, kShallow));
+                                                        const LoadList& list, std::size_t i, std::size_t load,
+                                                        double pace, bool on_cubic) {
+  const Sight& from = seen_before_[load];
+  const double end = step.time(), whole = pace * (end - step.previous_time());
+  const double least = std::min(kPartOfThin * from.thin, std::max(kPart * whole, kShallow));
   double t = step.previous_time(), clear = from.clear;
   while (t += std::max(clear, least) / pace, t < end) {
-    const LoadInput<double> in = read_within(at, step, t);
+    const LoadInput<double> in = read_within(at, step, t, on_cubic);
     const Sight now = look(list, i, in);
     const int changed = (now.side ^ before_[load]) & from.watched;
-    if (changed != 0) return Between{t, before_[load] ^ changed};
+    if (changed != 0) {
+      const int side = before_[load] ^ changed;
+      return Between{t, side, list.across(i, in, before_[load], side)};
+    }
     clear = now.clear;
-    if (clear + clear_at_end > pace * (end - t)) return std::nullopt;
+    if (clear + clear_at_end(load) > pace * (end - t)) return std::nullopt;
   }
   return std::nullopt;
 }

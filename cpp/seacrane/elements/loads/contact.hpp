@@ -225,7 +225,7 @@ struct Contact {
 
  private:
   static constexpr int kClosed = 1, kFree = 2;
-  static constexpr double kLeast = 1e-6;   // of the way to the middle
+  static constexpr double kLeast = 1e-6;   // of that quarter
   static constexpr double kLongest = 1.5;  // of the spring of a point that slides, in a state that is given
 
   int anchor(std::size_t i) const { return states.first + 3 * static_cast<int>(i); }
@@ -244,25 +244,25 @@ struct Contact {
     return surface.at<T>(local<T>(s, ball)).distance > T(radius);
   }
 
-  /// Elastic force at a compression. From half of the way to its middle a surface stiffens without a bound:
-  /// what comes in by one face is not pressed out by another.
+  /// Elastic force at a compression. From half of the way to its middle a surface stiffens, without a bound
+  /// at three quarters: what comes in by one face is not pressed out by another, and passes no axis.
   template <class T>
   T elastic(const T& p) const {
-    const T left = left_to_middle(p), gone = T(1) - left, given = law(p);
+    const T left = left_to_core(p), gone = T(1) - left, given = law(p);
     if (!(gone > T(0))) return given;
     return given + T(at_middle) * gone * gone * gone / (left * left);
   }
   /// What that stiffening has stored.
   double stored_beyond_half(double p) const {
-    const double left = left_to_middle(p);
+    const double left = left_to_core(p);
     if (!(left < 1.0)) return 0.0;
     const double sum = 1.5 + 1.0 / left + 3.0 * std::log(left) - 3.0 * left + 0.5 * left * left;
-    return 0.5 * surface.thin() * at_middle * sum;
+    return 0.25 * surface.thin() * at_middle * sum;
   }
-  /// 1 at half of the way to the middle, 0 there, more nearer to the face.
+  /// 1 at half of the way to the middle, 0 at three quarters of it, more nearer to the face.
   template <class T>
-  T left_to_middle(const T& p) const {
-    const T out = T(2) - p * T(2.0 / surface.thin());
+  T left_to_core(const T& p) const {
+    const T out = T(3) - p * T(4.0 / surface.thin());
     return out < T(kLeast) ? T(kLeast) : out;
   }
 
