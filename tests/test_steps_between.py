@@ -88,9 +88,10 @@ def test_a_slack_line_is_taut_for_a_moment_within_one_step(formulation: str) -> 
         )
         result = simulate(scene, 2.0, formulation=formulation, **LOOSE)
         free = 0.5 * speed**2 / GRAVITY
+        stretch = np.sqrt((speed**2 - 2.0 * GRAVITY * 4.9) * 100.0 * 5.9 / 1e6) if is_held else 0.0
         assert (result["line_tension"].max() > 0.0) == is_held
         highest = result["position"][:, 0, 2].max()
-        assert highest == pytest.approx(min(free, 4.9), abs=0.03)
+        assert highest == pytest.approx(min(free, 4.9) + stretch, abs=0.01)
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

@@ -147,6 +147,10 @@ void Simulation::reset_integrator() {
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
   const bool is_left = integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
+  if (is_left && integrator_of(options_.integrator).residual_form) {  // which cannot restart there
+    switches_->watch(stepper(), time(), integrator().state());
+    return false;
+  }
   const std::optional<double> found =
       is_left ? switches_->find_between(stepper(), integrator()) : switches_->find(stepper(), integrator());
   if (!found) return false;
