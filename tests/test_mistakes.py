@@ -356,8 +356,8 @@ def a_hoist_ten_centimetres_short() -> None:
 
 def a_guide_ten_centimetres_off() -> None:
     scene = hoist()
-    scene.add_contact("load", on="ground", points=[(1, 0, 0)], surface="post", place=(1.1, 0, -10), size=(0.4, 6),
-                      stiffness=1e6, name="guide")  # fmt: skip
+    scene.add_contact("load", on="ground", points=[(1, 0, 0)], surface="post", place=(1.1, 0, -10),
+                      size=(0.4, 6), stiffness=1e6, name="guide")  # fmt: skip
     simulate(scene, t_end=0.1)
 
 

@@ -383,7 +383,7 @@ void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size
   const double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
   if (end - found <= margin || (first && *first <= found)) return;
   leads_across_ = found <= start + margin;
-  first = leads_across_ ? found + 100.0 * smallest_step(end) : found;
+  first = leads_across_ ? found + 10.0 * smallest_step(end) : found;
   aim_ = {};
   if (leads_across_) return;
   aim_ = {.time = found,
