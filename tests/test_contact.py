@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from contact_scenes import FEET, GRAVITY, MASS, STIFFNESS, ball, lifted, rolling, shaken, slope, spun, thrown
 
-from seacrane import Result, Run, Scene, SceneError, simulate
+from seacrane import Result, Run, Scene, SceneError, Stage, simulate, simulate_stages
 from seacrane.answers import contact_hits
-from seacrane.warnings import SeabedWarning
+from seacrane.warnings import ContactStartWarning, SeabedWarning
 
 # d v, restitution, deepest compression over v sqrt(m / k): Hunt and Crossley's law in closed form
 REBOUNDS = [
@@ -250,3 +250,59 @@ def test_a_seabed_says_that_it_is_no_model_of_soil() -> None:
     assert made.stiffness == pytest.approx(MASS * GRAVITY / 4.0 / 0.01)
     result = simulate(scene, t_end=5.0, dt_out=0.5)
     assert float(result["contact_gap"][-1].mean()) == pytest.approx(-0.01, abs=1e-4)
+
+
+def test_a_body_is_on_no_surface_of_its_own() -> None:
+    with pytest.raises(SceneError, match="has body and on 'ground'; give two bodies"):
+        Scene(name="alone").add_contact("ground", on="ground", points=[(0.0, 0.0, 0.0)])
+
+
+def test_feet_sink_under_all_that_is_welded_to_them() -> None:
+    scene = Scene(name="welded", gravity=GRAVITY)
+    scene.add_body("frame", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 0.005))
+    scene.add_body("module", mass=9.0 * MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 1.0))
+    scene.add_joint(kind="weld", name="bolts", first="frame", second="module")
+    scene.add_contact("frame", points=FEET, on="ground", name="feet")
+    result = simulate(scene, 10.0, dt_out=1.0)
+    assert result["contact_gap"][-1] == pytest.approx(-0.01, rel=1e-3)
+
+
+def test_a_load_that_starts_inside_a_guide_is_told() -> None:
+    scene = Scene(name="guide", gravity=GRAVITY)
+    scene.add_body("module", mass=50e3, size=(8, 6, 4))
+    scene.add_line("hoist", first="ground", second="module", first_point=(0, 0, 30), second_point=(0, 0, 2),
+                   EA=2e8, tension_at_start=50e3 * GRAVITY)  # fmt: skip
+    scene.add_contact("module", on="ground", points=[(4, 0, 0)], surface="post", place=(4.15, 0, 0),
+                      size=(0.5, 6), stiffness=3e6, name="post")  # fmt: skip
+    told = (
+        r"point 1 of 'module' starts 0\.1 m inside the surface of 'ground', which presses .* 6 m/s2 at once"
+    )
+    with pytest.warns(ContactStartWarning, match=told):
+        simulate(scene, 0.1)
+
+
+def test_a_contact_connected_deep_inside_is_refused() -> None:
+    scene = Scene(name="catapult", gravity=GRAVITY)
+    scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, 5.0))
+    scene.add_line("w", first="ground", first_point=(0, 0, 40), second="load", EA=1e8,
+                   tension_at_start=20e3 * GRAVITY)  # fmt: skip
+    scene.add_winch("w", lag=0.2)
+    scene.add_contact("load", on="ground", points=[(0, 0, -1)], place=(0, 0, 3.0), name="deck")
+    stages = [Stage(name="down", duration=6.0, commands={"w.rate": 0.4}),
+              Stage(name="on", duration=1.0, connect=["deck"])]  # fmt: skip
+    with pytest.raises(
+        SceneError, match=r"stage 'on': contact 'deck' connects with point 1 .* inside 'ground'"
+    ):
+        simulate_stages(scene, stages)
+
+
+def test_a_bumper_bears_no_weight() -> None:
+    mass, speed, stiffness = 50e3, 0.3, 2e6
+    scene = Scene(name="bumper", gravity=GRAVITY)
+    scene.add_body("module", mass=mass, size=(8, 6, 4), velocity=(speed, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="module", axis=(1, 0, 0))
+    scene.add_contact("module", on="ground", points=[(4, 0, 0)], surface="post", place=(4.5, 0, 0),
+                      size=(0.5, 6), stiffness=stiffness, damping=0.0, name="bumper")  # fmt: skip
+    hit = contact_hits(simulate(scene, 3.0, dt_out=0.001), "bumper")[0]
+    assert hit.undamped == pytest.approx(speed * np.sqrt(stiffness * mass), rel=1e-6)
+    assert hit.peak == pytest.approx(hit.undamped, rel=1e-3)

@@ -354,6 +354,13 @@ def a_hoist_ten_centimetres_short() -> None:
     simulate(hoist(EA=5e7, length=9.9, tension_at_start=None), t_end=0.1)
 
 
+def a_guide_ten_centimetres_off() -> None:
+    scene = hoist()
+    scene.add_contact("load", on="ground", points=[(1, 0, 0)], surface="post", place=(1.1, 0, -10),
+                      size=(0.4, 6), stiffness=1e6, name="guide")  # fmt: skip
+    simulate(scene, t_end=0.1)
+
+
 def a_tagline_connected_short() -> None:
     scene = hoist()
     scene.add_line(
@@ -490,6 +497,7 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
         a_ship_beside_its_place,
     ],
     "kilonewtons for newtons at a winch": [a_motor_in_kilonewtons],
+    "a load that starts inside a guide": [a_guide_ten_centimetres_off],
     "a line too short for the pose": [a_hoist_ten_centimetres_short],
     "a load that carries itself under water": [a_hoist_described_under_water],
     "a load on no deck": [a_load_on_the_deck_of_a_crane_turned_out, a_load_below_the_deck],

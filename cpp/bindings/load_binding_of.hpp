@@ -10,6 +10,19 @@ const LoadBinding& load_binding() {
       .bind = [](py::module_& m) -> py::object {
         auto type = description::bind<Description>(m, Load::kind);
         description::bind_example(type, [] { return py::cast(Load::example()); });
+        if constexpr (requires(const Description& d, const seacrane::Vec3d& x) {
+                        d.shape().template at<double>(x);
+                      }) {
+          type.def(
+              "distance",
+              [](const Description& d, const seacrane::Vec3d& point) {
+                const auto found = d.shape().template at<double>(point);
+                return std::pair(found.distance, found.normal);
+              },
+              pybind11::arg("point"),
+              "How far a point in axes of the surface, from its place, is outside (m; negative: inside), and "
+              "the way out.");
+        }
         type.attr("STIFF") = seacrane::StiffLoad<Load>;
         type.attr("OWN_PACE") = requires { requires Load::own_pace; };
         type.attr("PASSIVE") = requires { requires Load::passive; };

@@ -2756,6 +2756,10 @@ class Contact:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    def distance(self, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> tuple[float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+        """
+        How far a point in axes of the surface, from its place, is outside (m; negative: inside), and the way out.
+        """
     @property
     def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
         """

@@ -91,7 +91,7 @@ def simulate(
         After a second run, with elastic lines, in the place of one in which a line with rung="auto" went
         slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
-    LoadInHullWarning, FreeCraneWarning, LiftedStartWarning, QuasiStaticLineWarning,
+    LoadInHullWarning, FreeCraneWarning, ContactStartWarning, LiftedStartWarning, QuasiStaticLineWarning,
     ScatteredWavesWarning, DragAxesWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """

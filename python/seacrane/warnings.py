@@ -174,6 +174,14 @@ class LiftedStartWarning(RunWarning):
     """
 
 
+class ContactStartWarning(RunWarning):
+    """A point of a contact starts inside a surface, which presses the body away at once by more than a tenth
+    of its weight.
+
+    The load is shot off. Move the body out, or correct the place of the surface.
+    """
+
+
 class BoilingOilWarning(RunWarning):
     """The pressure in a chamber of a hydraulic cylinder came down to `vapour_pressure`.
 

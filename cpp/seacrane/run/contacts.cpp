@@ -175,14 +175,17 @@ void Contacts::look_below_seats(Stepper& at, double t, bool stepped) {
     if (limit.kind->closes_again || limit.element >= 0) continue;
     const bool below = above_seat_[i].z() < -kThrough, was = below_[i] != 0;
     below_[i] = below ? 1 : 0;
-    if (!below || was || !watching_ || above_seat_[i].head<2>().norm() > limit.reach) continue;
-    const auto height = [&](double time, const double* y) {
-      if (time >= t) return above_seat_[i].z() + kThrough;
+    if (!below || was || !watching_) continue;
+    const auto offset_at = [&](double time, const double* y) {
+      if (time >= t) return above_seat_[i];
       at.write_bodies(time, y, bodies_.data());
       at.system.terms().read(time, bodies_.data());
-      return offset_of_seat(limit, at.system.terms().bodies().data()).z() + kThrough;
+      return offset_of_seat(limit, at.system.terms().bodies().data());
     };
+    const auto height = [&](double time, const double* y) { return offset_at(time, y).z() + kThrough; };
     const double when = stepped ? at.integrator->locate(height).value_or(t) : t;
+    if (when < t) at.integrator->interpolate(when, probe_.data());
+    if (offset_at(when, probe_.data()).head<2>().norm() > limit.reach) continue;  // beside it, there
     events_.push_back({when, static_cast<int>(i), EventKind::through});
   }
   watching_ = true;

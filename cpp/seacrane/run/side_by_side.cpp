@@ -190,10 +190,21 @@ void SideBySide::step(double t_end) {
   if (retake_to_kink()) return;
   if (!integrator_->is_adaptive()) leave_turning();
   record(smooth_until);
-  if (integrator_->time() < stop) return;
-  kink_at_ = std::numeric_limits<double>::infinity();
+  const double strike = end_of_strike();
+  if (integrator_->time() < stop && strike == std::numeric_limits<double>::infinity()) return;
+  kink_at_ = strike;
   reset();
   watch_kinks();
+}
+
+/// As in a run by itself: where the next step is to end after one in which a lane struck something.
+double SideBySide::end_of_strike() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (has_left(lane) || !runs_[lane]->has_switches()) continue;
+    first = std::min(first, runs_[lane]->end_of_strike(integrator_->time(), integrator_->step_in_use()));
+  }
+  return first;
 }
 
 /// The lane that took the largest part in a failure is left, or all where it is not known or was left before.

@@ -57,6 +57,7 @@ class SideBySide {
   void step(double t_end);
   void drop(const IntegrationError& error);
   bool retake_to_kink();
+  double end_of_strike() const;
   void leave_turning();
   std::optional<double> find_kink(std::size_t lane);
   void watch_kinks();

@@ -142,14 +142,17 @@ void Simulation::reset_integrator() {
 }
 
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
-/// sides. Methods that lose much by a reset are left to their step control: they would lose it twice.
+/// sides. Methods that lose much by a reset are left to their step control, which would lose it twice, but
+/// for what they step over.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  if (integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_)) {
+  const bool is_left = integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
+  if (is_left && integrator_of(options_.integrator).residual_form) {  // which cannot restart there
     switches_->watch(stepper(), time(), integrator().state());
     return false;
   }
-  const std::optional<double> found = switches_->find(stepper(), integrator());
+  const std::optional<double> found =
+      is_left ? switches_->find_between(stepper(), integrator()) : switches_->find(stepper(), integrator());
   if (!found) return false;
   switch_at_ = *found;
   const double* const before = integrator().previous_state();
@@ -214,9 +217,10 @@ void Simulation::finish_step(double now, double stop) {
     stepper().bodies.sample_histories(now, bodies_.data());
   }
   record_until(now);
-  if (now < stop && !(switches_ && switches_->has_jumped())) return;
+  const double strike = switches_ ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
+  if (now < stop && strike == kNever && !(switches_ && switches_->has_jumped())) return;
   // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
-  switch_at_ = kNever;
+  switch_at_ = strike;
   end_of_smooth_stretch(now);
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);

@@ -73,6 +73,7 @@ class Simulation {
   void keep_sides() { *kept_sides_ = *switches_; }
   void take_sides_back() { *switches_ = *kept_sides_; }
   std::optional<double> find_kink(LastStep& step) { return switches_->find(stepper(), step); }
+  double end_of_strike(double now, double step) const { return switches_->end_of_strike(now, step); }
   void watch_kinks(double t, const double* y) { switches_->watch(stepper(), t, y); }
   /// At time(), as it is stepped.
   const double* stepped_state() const { return integrator().state(); }

@@ -9,6 +9,7 @@
 
 #include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/elements/loads/load_kind.hpp"
+#include "seacrane/integrate/one_step.hpp"
 
 namespace seacrane {
 namespace {
@@ -21,6 +22,26 @@ constexpr double kJump = 1e-3, kRounding = 1e-10;
 constexpr double kShort = 0.5;
 /// Part of a step so near whose start a crossing may be led across.
 constexpr double kNear = 1e-3;
+/// A way within a step that is not looked at: what is met and left on it is shallower, m or rad; and a part
+/// of the longest way that the step may have led, and of what is thin.
+constexpr double kShallow = 1e-4, kPart = 0.01, kPartOfThin = 0.125;
+/// m or rad, into what is struck: the first step there, where steps would lead that many times as far.
+constexpr double kFirst = 0.01, kFar = 4.0;
+double first_way(double thin) { return std::min(kFirst, 0.25 * thin); }
+bool leads_far(double way, double thin) { return way > kFar * first_way(thin); }
+
+/// The fastest that a load came near to something within a step of length h: what its speeds at both ends
+/// tell, and in the middle the parabola that leads through these and over its way. Speeds have no direction
+/// here.
+double fastest(const Sight& from, const Sight& to, double h) {
+  const double middle = 1.5 * (to.at - from.at).norm() / h + 0.25 * (from.pace + to.pace);
+  return std::max({from.pace, to.pace, middle});
+}
+
+/// Part of a step so near to its ends that a crossing there is at them, s.
+double rounding_of(const LastStep& step) {
+  return std::max(kAtEnd * (step.time() - step.previous_time()), 100.0 * smallest_step(step.time()));
+}
 
 /// Calls f(list, place) for every load with sides, in the order of the model.
 template <class F>
@@ -76,10 +97,21 @@ LoadInput<double> Switches::read(Stepper& at, double t, const double* y) {
   return terms.load_input(t, bodies_.data() + at.model->layout.memory);
 }
 
-void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides) {
+void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
+                          std::vector<Sight>& sights) {
   const LoadInput<double> in = read(at, t, y);
   sides.clear();
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) { sides.push_back(list.side(i, in)); });
+  sights.clear();
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    sights.push_back(look(list, i, in));
+    sides.push_back(sights.back().side);
+  });
+}
+
+/// The next step starts where the last one ended.
+void Switches::turn() {
+  before_.swap(after_);
+  seen_before_.swap(seen_after_);
 }
 
 double Switches::across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to) {
@@ -105,7 +137,12 @@ void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides
 
 void Switches::watch(Stepper& at, double t, const double* y) {
   make_room(at);
-  find_sides(at, t, y, after_);
+  find_sides(at, t, y, after_, seen_after_);
+  begin_from(at, t, y);
+}
+
+/// From the sides just found there.
+void Switches::begin_from(Stepper& at, double t, const double* y) {
   refuse(at, t, after_);
   const bool begins = before_.empty();
   if (begins) before_.assign(after_.size(), 0);
@@ -113,13 +150,14 @@ void Switches::watch(Stepper& at, double t, const double* y) {
   instants_.assign(after_.size(), t);
   note(at);
   if (!begins) note_contacts(at, t, y);  // what stands as a run begins has not touched
-  before_.swap(after_);
+  turn();
 }
 
 void Switches::make_room(const Stepper& at) {
   std::size_t count = 0;
   for_each_switch(*at.model, [&](const LoadList&, std::size_t) { ++count; });
   for (std::vector<int>* sides : {&before_, &after_, &passed_, &left_}) sides->reserve(count);
+  for (std::vector<Sight>* sights : {&seen_before_, &seen_after_, &seen_passed_}) sights->reserve(count);
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
   }
@@ -128,7 +166,7 @@ void Switches::make_room(const Stepper& at) {
 
 void Switches::resume(Stepper& at, double t, const double* y) {
   make_room(at);
-  find_sides(at, t, y, before_);
+  find_sides(at, t, y, before_, seen_before_);
   refuse(at, t, before_);
   settled_at_ = t;
 }
@@ -166,13 +204,27 @@ void Switches::finish(Stepper& at, const LastStep& step) {
   note(at);
   note_contacts(at, step.time(), step.state());
   has_jumped_ = false;
+  strike_pace_ = 0.0;
+  strike_thin_ = Sight::kFar;
   std::size_t k = 0;
   for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
     const Contact* const contact = contact_of(list, i);
     has_jumped_ = has_jumped_ || (contact != nullptr && contact->touches(left_[k], after_[k]));
+    const Sight &from = seen_before_[k], &to = seen_after_[k];
+    if (from.strikes && ((left_[k] ^ after_[k]) & from.watched) != 0) {
+      strike_pace_ = std::max({strike_pace_, from.pace, to.pace});
+      strike_thin_ = std::min(strike_thin_, from.thin);
+    }
     ++k;
   });
-  before_.swap(after_);
+  turn();
+}
+
+/// A stage without weight may be the only one that sees what is struck: it throws the others clear of it, and
+/// the step leads through. The next one sees it at its start.
+double Switches::end_of_strike(double now, double step) const {
+  if (!leads_far(strike_pace_ * step, strike_thin_)) return Sight::kFar;
+  return now + first_way(strike_thin_) / strike_pace_;
 }
 
 void Switches::settle(Stepper& at, double t, const double* y, double* load_states) {
@@ -189,7 +241,7 @@ void Switches::settle(Stepper& at, double t, const double* y, double* load_state
 
 void Switches::shorten(double t) {
   std::erase_if(reached_, [t](const LimitReached& one) { return one.time > t; });
-  before_.swap(after_);
+  turn();
 }
 
 /// Whether the step crossed something as it began, and its first stage, still on the old side, saw other
@@ -197,7 +249,7 @@ void Switches::shorten(double t) {
 bool Switches::began_behind(Stepper& at, const LastStep& step, double margin) {
   const double start = step.previous_time();
   step.interpolate(start + margin, state_.data());
-  find_sides(at, start + margin, state_.data(), passed_);
+  find_sides(at, start + margin, state_.data(), passed_, seen_passed_);
   if (passed_ == before_) return false;
   at.stepped.derivative(start, step.previous_state(), rate_.data());
   at.stepped.derivative(start + margin, state_.data(), late_rate_.data());
@@ -233,9 +285,8 @@ bool Switches::fell_short(Stepper& at, const LastStep& step) {
 }
 
 std::optional<double> Switches::find(Stepper& at, LastStep& step) {
-  find_sides(at, step.time(), step.state(), after_);
-  const double start = step.previous_time(), end = step.time(),
-               margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
+  find_sides(at, step.time(), step.state(), after_, seen_after_);
+  const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
   refuse(at, end, after_);
   instants_.assign(after_.size(), end);
   left_ = before_;
@@ -271,8 +322,113 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
             .to = after_[i],
             .from_start = margin_at(start, step.previous_state())};
   }
+  if (!first) first = look_between(at, step);
   if (!first) finish(at, step);
   return first;
+}
+
+std::optional<double> Switches::find_between(Stepper& at, LastStep& step) {
+  find_sides(at, step.time(), step.state(), after_, seen_after_);
+  const std::optional<double> found = look_between(at, step);
+  if (!found) begin_from(at, step.time(), step.state());
+  return found;
+}
+
+/// Where the last step is to end because loads met something within it and left it again, which ends of steps
+/// do not tell and errors do not either: nothing else may press. Just after its start where they met it
+/// there. A method whose dense output takes evaluations of its own may have lost its way there by what they
+/// met: steps that lead far are looked at on the cubic of their ends too.
+std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
+  std::optional<double> first;
+  std::size_t k = 0;
+  bool has_slopes = false;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const std::size_t load = k++;
+    const double pace = pace_between(step, load);
+    if (!(pace > 0.0)) return;
+    std::optional<Between> met = look_between(at, step, list, i, load, pace, false);
+    const double h = step.time() - step.previous_time();
+    if (!met && leads_far(pace * h, seen_before_[load].thin)) {
+      if (!std::exchange(has_slopes, true)) {
+        at.stepped.derivative(step.previous_time(), step.previous_state(), rate_.data());
+        at.stepped.derivative(step.time(), step.state(), end_rate_.data());
+      }
+      met = look_between(at, step, list, i, load, pace, true);
+    }
+    if (met) end_on(at, step, *met, load, first);
+  });
+  return first;
+}
+
+/// The fastest that a load came near to what it saw within the last step; 0 where it could not reach it.
+double Switches::pace_between(const LastStep& step, std::size_t load) const {
+  const Sight &from = seen_before_[load], &to = seen_after_[load];
+  const double h = step.time() - step.previous_time();
+  if (!(from.clear < Sight::kFar && h > 0.0)) return 0.0;
+  const double pace = fastest(from, to, h);
+  return from.clear + clear_at_end(load) > pace * h ? 0.0 : pace;
+}
+
+double Switches::clear_at_end(std::size_t load) const {
+  return after_[load] == before_[load] ? seen_after_[load].clear : 0.0;
+}
+
+/// The step is to end on what a load met, unless it ends there anyway, or something comes first.
+void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
+                      std::optional<double>& first) {
+  const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
+  const auto margin_at = [&](double t, const double* y) {
+    return t >= met.time ? met.across : across(at, read(at, t, y), load, before_[load], met.side);
+  };
+  const double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
+  if (end - found <= margin || (first && *first <= found)) return;
+  leads_across_ = found <= start + margin;
+  first = leads_across_ ? found + 10.0 * smallest_step(end) : found;
+  aim_ = {};
+  if (leads_across_) return;
+  aim_ = {.time = found,
+          .length = end - start,
+          .load = load,
+          .to = met.side,
+          .from_start = margin_at(start, step.previous_state())};
+}
+
+/// On the dense output, or on the cubic of both ends' states and slopes.
+LoadInput<double> Switches::read_within(Stepper& at, const LastStep& step, double t, bool on_cubic) {
+  if (on_cubic) {
+    const double start = step.previous_time(), h = step.time() - start, part = (t - start) / h;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      state_[i] =
+          cubic_hermite(step.previous_state()[i], step.state()[i], h * rate_[i], h * end_rate_[i], part);
+    }
+  } else {
+    step.interpolate(t, state_.data());
+  }
+  return read(at, t, state_.data());
+}
+
+/// Conservative advancement (B. Mirtich, Impulse-based dynamic simulation of rigid body systems, thesis,
+/// Berkeley 1996): what is that far away is not met before that way is gone, and need not be looked at
+/// earlier.
+std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastStep& step,
+                                                        const LoadList& list, std::size_t i, std::size_t load,
+                                                        double pace, bool on_cubic) {
+  const Sight& from = seen_before_[load];
+  const double end = step.time(), whole = pace * (end - step.previous_time());
+  const double least = std::min(kPartOfThin * from.thin, std::max(kPart * whole, kShallow));
+  double t = step.previous_time(), clear = from.clear;
+  while (t += std::max(clear, least) / pace, t < end) {
+    const LoadInput<double> in = read_within(at, step, t, on_cubic);
+    const Sight now = look(list, i, in);
+    const int changed = (now.side ^ before_[load]) & from.watched;
+    if (changed != 0) {
+      const int side = before_[load] ^ changed;
+      return Between{t, side, list.across(i, in, before_[load], side)};
+    }
+    clear = now.clear;
+    if (clear + clear_at_end(load) > pace * (end - t)) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace seacrane

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/run/sight.hpp"
 #include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
@@ -47,6 +48,9 @@ class Switches {
   /// just after the step's start. If the step came no nearer to its crossing, it is made longer, to lead
   /// across. Nothing, if the step stands: the next one starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
+  /// As find(), of a step whose own crossings are left to the step control: where it is to end before what it
+  /// would step over. Nothing: the step stands.
+  std::optional<double> find_between(Stepper& at, LastStep& step);
   /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
   /// on kinks.
   static bool any_jumps(const Model& model);
@@ -55,6 +59,9 @@ class Switches {
   void settle(Stepper& at, double t, const double* y, double* load_states);
   /// Whether the last step ended on a kink where states jump.
   bool has_jumped() const { return has_jumped_; }
+  /// Where the next step is to end at the latest, after one that ended at time `now` where something was
+  /// struck, if steps of length `step` lead far beyond: infinity otherwise. See look_between().
+  double end_of_strike(double now, double step) const;
   /// Cuts the last step: only its part until t counts.
   void shorten(double t);
   /// Bounds reached so far.
@@ -71,7 +78,22 @@ class Switches {
     double from_start = 0.0;
   };
 
-  void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
+  /// What a step met and left again: when, on which side it was then, and how far across.
+  struct Between {
+    double time;
+    int side;
+    double across;
+  };
+
+  void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
+                  std::vector<Sight>& sights);
+  void begin_from(Stepper& at, double t, const double* y);
+  void turn();
+  std::optional<double> look_between(Stepper& at, LastStep& step);
+  std::optional<Between> look_between(Stepper& at, const LastStep& step, const LoadList& list, std::size_t i,
+                                      std::size_t load, double pace, bool on_cubic);
+  void end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
+              std::optional<double>& first);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
@@ -81,15 +103,20 @@ class Switches {
   bool began_behind(Stepper& at, const LastStep& step, double margin);
   void pass_start(Stepper& at, const LastStep& step);
   LoadInput<double> read(Stepper& at, double t, const double* y);
+  double pace_between(const LastStep& step, std::size_t load) const;
+  double clear_at_end(std::size_t load) const;
+  LoadInput<double> read_within(Stepper& at, const LastStep& step, double t, bool on_cubic);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
-  std::vector<int> before_, after_, passed_;  // by load with sides
-  std::vector<int> left_;                     // likewise, where states last jumped or the last step began
+  std::vector<int> before_, after_, passed_;                   // by load with sides
+  std::vector<Sight> seen_before_, seen_after_, seen_passed_;  // likewise
+  std::vector<int> left_;  // likewise, where states last jumped or the last step began
   double settled_at_ = std::numeric_limits<double>::quiet_NaN();
   bool has_jumped_ = false;
-  std::vector<double> instants_;  // of their change, likewise
-  Aim aim_;                       // of the step that is taken again
-  bool leads_across_ = false;     // the step under way, a jump: it is not taken again
+  double strike_pace_ = 0.0, strike_thin_ = Sight::kFar;  // of what the last step ended on, as of Sight
+  std::vector<double> instants_;                          // of their change, likewise
+  Aim aim_;                                               // of the step that is taken again
+  bool leads_across_ = false;                             // the step under way, a jump: it is not taken again
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;
   std::vector<double> rate_, late_rate_, end_rate_, scale_;  // of what is stepped

@@ -9,7 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.contact_places import beside_surface
+from seacrane.description.description import GROUND
+from seacrane.description.welded import welded_mass
 from seacrane.errors import SceneError
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
@@ -36,8 +40,9 @@ class ContactHit:
     dynamic_factor : float
         Peak over the point's share of the body's weight; not a number without gravity.
     undamped : float
-        Share of the weight + speed sqrt(stiffness mass), N, with the share of the mass: the peak of a hit by
-        that mass alone, without damping, which may raise it. Not a number for a table.
+        Share of the weight onto the surface + speed sqrt(stiffness mass), N, with the share of the mass: the
+        peak of a hit by that mass alone, without damping, which may raise it. A bumper on a wall bears no
+        weight; without the channels "position" and "quaternion" all of it counts. Not a number for a table.
     """
 
     point: str
@@ -81,7 +86,7 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
         raise SceneError('contact_hits: the result has no channel "contact_press"; record it')
     count = len(element.points)
     body = element.body if element.body in result.scene.bodies else element.on
-    mass = float(result.scene.bodies[body].mass) / count
+    mass = welded_mass(result.scene, body) / count
     weight = mass * result.scene.gravity
     stiffness = np.nan if len(element.forces) else element.stiffness
     found: list[ContactHit] = []
@@ -90,12 +95,31 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
         press = np.asarray(result.select("contact_press", contact_point=point))
         for number, begin, end, speed in _closed(result, point, float(press[0])):
             peak, impulse = _of_hit(np.asarray(result.time), press, begin, end)
+            onto = weight * _upright(result, element, i, int(np.searchsorted(result.time, begin)))
             found.append(ContactHit(
                 point=point, number=number, begin=begin, end=end, speed=speed, peak=peak, impulse=impulse,
                 dynamic_factor=peak / weight if weight > 0.0 else np.nan,
-                undamped=weight + speed * float(np.sqrt(stiffness * mass)),
+                undamped=onto + speed * float(np.sqrt(stiffness * mass)),
             ))  # fmt: skip
     return tuple(found)
+
+
+def _upright(result: Result, contact: _core.Contact, point: int, row: int) -> float:
+    """The share of a weight that presses onto the surface at an output; 1 where poses are not recorded."""
+    if "position" not in result or "quaternion" not in result:
+        return 1.0
+    row = min(row, len(result.time) - 1)
+
+    def pose(body: str) -> tuple[Array, Array]:
+        if body == GROUND or result.scene is None:
+            return np.zeros(3), np.eye(3)
+        centre, turned = (
+            np.asarray(result.select(key, body=body))[row] for key in ("position", "quaternion")
+        )
+        axes = rotation_matrix(turned)
+        return centre - axes @ np.asarray(result.scene.bodies[body].center_of_mass), axes
+
+    return max(float(beside_surface(contact, point, pose)[1][2]), 0.0)
 
 
 def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, float, float]]:

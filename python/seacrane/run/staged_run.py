@@ -43,6 +43,7 @@ from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
+from seacrane.validity.contact_starts import check_contact_connected
 from seacrane.validity.implausible import warn_of_description
 from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.validity.line_checks import warn_of_connected
@@ -331,6 +332,8 @@ class StagedRun:
         state = run.state
         if kind == "connection" and name in lines_of(scene.loads):
             warn_of_connected(stage.title, scene, name, run.measure(), start.time)
+        if kind == "connection" and isinstance(scene.loads.get(name), _core.Contact):
+            check_contact_connected(stage.title, scene, name, run.measure(), start.time)
         lost = (
             before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
         )

@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
 from seacrane.description.given import given_vessels
+from seacrane.description.welded import welded_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, rows_of, shaped_of, text_of
@@ -58,7 +59,8 @@ def add_contact(
     edge : float, optional
         Radius of its edges, m: 0.05, or half of its least thickness where that is less.
     stiffness : float, optional
-        Of each point, N/m. Default: the weight of `body`, shared by its points, sinks by 1 cm.
+        Of each point, N/m. Default: the weight of `body` and of what is welded to it by now, shared by its
+        points, sinks by 1 cm.
     damping : float
         s/m. At a low speed v the point rebounds with about v (1 - 2/3 damping v).
     table : array_like, shape (n, 2), optional
@@ -93,6 +95,8 @@ def add_contact(
     for key in (owner, other):
         if key != GROUND and key not in scene.bodies:
             raise SceneError(f"{what}: there is no body {key!r}; add it first")
+    if owner == other:
+        raise SceneError(f"{what}: has body and on {other!r}; give two bodies, or one and 'ground'")
     rows = rows_of(f"{what}: points", points, 3)
     if not len(rows):
         raise SceneError(f"{what}: points is empty; give at least one")
@@ -160,11 +164,11 @@ def add_seabed(
 
 
 def _mass(scene: Description, body: str, on: str) -> float:
-    """Of the body whose points they are; of the other where it is the ground, or a light one that stands for
-    a ship whose motion is given."""
+    """Of the body whose points they are, with what is welded to it; of the other where it is the ground, or
+    a light one that stands for a ship whose motion is given."""
     known = [one for one in (body, on) if one in scene.bodies]
     heavy = [one for one in known if one not in given_vessels(scene)]
-    return float(scene.bodies[[*heavy, *known][0]].mass)
+    return welded_mass(scene, [*heavy, *known][0])
 
 
 def _extent(what: str, surface: str, size: Any) -> Array:

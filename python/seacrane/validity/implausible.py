@@ -19,6 +19,7 @@ from seacrane.description.suspension import bodies_below
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
+from seacrane.validity.contact_starts import warn_of_contact_starts
 from seacrane.validity.drag_axes import warn_of_drag_axes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_starts import warn_of_line_starts
@@ -63,6 +64,7 @@ def warn_of_description(
         _warn_of_ballast(scene)
         warn_of_capsize(scene)
         warn_of_line_starts(scene)
+        warn_of_contact_starts(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:

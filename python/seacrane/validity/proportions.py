@@ -18,6 +18,7 @@ from seacrane.description.loads import whole_of
 from seacrane.description.places import placed
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import line_weights, suspensions, weights_on
+from seacrane.description.welded import welded_mass
 from seacrane.description.wet_parts import displaced_volume, immersed_parts
 
 if TYPE_CHECKING:
@@ -325,7 +326,8 @@ def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Propo
 def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
     """Each point counts with its share of the lighter body."""
     count = len(contact.points)
-    mass = around.mass(contact.body, contact.on) / count
+    bodies = [one for one in (contact.body, contact.on) if one in around.scene.bodies]
+    mass = min(welded_mass(around.scene, one) for one in bodies) / count
     weight = mass * abs(around.scene.gravity)
     if len(contact.forces):
         deepest = float(contact.compressions[-1])

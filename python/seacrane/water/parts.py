@@ -47,6 +47,7 @@ RAMP_KNOTS = 40
 MOST_STRIPS = 1000
 MOST_SLAM = 100.0
 THICK = 0.5  # m: no plate is as thick, nor as half its side
+LONGEST = 1e5  # m: no load is
 SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
 
 
@@ -154,7 +155,7 @@ class BoxPart(_Part):
         super().__post_init__()
         size = shaped_of(f"{self.kind}: size", self.size, (3,))
         for value in size:
-            not_negative_of(f"{self.kind}: size", value, "m")
+            _length_of(f"{self.kind}: size", value)
         _check_strips(self.kind, self.strips, 2)
         _check_slam(self.kind, self.slam, LEAST_SLAM)
         not_negative_of(f"{self.kind}: drag", self.drag)
@@ -241,12 +242,12 @@ class PlatePart(_Part):
     def __post_init__(self) -> None:
         super().__post_init__()
         shaped_of(f"{self.kind}: size", self.size, (2,))
-        thick = not_negative_of(f"{self.kind}: thickness", self.thickness, "m")
+        _length_of(f"{self.kind}: thickness", self.thickness)
         self._box()
         side = float(np.min(np.asarray(self.size, dtype=float)))
-        if thick >= max(THICK, 0.5 * side):
+        if self.thickness >= max(THICK, 0.5 * side):
             warn_caller(
-                f"plate: thickness is {thick:.6g} m beside sides of {shown(self.size)} m: a slip in its "
+                f"plate: thickness is {self.thickness:.6g} m beside sides of {shown(self.size)} m: a slip in its "
                 "unit? Give it in m, or a BoxPart",
                 UnitWarning,
             )
@@ -308,8 +309,8 @@ class CylinderPart(_Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        not_negative_of("cylinder: length", self.length, "m")
-        not_negative_of("cylinder: diameter", self.diameter, "m")
+        _length_of("cylinder: length", self.length)
+        _length_of("cylinder: diameter", self.diameter)
         if self.strips is not None:
             _check_strips("cylinder", (self.strips,), 1)
         _check_slam("cylinder", self.slam, LEAST_SLAM_ROUND)
@@ -369,7 +370,7 @@ class SpherePart(_Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        not_negative_of("sphere: diameter", self.diameter, "m")
+        _length_of("sphere: diameter", self.diameter)
         not_negative_of("sphere: drag", self.drag)
 
     @property
@@ -513,6 +514,11 @@ def _check_slam(kind: str, value: Any, least: float) -> None:
             f"{kind}: slam is {float(value):.6g}, and no C_S is above {MOST_SLAM:g}: it is a ratio",
             UnitWarning,
         )
+
+
+def _length_of(what: str, value: Any) -> None:
+    if not_negative_of(what, value, "m") > LONGEST:
+        raise SceneError(f"{what} is {value:g} m; give a length in m, of {LONGEST:g} at the most")
 
 
 def _share_of(what: str, value: Any, most: float) -> None:

@@ -61,6 +61,7 @@ struct Contact {
   std::vector<Vec3d> points;       // from the state point, body axes
   Vec3d center = Vec3d::Zero();    // of a ball about all points, likewise
   double radius = 0.0;             // of the ball
+  double at_middle = 0.0;          // N, of the law that is described, at the middle of the surface
   Vec3d place = Vec3d::Zero();     // of the surface, from the state point of `on`, its axes
   Mat3d axes = Mat3d::Identity();  // likewise
   StateRange states;               // anchors, and what friction has taken, J
@@ -91,6 +92,7 @@ struct Contact {
     Contact out;
     out.d = d;
     out.surface = d.shape();
+    if (d.surface != "plane") out.at_middle = out.law(out.surface.thin());
     const Attachment surface = context.attach(d.on, d.place);
     out.on = surface.body;
     out.place = surface.point;
@@ -129,11 +131,11 @@ struct Contact {
     T loss(0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Touch<T> now = touch(in, i);
+      out.add_power(-now.press.viscous * now.rate);  // of a point that is torn off too, which does not press
       if (!(now.press.total() > T(0))) continue;
       const Vec3<T> force = now.force();
       out.wrench[idx(body)].add(force, now.lever);
       out.wrench[idx(on)].add(-force, now.surface_lever);
-      out.add_power(-now.press.viscous * now.rate);
       if (states.count == 0) continue;
       for (int k = 0; k < 3; ++k) out.state_rates[anchor(i) + k] = now.following[k];
       const T taken = -now.shear.dot(now.slip);
@@ -175,13 +177,16 @@ struct Contact {
   }
 
   static bool has_sides() { return true; }
-  /// Of each point, whether it is closed, and whether it is not held by friction: open points are not.
+  /// Of each point, whether it is closed, and whether it is free: not held by friction, or open and outside
+  /// the surface, not torn off inside it.
   int side(const LoadInput<double>& in) const {
     if (!apart(in)) return margins(in).side();
     int out = 0;
     for (std::size_t i = 0; i < points.size(); ++i) out |= kFree << 2 * i;
-    return states.count > 0 ? out : 0;
+    return out;
   }
+  /// What a point that is closed adds to the side.
+  static constexpr int closed(std::size_t i) { return kClosed << 2 * i; }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
 
   /// What a change of the side is, point by point.
@@ -191,7 +196,7 @@ struct Contact {
       const int before = from >> 2 * i & 3, after = to >> 2 * i & 3, changed = before ^ after;
       if ((changed & kClosed) != 0) {
         out.push_back({i, (after & kClosed) != 0 ? Change::touch : Change::lift});
-      } else if ((after & kClosed) != 0 && changed != 0) {
+      } else if (states.count > 0 && (after & kClosed) != 0 && changed != 0) {
         out.push_back({i, (after & kFree) != 0 ? Change::slip : Change::stick});
       }
     }
@@ -220,6 +225,7 @@ struct Contact {
 
  private:
   static constexpr int kClosed = 1, kFree = 2;
+  static constexpr double kLeast = 1e-6;   // of that quarter
   static constexpr double kLongest = 1.5;  // of the spring of a point that slides, in a state that is given
 
   int anchor(std::size_t i) const { return states.first + 3 * static_cast<int>(i); }
@@ -238,16 +244,38 @@ struct Contact {
     return surface.at<T>(local<T>(s, ball)).distance > T(radius);
   }
 
-  /// Elastic force at a compression: beyond the table its last slope goes on.
+  /// Elastic force at a compression. From half of the way to its middle a surface stiffens, without a bound
+  /// at three quarters: what comes in by one face is not pressed out by another, and passes no axis.
   template <class T>
   T elastic(const T& p) const {
+    const T left = left_to_core(p), gone = T(1) - left, given = law(p);
+    if (!(gone > T(0))) return given;
+    return given + T(at_middle) * gone * gone * gone / (left * left);
+  }
+  /// What that stiffening has stored.
+  double stored_beyond_half(double p) const {
+    const double left = left_to_core(p);
+    if (!(left < 1.0)) return 0.0;
+    const double sum = 1.5 + 1.0 / left + 3.0 * std::log(left) - 3.0 * left + 0.5 * left * left;
+    return 0.25 * surface.thin() * at_middle * sum;
+  }
+  /// 1 at half of the way to the middle, 0 at three quarters of it, more nearer to the face.
+  template <class T>
+  T left_to_core(const T& p) const {
+    const T out = T(3) - p * T(4.0 / surface.thin());
+    return out < T(kLeast) ? T(kLeast) : out;
+  }
+
+  /// What is described: beyond the table its last slope goes on.
+  template <class T>
+  T law(const T& p) const {
     if (d.forces.empty()) return T(d.stiffness) * p;
     const std::size_t i = piece(p);
     return T(d.forces[i]) + T(slope(i)) * (p - T(d.compressions[i]));
   }
   double stored(double p) const {
-    if (d.forces.empty()) return 0.5 * d.stiffness * p * p;
-    double out = 0.0;
+    double out = stored_beyond_half(p);
+    if (d.forces.empty()) return out + 0.5 * d.stiffness * p * p;
     const std::size_t last = piece(p);
     for (std::size_t i = 0; i <= last; ++i) {
       const double x = (i == last ? p : d.compressions[i + 1]) - d.compressions[i];
@@ -279,14 +307,16 @@ struct Contact {
     out.shear = -(turn * held.force);
   }
 
-  /// Two of each point: how far it is open, and what friction could hold beyond what it is asked for.
+  /// Two of each point: how far it is open, and what friction could hold beyond what it is asked for; where
+  /// there is none, or nothing is held, how far the point is inside.
   Margins margins(const LoadInput<double>& in) const {
     Margins out;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Touch<double> now = touch(in, i);
+      const double open = std::max(now.gap, -1.0 - d.damping * now.rate);
       const double spare = d.friction * now.press.total() - std::sqrt(now.square);
-      out.add({nullptr, std::max(now.gap, -1.0 - d.damping * now.rate)});
-      out.add({nullptr, states.count > 0 ? spare : 1.0});
+      out.add({nullptr, open});
+      out.add({nullptr, states.count > 0 && !(open > 0.0) ? spare : -now.gap});
     }
     return out;
   }

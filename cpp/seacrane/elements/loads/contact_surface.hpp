@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "seacrane/math/types.hpp"
 
@@ -23,6 +25,12 @@ struct ContactSurface {
   Vec3d half = Vec3d::Zero();  // of a box; of a post or wall: half its thickness, unused, half its length
   double middle = 0.0;         // radius of the middle of a wall
   double edge = 0.0;           // radius of its edges
+
+  /// m: no shorter way leads through it but past its edges.
+  double thin() const {
+    if (shape == Shape::plane) return std::numeric_limits<double>::infinity();
+    return shape == Shape::box ? half.minCoeff() : std::min(half.x(), half.z());
+  }
 
   template <class T>
   SurfaceDistance<T> at(const Vec3<T>& x) const {

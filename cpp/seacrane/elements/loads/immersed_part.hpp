@@ -230,6 +230,11 @@ struct ImmersedPart {
   static bool has_sides() { return true; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  Margins margins(const LoadInput<double>& in) const {
+    const Shared<double> as = shared(in);
+    const Place<double> at = place(in, as);
+    return Margins(Sides{Margin{"touch", -at.depth}, {"awash", as.below - at.center}});
+  }
 
  private:
   using Sides = std::array<Margin, 2>;
@@ -265,12 +270,6 @@ struct ImmersedPart {
       slope = T(0.5 / whole) / root;
     }
   };
-
-  Margins margins(const LoadInput<double>& in) const {
-    const Shared<double> as = shared(in);
-    const Place<double> at = place(in, as);
-    return Margins(Sides{Margin{"touch", -at.depth}, {"awash", as.below - at.center}});
-  }
 
   /// How far the part reaches down, and its half widths along the vertical.
   template <class T>

@@ -1,0 +1,23 @@
+"""What is welded to a body and moves as one with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
+
+
+def welded_mass(scene: Description, body: str) -> float:
+    """Mass of a body and of all that is welded to it, kg; without vessels, and what only stands on a seat."""
+    seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
+    vessels = {vessel.body for vessel in scene.vessels.values()}
+    welds = [one for name, one in scene.joints.items() if one.kind == "weld" and name not in seats]
+    found = [body]
+    for one in found:
+        if one in vessels:
+            continue
+        ends = [(weld.first, weld.second) for weld in welds if one in (weld.first, weld.second)]
+        beside = {other for pair in ends for other in pair} & (scene.bodies.keys() - vessels)
+        found += sorted(beside - set(found))
+    return float(sum(scene.bodies[one].mass for one in found))

@@ -1,0 +1,117 @@
+"""No step goes over what it meets and leaves again: surfaces, lines that snatch, stops, tables, the water."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from dropped import GRAVITY, METHODS, drops
+
+from seacrane import Run, Scene, Stage, simulate, simulate_stages
+from seacrane.run.lanes import advance_side_by_side, module_of
+
+FORMULATIONS = ("recursive", "redundant")
+FEET = [(x, y, -1.0) for x in (-1.5, 1.5) for y in (-1.0, 1.0)]
+LOOSE: dict[str, Any] = {"rtol": 1e-2, "dt_out": 0.01}
+
+
+def over_deck(height: float, thickness: float, speed: float = 0.0) -> Scene:
+    """A load on four feet, `height` above a deck of the ground, whose top is z = 0."""
+    scene = Scene(name="dropped", gravity=GRAVITY)
+    scene.add_body("load", mass=5e3, size=(3, 2, 2), position=(0, 0, 1.0 + height), velocity=(0, 0, -speed))
+    scene.add_contact("load", on="ground", points=FEET, surface="box", size=(20, 20, thickness),
+                      place=(0, 0, -0.5 * thickness), name="deck")  # fmt: skip
+    return scene
+
+
+def test_nothing_passes_through_a_surface_of_any_shape() -> None:
+    wrong = [(drop.scene.name, drop.how, told) for drop in drops(1, 100) if (told := drop.misses())]
+    assert not wrong
+
+
+@pytest.mark.slow("ten thousand drops")
+def test_nothing_passes_through_a_surface_in_ten_thousand_drops() -> None:
+    wrong = [(drop.scene.name, drop.how, told) for drop in drops(2, 10_000) if (told := drop.misses())]
+    assert not wrong
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize("method", METHODS)
+def test_a_load_dropped_onto_a_deck_hits_it_as_it_falls(method: str, formulation: str) -> None:
+    """It meets the deck after sqrt(2 h / g), with sqrt(2 g h), and the ledger closes over the hit."""
+    height = 5.0
+    result = simulate(over_deck(height, 1.0), 4.0, rtol=1e-6, dt_out=0.01, integrator=method,
+                      formulation=formulation)  # fmt: skip
+    hit = next(event for event in result.events if event.kind == "contact")
+    assert hit.time == pytest.approx(np.sqrt(2.0 * height / GRAVITY), abs=1e-4)
+    assert hit.speed == pytest.approx(np.sqrt(2.0 * GRAVITY * height), abs=1e-3)
+    assert result["position"][-1, 0, 2] == pytest.approx(1.0, abs=0.1)
+    assert np.abs(result["energy_balance"]).max() < 1e-3 * 5e3 * GRAVITY * height
+
+
+def test_a_load_that_a_stage_lets_go_hits_the_deck_below_it() -> None:
+    scene = over_deck(5.0, 0.5)
+    scene.add_line("w", first="ground", first_point=(0, 0, 30), second="load", EA=1e7,
+                   tension_at_start=5e3 * GRAVITY)  # fmt: skip
+    stages = [Stage(name="hold", duration=2.0), Stage(name="lost", duration=4.0, release=["w"])]
+    result = simulate_stages(scene, stages)
+    hit = next(event for event in result.events if event.kind == "contact")
+    assert hit.speed == pytest.approx(np.sqrt(2.0 * GRAVITY * 5.0), rel=1e-3)
+    assert result["position"][-1, 0, 2] > 0.9
+
+
+@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+def test_lanes_step_over_no_deck() -> None:
+    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "formulation": "recursive", "dt_out": 0.1}
+    runs = [Run(over_deck(4.0, 1.0, speed), **given) for speed in (0.0, 1.0, 3.0, 6.0)]
+    assert advance_side_by_side(runs, 4, lambda _: None)
+    assert all("kept_apart" not in run.lanes for run in runs)
+    for run in runs:
+        assert run.result()["position"][:, 0, 2].min() > 0.5
+
+
+def thrown_up(speed: float) -> Scene:
+    scene = Scene(name="thrown up", gravity=GRAVITY)
+    scene.add_body("bob", mass=100.0, inertia=(10.0,) * 3, velocity=(0.0, 0.0, speed))
+    return scene
+
+
+@pytest.mark.warns("LineLengthWarning")
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_slack_line_is_taut_for_a_moment_within_one_step(formulation: str) -> None:
+    """A bob thrown up beyond the length of its line is held, and thrown less high it is free."""
+    for speed, is_held in ((10.0, True), (9.0, False)):
+        scene = thrown_up(speed)
+        scene.add_line(
+            "leash", first="ground", second="bob", length=5.9, EA=1e6, first_point=(0.0, 0.0, -1.0)
+        )
+        result = simulate(scene, 2.0, formulation=formulation, **LOOSE)
+        free = 0.5 * speed**2 / GRAVITY
+        stretch = np.sqrt((speed**2 - 2.0 * GRAVITY * 4.9) * 100.0 * 5.9 / 1e6) if is_held else 0.0
+        assert (result["line_tension"].max() > 0.0) == is_held
+        highest = result["position"][:, 0, 2].max()
+        assert highest == pytest.approx(min(free, 4.9) + stretch, abs=0.01)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_soft_stop_is_met_within_one_step(formulation: str) -> None:
+    scene = thrown_up(10.0)
+    scene.add_joint(kind="prismatic", name="mast", first="ground", second="bob", axis=(0.0, 0.0, 1.0))
+    scene.add_soft_stop(joint="mast", maximum=4.9, stiffness=1e6)
+    result = simulate(scene, 2.0, formulation=formulation, **LOOSE)
+    assert result["position"][:, 0, 2].max() < 4.95  # free it rises to 5.099 m
+    assert result["position"][-1, 0, 2] < 0.2  # and is at 0.387 m in the end
+
+
+@pytest.mark.warns("ContactStartWarning")
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_point_that_is_torn_off_gives_its_energy_to_the_ledger(formulation: str) -> None:
+    """It leaves faster than 1 / damping: what the surface held, k p^2 / 2, is lost in it."""
+    scene = Scene(name="torn off", gravity=0.0)
+    scene.add_body("b", mass=1e3, inertia=(1e3,) * 3, position=(0, 0, -0.05), velocity=(0, 0, 2.0))
+    scene.add_contact("b", on="ground", points=[(0, 0, 0)], stiffness=4e6, name="c")
+    result = simulate(scene, 0.2, rtol=1e-8, dt_out=0.005, formulation=formulation)
+    stored = 0.5 * 4e6 * 0.05**2
+    assert result["velocity"][-1, 0, 2] == pytest.approx(2.0, rel=1e-9)
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * stored
