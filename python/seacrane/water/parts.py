@@ -247,8 +247,8 @@ class PlatePart(_Part):
         side = float(np.min(np.asarray(self.size, dtype=float)))
         if self.thickness >= max(THICK, 0.5 * side):
             warn_caller(
-                f"plate: thickness is {self.thickness:.6g} m beside sides of {shown(self.size)} m: a slip in its "
-                "unit? Give it in m, or a BoxPart",
+                f"plate: thickness is {self.thickness:.6g} m beside sides of {shown(self.size)} m: a slip in "
+                "its unit? Give it in m, or a BoxPart",
                 UnitWarning,
             )
 
