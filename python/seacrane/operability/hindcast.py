@@ -87,7 +87,7 @@ class WaveHindcast:
     def _series(self, name: str, size: int) -> Array:
         given = getattr(self, name)
         if isinstance(given, np.ma.MaskedArray):
-            given = given.astype(float).filled(np.nan)  # masked is not known
+            given = np.ma.filled(given.astype(float), np.nan)  # masked is not known
         values = numbers_of(f"hindcast: {name}", given)
         if values.shape != (size,):
             raise SceneError(f"hindcast: {name} has shape {values.shape}, time {(size,)}; give one for each")

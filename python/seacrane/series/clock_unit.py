@@ -13,7 +13,6 @@ Array = NDArray[np.float64]
 POSIX = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 FIRST, LAST = 1.5e8, 7.0e9  # s since 1970: from 1974 to 2191
 FORMS = {8: "%Y%m%d", 10: "%Y%m%d%H", 12: "%Y%m%d%H%M", 14: "%Y%m%d%H%M%S"}
-CLOSEST = 60.0  # s between two sea states
 
 
 def unit_since_1970(times: Array) -> str | None:
@@ -33,11 +32,7 @@ def dates_of_numbers(what: str, numbers: Array) -> NDArray[np.datetime64]:
     """
     values = np.asarray(numbers, dtype=float)
     if values.size and np.all(np.isfinite(values)):
-        unit = unit_since_1970(values)
-        steps = np.diff(values) * POSIX.get(unit or "s", 1.0)
-        if unit is not None and (unit != "s" or not steps.size or np.abs(steps).min() >= CLOSEST):
-            return np.round(values * POSIX[unit]).astype("datetime64[s]")
-        digits = _of_digits(values)
+        digits, unit = _of_digits(values), unit_since_1970(values)
         if digits is not None:
             return digits
         if unit is not None:
@@ -50,10 +45,10 @@ def dates_of_numbers(what: str, numbers: Array) -> NDArray[np.datetime64]:
 
 
 def _of_digits(values: Array) -> NDArray[np.datetime64] | None:
-    """Dates of numbers whose digits are year, month, day and so on; None where they are not."""
+    """Dates of numbers whose digits are year (of 1900 to 2099), month, day and so on; None: they are not."""
     texts = [f"{value:.0f}" for value in values]
     form = FORMS.get(len(texts[0]))
-    if form is None or np.any(values != np.round(values)):
+    if form is None or np.any(values != np.round(values)) or {text[:2] for text in texts} - {"19", "20"}:
         return None
     try:
         return np.array([datetime.strptime(text, form) for text in texts], dtype="datetime64[s]")

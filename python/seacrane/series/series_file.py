@@ -26,7 +26,7 @@ OTHERS = frozenset(
 )
 STAMP = " and no time stamp of ISO 8601 like the first one, as 2026-03-01T12:00:00.100"
 MOST_ABOVE = 100  # lines that may stand above the header
-LARGEST = 1e15  # of any number: a clock of milliseconds since 1970 has 2e12
+LARGEST, LONGEST_CLOCK = 1e15, 1e19  # of any number, and of nanoseconds since 1970
 
 
 class SeriesFile:
@@ -151,7 +151,7 @@ class SeriesFile:
                 value = _stamp(cells[one.place], one, stamps)
             if value is None and 0 < i < clocks:
                 value = float("nan")  # a second clock need not be one
-            if value is None or abs(value) > LARGEST:
+            if value is None or abs(value) > (LONGEST_CLOCK if i < clocks else LARGEST):
                 kind = f"number of up to {LARGEST:g}" + (STAMP if i == 0 else "")
                 raise self.refused(
                     line, one, f"{shown(cells[one.place])} is no {kind}; correct it, or leave the cell empty "

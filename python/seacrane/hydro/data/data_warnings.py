@@ -15,7 +15,8 @@ from seacrane.warnings import AsymmetryWarning, DampingWarning, HeadingGapWarnin
 FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
-SYMMETRY_LIMIT = 0.03  # of the largest diagonals, as in the self-check
+SYMMETRY_LIMIT, ONE_SIDED = 0.1, 0.45  # of the diagonals, and of the larger entry; coarse meshes leave less
+SKEW_LIMIT = 0.35  # of the diagonals, whatever the entry
 ROUND_OFF = 1e-6  # of the largest damping over mass: less is none
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
@@ -116,8 +117,11 @@ def _warn_of_asymmetry(database: HydroData, inside: NDArray[np.intp]) -> None:
     """At rest both matrices are symmetric: else a half is missing, or an entry misplaced."""
     for name in ("added_mass", "damping"):
         matrices = getattr(database, name)[inside]
-        scale = np.maximum(_scales(matrices, database.mass_matrix), np.finfo(float).tiny)
-        skew = np.abs(matrices - matrices.swapaxes(1, 2)).max(axis=0) / np.outer(scale, scale)
+        scale = np.maximum(_scales(matrices, database.mass_matrix), 1e-150)  # no damping at all
+        apart = np.abs(matrices - matrices.swapaxes(1, 2)).max(axis=0)
+        larger = np.maximum(np.abs(matrices).max(axis=0), np.abs(matrices).max(axis=0).T)
+        share = apart / np.outer(scale, scale)
+        skew = np.where((apart > ONE_SIDED * larger) | (share > SKEW_LIMIT), share, 0.0)
         row, column = np.unravel_index(int(skew.argmax()), skew.shape)
         if skew[row, column] > SYMMETRY_LIMIT:
             warn_caller(

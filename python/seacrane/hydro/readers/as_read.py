@@ -102,14 +102,18 @@ def whole_stiffness(restoring: FloatArray) -> FloatArray:
 def warn_of_turning_over(where: object, hull: HydroData) -> None:
     """Warn of a hull whose C44 or C55 is not positive: it floats upright with what is not in it yet."""
     weight = hull.mass_matrix[0, 0] * hull.g
-    for name, place in (("C44", 3), ("C55", 4)):
-        if hull.restoring[place, place] <= 0.0:
-            warn_caller(
-                f"{where}: {name} is {hull.restoring[place, place]:.4g} N m/rad, a metacentric height of "
-                f"{hull.restoring[place, place] / weight:.3g} m: the hull turns over by itself. It is read "
-                "as it is; check its centre of gravity, or add what keeps it upright",
-                FloatingPositionWarning,
-            )
+    told = [
+        f"{name} is {hull.restoring[at, at]:.4g} N m/rad, a metacentric height of "
+        f"{hull.restoring[at, at] / weight:.3g} m"
+        for name, at in (("C44", 3), ("C55", 4))
+        if hull.restoring[at, at] <= 0.0
+    ]
+    if told:
+        warn_caller(
+            f"{where}: {', and '.join(told)}: the hull turns over by itself. It is read as it is; check its "
+            "centre of gravity, or add what keeps it upright",
+            FloatingPositionWarning,
+        )
 
 
 def mass_of_file(
