@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
 SYMMETRY_LIMIT, ONE_SIDED = 0.1, 0.45  # of the diagonals, and of the larger entry; coarse meshes leave less
 SKEW_LIMIT = 0.35  # of the diagonals, whatever the entry
-ROUND_OFF = 1e-6  # of the largest damping over mass: less is none
+ROUND_OFF = 1e-4  # of the largest damping over mass: less is none
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
 
@@ -34,11 +34,11 @@ def warn_of_matrices(database: HydroData) -> None:
     inside = np.flatnonzero(in_trusted_band(database))
     if database.speed == 0.0 and inside.size:
         _warn_of_asymmetry(database, inside)
-        lowest = _smallest_eigenvalues(database.damping[inside], database.mass_matrix)
+        lowest = smallest_eigenvalues(database.damping[inside], database.mass_matrix)
         if lowest.min() < DAMPING_LIMIT:
             at = database.omega[inside[int(lowest.argmin())]]
             _warn_negative(database, f"radiation damping at {at:.4g} rad/s", float(lowest.min()))
-    constant = _smallest_eigenvalues(database.linear_damping[None], database.mass_matrix)
+    constant = smallest_eigenvalues(database.linear_damping[None], database.mass_matrix)
     if constant.min() < DAMPING_LIMIT:
         _warn_negative(database, "linear_damping", float(constant.min()))
     tabulated = database.roll_damping
@@ -93,7 +93,7 @@ def warn_of_water(
             )
 
 
-def _smallest_eigenvalues(damping: FloatArray, mass_matrix: FloatArray) -> FloatArray:
+def smallest_eigenvalues(damping: FloatArray, mass_matrix: FloatArray) -> FloatArray:
     """The smallest eigenvalues of the symmetric part (n,), by the largest diagonals over all frequencies."""
     scale = _scales(damping, mass_matrix)
     if not np.any(scale):

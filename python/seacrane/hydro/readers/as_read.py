@@ -23,6 +23,7 @@ SYMMETRIC = ("added_mass", "damping", "infinite_frequency_added_mass", "zero_fre
 SAME_FREQUENCY = 1e-3  # of one that is to be left out, as messages round it
 LIGHTEST, HEAVIEST = 0.5, 2.0  # mass over displaced mass of a vessel that floats
 SHALLOWEST = 1e-3  # draught over breadth
+OBLIQUE = 0.1  # sine of twice a heading: waves from there load every motion
 ROUND = 1e-3  # by which two motions of a round body may differ
 
 
@@ -62,16 +63,24 @@ def require_solved(where: object, reader: str, found: Hydrodynamics, motions: Se
             f"{', '.join(MOTIONS)}"
         )
     moved = np.any(found.added_mass, axis=(0, 2)) | np.any(found.damping, axis=(0, 2))
-    empty = [i for i in np.flatnonzero(~moved).tolist() if MOTIONS[i % 6] in known]
+    forced = np.any(found.force, axis=(0, 1)) | (np.abs(np.sin(2.0 * found.heading)).max() < OBLIQUE)
+    _ask_for(where, reader, found, known, ~moved, "no added mass and no damping at any frequency")
+    _ask_for(where, reader, found, known, ~forced, "no wave force at any frequency and heading")
+
+
+def _ask_for(
+    where: object, reader: str, found: Hydrodynamics, known: set[str], without: NDArray[np.bool_], what: str
+) -> None:
+    """Raise where motions that should be known are without something, but for yaw of a round body."""
+    empty = [i for i in np.flatnonzero(without).tolist() if MOTIONS[i % 6] in known]
     lacking = [i for i in empty if i % 6 != 5 or not _is_round(found, i - 5)]
     if lacking:
         names = [*getattr(found, "names", [""])]
         told = ", ".join(f"{names[i // 6]} {MOTIONS[i % 6]}".strip() for i in lacking)
         solved = tuple(name for i, name in enumerate(MOTIONS) if i not in {one % 6 for one in lacking})
         raise FileFormatError(
-            f"{where}: {told} {'has' if len(lacking) == 1 else 'have'} no added mass and no damping at any "
-            f"frequency: not solved for. Solve for it, or say which were by {reader}(motions={solved}), and "
-            "keep the vessel from the others"
+            f"{where}: {told} {'has' if len(lacking) == 1 else 'have'} {what}: not solved for. Solve for it, "
+            f"or say which were by {reader}(motions={solved}), and keep the vessel from the others"
         )
 
 
@@ -82,7 +91,7 @@ def _is_round(found: Hydrodynamics, first: int) -> bool:
 
 
 def mirrored(matrices: FloatArray) -> FloatArray:
-    """Symmetric matrices (..., k, k) of which a file holds one half: the other half is its mirror image."""
+    """Symmetric matrices (..., k, k) of which a file holds one half: the other is its mirror image."""
     lower = np.tril(np.ones(matrices.shape[-2:], dtype=bool), -1)
     there = [bool(np.any(matrices[..., half])) for half in (lower, lower.T)]
     if there[0] == there[1]:
