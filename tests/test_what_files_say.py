@@ -113,11 +113,20 @@ READERS: dict[str, tuple[Callable[[], HydroDatabase], Callable[..., Path], Calla
 }
 
 
-@pytest.mark.parametrize("reader", ["wamit", "nemoh", "capytaine", "orcaflex"])
+@pytest.mark.parametrize("reader", READERS)
 def test_half_a_matrix_is_completed(reader: str, tmp_path: Path) -> None:
-    """BEMIO's halves are about a centre of gravity, so that they are no halves of what is compared here."""
     source, write, read = READERS[reader]
     base = source()
+    if reader == "bemio":  # whose halves are about the centre of gravity
+        values = bemio_values(base)
+        for name in ("added_mass/all", "radiation_damping/all"):
+            entry = values[f"body1/hydro_coeffs/{name}"]
+            entry[np.tril_indices(6, -1)] = 0.0
+        found = read(written(values, tmp_path / "ship.h5"))
+        for name in ("added_mass", "damping"):
+            mine = getattr(found, name)
+            assert np.abs(mine - mine.swapaxes(1, 2)).max() <= 1e-9 * np.abs(mine).max()
+        return
     found = read(
         write(replace(base, added_mass=base.added_mass * UPPER, damping=base.damping * UPPER), tmp_path)
     )

@@ -156,7 +156,7 @@ def mass_of_file(
             "a placeholder"
         )
     elif np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0] <= 0.0:
-        wrong = "its mass matrix has no mass or no inertia in some motion"
+        wrong = "its mass matrix is not positive definite: no mass or no inertia in some motion"
     if wrong:
         raise FileFormatError(f"{where}: {wrong}; give {argument}, (6, 6) in SI")
     return matrix

@@ -70,10 +70,7 @@ def read_bemio(
         the entry.
     """
     source = Path(path)
-    found = from_bemio(
-        source,
-        lambda file: as_read(source, "read_bemio", _convert(source, file, mass_matrix, leave_out), motions),
-    )
+    found = from_bemio(source, lambda file: _convert(source, file, mass_matrix, motions, leave_out))
     return with_band_of_data(found)
 
 
@@ -111,7 +108,11 @@ def is_bemio(path: Path) -> bool:
 
 
 def _convert(
-    path: Path, file: Any, mass_matrix: ArrayLike | None, leave_out: ArrayLike | None
+    path: Path,
+    file: Any,
+    mass_matrix: ArrayLike | None,
+    motions: Sequence[str] | None,
+    leave_out: ArrayLike | None,
 ) -> HydroDatabase:
     bodies = bodies_in(file)
     if len(bodies) != 1:
@@ -169,8 +170,9 @@ def _convert(
         source=f"BEMIO file {path.name}, {body}",
         port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass)),
     )
+    whole = as_read(path, "read_bemio", about_gravity, motions)
     return replace(
-        about_gravity.at((0.0, 0.0, -centre[2])),
+        whole.at((0.0, 0.0, -centre[2])),
         origin=(
             f"on the still waterline, above the centre of gravity, which BEMIO has at ({centre[0]:g}, "
             f"{centre[1]:g}, {centre[2]:g}) m"

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import as_read
+from seacrane.hydro.readers.as_read import as_read, whole_stiffness
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
@@ -317,7 +317,7 @@ def read_stiffness(path: Path) -> FloatArray:
     rows = [numbers_in(path, number, words) for number, words in lines]
     if len(rows) != MOTIONS or any(len(row) != MOTIONS for row in rows):
         raise FileFormatError(f"{path}: is no matrix of six rows and columns; it is truncated or damaged")
-    return np.array(rows)
+    return whole_stiffness(np.array(rows))
 
 
 def read_control(path: Path) -> tuple[Water, list[str]]:

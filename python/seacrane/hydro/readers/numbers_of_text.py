@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+|[-+]\d{2,4})?"
-LETTERLESS = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))([-+]\d{2,4})")  # 1.2-101: no room for the E
+NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[EeDd][-+]?\d+|[-+]\d{2,4})?"
+LETTERLESS = re.compile(r"([-+]?(?:\d+(?:\.\d*)?|\.\d+))([-+]\d{2,4})")  # 1.2-101: no room for the E
 
 
 def number_of_word(word: str) -> float:

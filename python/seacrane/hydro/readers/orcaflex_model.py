@@ -204,9 +204,9 @@ def _document(path: Path) -> dict[str, Any]:
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         data = read_whole(path, LARGEST_FILE, "save the vessel type alone")
-        if b"\0" in data:
-            raise FileFormatError(f"{path}: no UTF-8 text (it holds zero bytes); save the model again")
         text = decoded(data)
+        if b"\0" in data and "\0" not in text:
+            raise FileFormatError(f"{path}: no UTF-8 text; save the model again")
         depth = 0
         for event in yaml.parse(text, Loader=loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)

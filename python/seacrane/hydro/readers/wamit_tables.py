@@ -169,8 +169,10 @@ def read_table(path: Path, widths: tuple[int, ...]) -> Table:
         try:
             values[row, : len(words)] = [number_of_word(word) for word in words]
         except ValueError as error:
-            told = f"a number is not finite, or none: {line.strip()[:80]!r}"
-            raise FileFormatError(f"{path}, line {number}: {told}: {error}") from None
+            told = f"{error}, in {line.strip()[:80]!r}"
+            if "finite" in told:
+                told = f"a number is not finite: {line.strip()[:80]!r}"
+            raise FileFormatError(f"{path}, line {number}: {told}") from None
     return Table(path, values, np.array([number for number, _ in every]))
 
 
