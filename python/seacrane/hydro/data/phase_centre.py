@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 FEWEST = 3  # headings
-BETTER = 0.8  # of the changes from heading to heading that are left, for a centre to be worth it
+BETTER = 0.5  # of the changes from heading to heading that are left; a shielded hull has 0.67 aside
 STEP = 0.5  # rad of the shortest wave between two places that are tried
 FARTHEST, MOST = 1.5, 400  # rad of the longest wave, and places on either side
 
