@@ -233,6 +233,17 @@ def test_a_frequency_that_failed_is_named_and_left_out_on_request(tmp_path: Path
     assert omega not in read_bemio(path, leave_out=[omega]).omega
     with pytest.raises(FileFormatError, match="none of its frequencies"):
         read_bemio(path, leave_out=[99.0])
+    folder = nemoh(BASE, tmp_path)
+    file = folder / "results" / "RadiationCoefficients.tec"
+    lines = file.read_text().splitlines()
+    row = next(i for i, line in enumerate(lines) if line[:1].isdigit()) + 2
+    lines[row] = " ".join([*lines[row].split()[:-1], "NaN"])
+    file.write_text("\n".join(lines) + "\n")
+    with pytest.raises(
+        FileFormatError, match=rf"values at {BASE.omega[2]:.5g} rad/s .*read_nemoh\(leave_out"
+    ):
+        read_nemoh(folder)
+    assert np.array_equal(read_nemoh(folder, leave_out=[BASE.omega[2]]).omega, np.delete(BASE.omega, 2))
     data = test_hydro_capytaine.layout()
     data["radiation_damping"][3, 0, 0] = np.nan
     data.to_netcdf(tmp_path / "ship.nc", engine="netcdf4")

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import as_read, whole_stiffness
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept, whole_stiffness
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
@@ -52,6 +52,7 @@ def read_nemoh(
     rotation_centre: ArrayLike = (0.0, 0.0, 0.0),
     mass_matrix: ArrayLike | None = None,
     motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroDatabase:
     """Read a folder of NEMOH's results of one body with six motions.
 
@@ -64,6 +65,7 @@ def read_nemoh(
         gravity with usual radii of gyration.
     motions : names of those that were solved for, where some were not: a motion without added mass and
         damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
 
     Returns
     -------
@@ -95,7 +97,7 @@ def read_nemoh(
             AssumedDensityWarning,
         )
     try:
-        found = as_read(folder, "read_nemoh", _convert(folder, files, water, mass_matrix), motions)
+        found = as_read(folder, "read_nemoh", _convert(folder, files, water, mass_matrix, leave_out), motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -116,7 +118,11 @@ class Water:
 
 
 def _convert(
-    folder: Path, files: dict[str, Path], water: Water, mass_matrix: ArrayLike | None
+    folder: Path,
+    files: dict[str, Path],
+    water: Water,
+    mass_matrix: ArrayLike | None,
+    leave_out: ArrayLike | None,
 ) -> HydroDatabase:
     radiation = blocks(files[RADIATION])
     if len(radiation) != MOTIONS:
@@ -124,7 +130,8 @@ def _convert(
             f"{files[RADIATION]}: {len(radiation)} degrees of freedom; the six of one body are needed"
         )
     control = sought(folder, CONTROL)
-    solved = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]), control)
+    whole = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]), control)
+    solved = whole.kept(folder, "read_nemoh", leave_out)
     omega, direction, added_mass = solved.omega, solved.direction, solved.added_mass
     gravity, volume = read_hydrostatics(files[HYDROSTATICS])
     centre = water.centres[0]
@@ -177,6 +184,18 @@ class Solution:
     damping: FloatArray
     force: NDArray[np.complex128]
 
+    def kept(self, where: Path, reader: str, leave_out: ArrayLike | None) -> Solution:
+        """Without the frequencies that the caller leaves out; `frequencies_kept` raises for what is none."""
+        tables = {"added_mass": self.added_mass, "damping": self.damping, "force": self.force}
+        rows = frequencies_kept(where, reader, self.omega, tables, leave_out)
+        return Solution(
+            omega=self.omega[rows],
+            direction=self.direction,
+            added_mass=self.added_mass[rows],
+            damping=self.damping[rows],
+            force=self.force[:, rows],
+        )
+
 
 def solution(
     matrices: Path, forces: Path, radiation: list[_Block], waves: list[_Block], control: Path | None
@@ -219,7 +238,7 @@ def blocks(path: Path, *, bodies: int = 1) -> list[_Block]:
     for number, line in enumerate(text_lines(path), start=1):
         words = line.split()
         if words and is_number(words[0]):
-            rows.append(numbers_in(path, number, words))
+            rows.append(numbers_in(path, number, words, failed=True))
             if len(rows[-1]) != 1 + 2 * motions:
                 many = "six" if bodies == 1 else motions
                 raise FileFormatError(
@@ -358,9 +377,10 @@ def read_control(path: Path) -> tuple[Water, list[str]]:
     return water, [row[0] for _, row in rows if len(row) == 1 and row[0].lower().endswith(".dat")]
 
 
-def numbers_in(path: Path, line: int, words: list[str]) -> list[float]:
+def numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:
+    """Finite numbers; where a solution may have ``failed``, NaN too."""
     try:
-        return [number_of_word(word) for word in words]
+        return [np.nan if failed and word.lower() == "nan" else number_of_word(word) for word in words]
     except ValueError as error:
         told = " ".join(words)[:60]
         raise FileFormatError(

@@ -52,6 +52,7 @@ def read_nemoh_group(
     mass_matrices: Given | None = None,
     restorings: Given | None = None,
     motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroGroup:
     """Read a folder of NEMOH's results of several bodies.
 
@@ -64,6 +65,7 @@ def read_nemoh_group(
     restorings : by body, (6, 6) in SI, in the place of ``KH_0.dat`` on.
     motions : names of those that were solved for, where some were not: a motion without added mass and
         damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
 
     Returns
     -------
@@ -98,7 +100,8 @@ def read_nemoh_group(
                 f"{', '.join(names)} are "
                 "needed"
             )
-        solved = solution(files[RADIATION], files[EXCITATION], radiation, waves, files[CONTROL])
+        whole = solution(files[RADIATION], files[EXCITATION], radiation, waves, files[CONTROL])
+        solved = whole.kept(folder, "read_nemoh_group", leave_out)
         bodies = [
             _body(folder, water, (i, name), given, (stiffness[i], hydrostatics[i]), solved)
             for i, name in enumerate(names)
