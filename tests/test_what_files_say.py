@@ -168,6 +168,16 @@ def test_motions_that_were_not_solved_are_refused(reader: str, tmp_path: Path) -
         assert not found.added_mass[:, 1].any() and found.added_mass[:, 2].any()
 
 
+def test_a_motion_without_wave_forces_is_refused(tmp_path: Path) -> None:
+    path = wamit(BASE, tmp_path) / "ship.3"
+    path.write_text("".join(line for line in path.read_text().splitlines(True) if line.split()[2] != "6"))
+    with pytest.raises(FileFormatError, match=r"yaw has no wave force .*read_wamit\(motions=\('surge', "):
+        read_wamit_set(tmp_path)
+    assert (
+        not read_wamit_set(tmp_path, motions=("surge", "sway", "heave", "roll", "pitch")).force[..., 5].any()
+    )
+
+
 @pytest.mark.parametrize("reader", READERS)
 def test_a_hull_that_turns_over_is_read_and_told(reader: str, tmp_path: Path) -> None:
     source, write, read = READERS[reader]

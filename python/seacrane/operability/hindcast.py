@@ -45,9 +45,10 @@ class WaveHindcast:
     Attributes
     ----------
     time : array_like of datetime64, shape (n,)
-        Ascending, multiples of one step apart; times that are missing are filled in with NaN.
+        Ascending, multiples of one step apart; times that are missing are filled in with NaN. Numbers that
+        count from 1970 (s, ms, us, ns), or of digits such as 2020013112, are taken for what they are.
     hs, tp : array_like, shape (n,)
-        m and s; NaN where they are not known.
+        m and s; NaN, or masked, where they are not known.
     direction_from_deg : array_like, shape (n,), optional
         Where the waves come from, degrees clockwise from north.
     source : str
@@ -56,7 +57,8 @@ class WaveHindcast:
     Raises
     ------
     SceneError
-        For series of different length, times that do not ascend evenly, or values out of range.
+        For series of different length, times that do not ascend evenly or do not say what they count, or
+        values out of range.
     """
 
     time: Any
