@@ -745,6 +745,14 @@ class DampingWarning(VesselWarning):
     """
 
 
+class AsymmetryWarning(VesselWarning):
+    """Added mass or damping of a hull at rest is not symmetric, as half a matrix is, or one with an entry in
+    the wrong place.
+
+    Motions that it couples are off by as much. Give both halves, or the mean of both.
+    """
+
+
 class DoubleCountedDampingWarning(VesselWarning):
     """A current load and the vessel's own viscous damping both slow the same motion.
 
@@ -828,7 +836,8 @@ class AssumedInertiaWarning(SourceWarning):
 class AssumedReferenceWarning(SourceWarning):
     """The file does not tell about which points its bodies turn: the origin of the meshes was taken.
 
-    Give the points, as `read_capytaine_group(rotation_centres=...)` takes them.
+    Give the points, as `read_capytaine(rotation_centre=...)` and `read_capytaine_group(rotation_centres=...)`
+    take them.
     """
 
 
@@ -885,9 +894,9 @@ class HydrostaticsWarning(SourceWarning):
 
 
 class FloatingPositionWarning(SourceWarning):
-    """The hull would not float as drawn with this mass and centre of gravity.
+    """The hull would not float as drawn with this mass and centre of gravity, or turns over by itself.
 
-    Correct draught, mass or centre.
+    Correct draught, mass or centre, or add what keeps it upright.
     """
 
 

@@ -95,6 +95,7 @@ def vector_of(what: str, value: Any) -> list[float]:
 
 def numbers_of(what: str, value: Any) -> Array:
     """An array of floats of any shape; no texts that read like numbers, no dates."""
+    require_unmasked(what, value)
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in _objects(array)):
@@ -102,6 +103,17 @@ def numbers_of(what: str, value: Any) -> Array:
         return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise SceneError(f"{what} is {shown(value)}; give numbers") from error
+
+
+def require_unmasked(what: str, value: Any) -> None:
+    """Refuse NumPy's masked values, below which anything may stand."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        mask = np.ma.getmaskarray(value)
+        place = ", ".join(str(int(i)) for i in np.argwhere(mask)[0])
+        raise SceneError(
+            f"{what} has {int(mask.sum())} masked values, the first at [{place}]; leave such samples out, or "
+            "fill them by seacrane.statistics.interpolated(time, values)"
+        )
 
 
 def _objects(array: NDArray[Any]) -> Iterable[Any]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from seacrane.errors import FileFormatError
 
+BYTE_ORDERS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16", b"\xef\xbb\xbf": "utf-8-sig"}
 LARGEST_TABLE = 128 * 2**20  # bytes; VERES files of ten speeds take a few dozen MiB
 
 
@@ -31,6 +32,15 @@ def read_whole(path: Path, largest: int = LARGEST_TABLE, fix: str = "export less
         raise FileFormatError(f"{path}: is larger than {largest} bytes; {fix}")
     with path.open("rb") as file:
         return file.read(size)
+
+
+def decoded(data: bytes) -> str:
+    """The text of a file: UTF-16 or UTF-8 as its first bytes say, else UTF-8, else ISO-8859-1."""
+    kind = BYTE_ORDERS.get(data[:3]) or BYTE_ORDERS.get(data[:2]) or "utf-8"
+    try:
+        return data.decode(kind)
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
 
 
 def size_of(path: Path) -> int:

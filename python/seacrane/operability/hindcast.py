@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.checked import number_of, numbers_of, text_of
+from seacrane.inputs.checked import number_of, numbers_of, require_unmasked, text_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
-from seacrane.inputs.whole_file import read_whole
+from seacrane.inputs.whole_file import decoded, read_whole
+from seacrane.series.clock_unit import dates_of_numbers
+from seacrane.series.series_file import DELIMITERS, plain_number
 
 if TYPE_CHECKING:
     import xarray
@@ -43,9 +45,10 @@ class WaveHindcast:
     Attributes
     ----------
     time : array_like of datetime64, shape (n,)
-        Ascending, multiples of one step apart; times that are missing are filled in with NaN.
+        Ascending, multiples of one step apart; times that are missing are filled in with NaN. Numbers that
+        count from 1970 (s, ms, us, ns), or of digits such as 2020013112, are taken for what they are.
     hs, tp : array_like, shape (n,)
-        m and s; NaN where they are not known.
+        m and s; NaN, or masked, where they are not known.
     direction_from_deg : array_like, shape (n,), optional
         Where the waves come from, degrees clockwise from north.
     source : str
@@ -54,7 +57,8 @@ class WaveHindcast:
     Raises
     ------
     SceneError
-        For series of different length, times that do not ascend evenly, or values out of range.
+        For series of different length, times that do not ascend evenly or do not say what they count, or
+        values out of range.
     """
 
     time: Any
@@ -83,7 +87,10 @@ class WaveHindcast:
         object.__setattr__(self, "source", text_of("hindcast: source", self.source or "not told"))
 
     def _series(self, name: str, size: int) -> Array:
-        values = numbers_of(f"hindcast: {name}", getattr(self, name))
+        given = getattr(self, name)
+        if isinstance(given, np.ma.MaskedArray):
+            given = np.ma.filled(given.astype(float), np.nan)  # masked is not known
+        values = numbers_of(f"hindcast: {name}", given)
         if values.shape != (size,):
             raise SceneError(f"hindcast: {name} has shape {values.shape}, time {(size,)}; give one for each")
         return values
@@ -128,7 +135,9 @@ class WaveHindcast:
         Parameters
         ----------
         path : path
-            Ends with .csv: a line of names, then a line for each time, which is as ISO 8601 writes it.
+            Ends with .csv: a line of names, then a line for each time, which is as ISO 8601 writes it, or
+            counts from 1970, or is of digits such as 2020013112. Cells end with a comma, a semicolon or a
+            tab; with one of the latter, numbers may have a decimal comma.
         names : mapping of str to str, optional
             Names in the file of "time", "hs", "tp" and "direction", where they are others.
 
@@ -155,13 +164,22 @@ class WaveHindcast:
 
 
 def _times(given: Any) -> Times:
+    require_unmasked("hindcast: time", given)
     try:
-        time = np.asarray(given, dtype="datetime64[s]")
+        found = np.asarray(given)
+        numeric = found.dtype.kind in "iuf" or (found.dtype.kind == "O" and _all_numbers(found))
+        time = dates_of_numbers("hindcast: time", found) if numeric else found.astype("datetime64[s]")
+    except SceneError:
+        raise
     except (TypeError, ValueError) as error:
         raise SceneError(f"hindcast: time is {shown(given)}; give dates") from error
     if time.ndim != 1 or time.size < 2 or np.isnat(time).any():
         raise SceneError(f"hindcast: time has shape {time.shape}; give two dates or more, none missing")
     return time
+
+
+def _all_numbers(values: NDArray[Any]) -> bool:
+    return all(isinstance(one, (int, float)) for one in values.flat)
 
 
 def _even(time: Times) -> tuple[Times, NDArray[np.intp]]:
@@ -210,9 +228,12 @@ def _named(there: Iterable[str], names: Mapping[str, tuple[str, ...]]) -> dict[s
 
 
 def _of_csv(path: Path, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
+    lines_of_text = decoded(read_whole(path)).splitlines()
+    first = next((line for line in lines_of_text if line.strip()), "")
+    delimiter = next((one for one in DELIMITERS if one in first), ",")
     try:
-        rows = list(csv.reader(read_whole(path).decode("utf-8-sig").splitlines()))
-    except (UnicodeDecodeError, csv.Error) as error:
+        rows = list(csv.reader(lines_of_text, delimiter=delimiter))
+    except csv.Error as error:
         raise FileFormatError(f"{path}: is no table of text ({error}); write it as UTF-8") from error
     head = [name.strip() for name in rows[0]] if rows else []
     try:
@@ -223,17 +244,35 @@ def _of_csv(path: Path, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
     columns: dict[str, list[Any]] = {what: [] for what in found if found[what]}
     for number, row in lines:
         for what, column in columns.items():
-            column.append(_entry(path, number, row, head.index(found[what]), date=what == "time"))
+            column.append(_entry(path, number, row, head.index(found[what]), delimiter, date=what == "time"))
+    columns["time"] = _dates(path, columns["time"])
     out = {what: column for what, column in columns.items() if what != "direction"}
     return out | {"direction_from_deg": columns.get("direction")}
 
 
-def _entry(path: Path, number: int, row: list[str], place: int, *, date: bool) -> Any:
+def _dates(path: Path, given: list[Any]) -> list[Any]:
+    """Dates; where all are numbers, what these count is told by their size and step."""
+    if given and all(isinstance(one, float) for one in given):
+        try:
+            return list(dates_of_numbers(f"{path}: time", np.array(given)))
+        except SceneError as error:
+            raise FileFormatError(str(error)) from error
+    for one in given:
+        if isinstance(one, float):
+            raise FileFormatError(f"{path}: time is {one:.10g} beside dates; give dates in every line")
+    return given
+
+
+def _entry(path: Path, number: int, row: list[str], place: int, delimiter: str, *, date: bool) -> Any:
     text = row[place].strip() if place < len(row) else ""
     try:
         if date:
-            return np.datetime64(text.removesuffix("Z"), "s")
-        return float(text) if text else np.nan
+            found = plain_number(text, comma=delimiter != ",")
+            return np.datetime64(text.removesuffix("Z"), "s") if found is None else found
+        found = plain_number(text, comma=delimiter != ",")
+        if found is None:
+            raise ValueError
+        return found
     except ValueError as error:
         wanted = "a date such as 2020-01-31T12:00" if date else "a number, or nothing"
         raise FileFormatError(f"{path}, line {number}: {shown(text)} is not {wanted}") from error

@@ -37,4 +37,6 @@ def level_crossed(count: float, *, cycles: float, bandwidth: float | None) -> fl
     def beyond(level: float) -> float:
         return float(np.log(expected_crossings(level, cycles=cycles, bandwidth=bandwidth) / count))
 
+    if beyond(top) >= 0.0:  # of so few cycles none gather into clumps: the level is that of single ones
+        return top
     return float(brentq(beyond, 0.0, top))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import vector_of
 from seacrane.series.clock import step_of
 
 Array = NDArray[np.float64]
@@ -43,6 +46,38 @@ def filled(time: Array, values: Array, missing: NDArray[np.bool_]) -> Array:
         return values
     known = ~missing
     return np.asarray(np.where(missing, CubicSpline(time[known], values[known])(time), values))
+
+
+def interpolated(time: Any, values: Any) -> Array:
+    """Values with the masked ones, and those that are NaN, taken from the cubic spline through the others.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        Increasing.
+    values : array_like or masked array, shape (n,)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Raises
+    ------
+    SceneError
+        Where fewer than four are known, or the first or last is not: nothing is taken beyond what is known.
+    """
+    data = np.ma.asarray(values)
+    known = ~np.ma.getmaskarray(data) & np.isfinite(np.ma.getdata(data).astype(float))
+    stamps = np.array(vector_of("interpolated: time", time))
+    if data.shape != stamps.shape:
+        raise SceneError(f"interpolated: values has shape {data.shape}, time {stamps.shape}; give as many")
+    if known.sum() < 4 or not (known[0] and known[-1]):
+        raise SceneError(
+            f"interpolated: {int(known.sum())} of {known.size} values are known"
+            f"{'' if known.sum() < 4 else ', and the first or the last is not'}; cut the ends off"
+        )
+    return filled(stamps, np.ma.getdata(data).astype(float), ~known)
 
 
 def is_even(time: Array) -> bool:

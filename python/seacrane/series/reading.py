@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import finite_of, flag_of, not_negative_of
 from seacrane.inputs.shown import listed, shown
+from seacrane.series.clock_unit import POSIX, unit_since_1970
 from seacrane.series.headings import Heading, plain_words, unit_of_words
 from seacrane.series.rows import FEWEST, Rows, mended, require_increasing, require_possible, warn_of_drift
 from seacrane.series.series_file import SeriesFile
@@ -19,6 +20,7 @@ from seacrane.series.series_file import SeriesFile
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Columns = Sequence[str] | Mapping[str, str | tuple[str, ...]]
+DOUBTFUL = 2.0  # between two samples: a logger's s, or the ms of one at up to 500 Hz
 TURNING = {"yaw", "heading", "hdg", "course"}
 KINDS = "rad [deg], m [cm], N [kN, t], Pa [bar], m/s"
 
@@ -58,7 +60,10 @@ def read_series(
         raise FileFormatError(
             f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed"
         )
-    clock = numbers[:, : len(clocks)] * times
+    clock = numbers[:, : len(clocks)] * [
+        factor if start else _counted(file, one, given.get("time"), factor, numbers[:, i])
+        for i, (one, factor) in enumerate(zip(clocks, times, strict=True))
+    ]
     values = numbers[:, len(clocks) :] * [factor for factor, _ in scales.values()]
     rows = Rows(
         file=file, clock=clocks[0], headings=tuple(wanted.values()), time=clock[:, 0], lines=lines,
@@ -153,6 +158,26 @@ def _time_unit(file: SeriesFile, heading: Heading, given: str | None) -> float:
             f"has the unit {shown(words)}; a time is in s, ms, min or h, or a time stamp",
         )
     return found[0]
+
+
+def _counted(file: SeriesFile, heading: Heading, given: str | None, factor: float, times: Array) -> float:
+    """s of a clock's unit, which numbers since 1970 tell, and whole numbers far apart leave in doubt."""
+    named = given or heading.unit
+    since = unit_since_1970(times)
+    step = float(np.nanmedian(np.abs(np.diff(times)))) if times.size > 1 else 0.0
+    if since is not None and (named is None or np.isclose(POSIX[since], factor)):
+        return POSIX[since]
+    fix = "name its unit by units={'time': 'ms'} or 's'"
+    if since is not None:
+        raise file.refused(
+            file.header, heading, f"has the unit {shown(named)}, and its numbers, from {times[0]:.10g} on, "
+            f"are {since} since 1970; {fix}",
+        )  # fmt: skip
+    if named is None and step >= DOUBTFUL and np.all(times[np.isfinite(times)] % 1.0 == 0.0):
+        raise file.refused(
+            file.header, heading, f"has no unit, and its whole numbers are {step:g} apart: s, or ms; {fix}",
+        )  # fmt: skip
+    return factor
 
 
 def _kept(rows: Rows, after: float | None, before: float | None) -> Bools:

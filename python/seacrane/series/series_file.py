@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError
 from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import listed, shown
-from seacrane.inputs.whole_file import read_whole
+from seacrane.inputs.whole_file import decoded, read_whole
 from seacrane.series.headings import LONGEST, Heading, heading_of, is_line_of_units, plain_words
 
 Array = NDArray[np.float64]
@@ -26,8 +26,7 @@ OTHERS = frozenset(
 )
 STAMP = " and no time stamp of ISO 8601 like the first one, as 2026-03-01T12:00:00.100"
 MOST_ABOVE = 100  # lines that may stand above the header
-LARGEST = 1e15  # of any number: a clock of milliseconds since 1970 has 2e12
-BYTE_ORDERS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16", b"\xef\xbb\xbf": "utf-8-sig"}
+LARGEST, LONGEST_CLOCK = 1e15, 1e19  # of any number, and of nanoseconds since 1970
 
 
 class SeriesFile:
@@ -147,12 +146,12 @@ class SeriesFile:
     ) -> list[float]:
         found = []
         for i, one in enumerate(wanted):
-            value = _number(cells[one.place], comma=self.delimiter != ",")
+            value = plain_number(cells[one.place], comma=self.delimiter != ",")
             if value is None and i < clocks:
                 value = _stamp(cells[one.place], one, stamps)
             if value is None and 0 < i < clocks:
                 value = float("nan")  # a second clock need not be one
-            if value is None or abs(value) > LARGEST:
+            if value is None or abs(value) > (LONGEST_CLOCK if i < clocks else LARGEST):
                 kind = f"number of up to {LARGEST:g}" + (STAMP if i == 0 else "")
                 raise self.refused(
                     line, one, f"{shown(cells[one.place])} is no {kind}; correct it, or leave the cell empty "
@@ -164,11 +163,7 @@ class SeriesFile:
 
 def _lines_of(path: Path) -> list[str]:
     data = read_whole(path, fix="cut the record into several files")
-    kind = BYTE_ORDERS.get(data[:3]) or BYTE_ORDERS.get(data[:2]) or "utf-8"
-    try:
-        text = data.decode(kind)
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
+    text = decoded(data)
     if "\0" in text or not text.strip():
         raise FileFormatError(f"{path}: is {looks_like(path, data)}; give a text file of columns (CSV, TSV)")
     return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
@@ -218,7 +213,7 @@ def _is_about(heading: Heading, words: set[str]) -> bool:
     return words <= has and not (has - words) & OTHERS
 
 
-def _number(cell: str, *, comma: bool) -> float | None:
+def plain_number(cell: str, *, comma: bool) -> float | None:
     """A number, NaN where it is missing, or None for another text."""
     text = cell.strip().strip("\"'")
     if text.lower() in MISSING:

@@ -16,5 +16,6 @@ from seacrane.statistics.control_variate import ControlledMean as ControlledMean
 from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
 from seacrane.statistics.spectrum import SpectrumEstimate as SpectrumEstimate
 from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
+from seacrane.series.mending import interpolated as interpolated
 from seacrane.statistics.compare import compare as compare
 from seacrane.statistics.comparison import Comparison as Comparison

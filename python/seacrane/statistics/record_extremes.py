@@ -18,10 +18,11 @@ from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
 from seacrane.statistics.record import crests, positive, record_of, up_crossings
 from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
-from seacrane.statistics.tail import Tail, peaks_over_threshold
+from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
 
 Array = NDArray[np.float64]
+MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process may tell
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -166,7 +167,8 @@ def record_extremes(
     Raises
     ------
     SceneError
-        For a record that is too short, does not vary or never crosses its mean, or a number out of range.
+        For a record that is too short, does not vary or never crosses its mean, has too few crests and is
+        far from Gaussian, or a number out of range.
 
     Warns
     -----
@@ -189,17 +191,36 @@ def record_extremes(
             PoorFitWarning,
         )
     reduced = (record - mean) / std
+    kurtosis = float(np.mean(reduced**4)) - 3.0
+    if found is None and kurtosis > MOST_KURTOSIS:
+        _refuse_or_warn_of_few(heights.size, kurtosis)
     third = np.sort(heights)[-max(1, heights.size // 3) :]
     return RecordExtremes(
         name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std,
         largest=float(record.max()),
-        skewness=float(np.mean(reduced**3)), kurtosis=float(np.mean(reduced**4)) - 3.0,
+        skewness=float(np.mean(reduced**3)), kurtosis=kurtosis,
         static=mean if static is None else number_of("static", static), significant=float(third.mean()),
         crossing_rate=rate, crests=np.sort(mean + heights), spectrum=spectrum,
         gaussian=_gaussian(mean, std, rate, asked, spectrum, None),
         clumped=_gaussian(mean, std, rate, asked, spectrum, max(spectrum.bandwidth, 1e-6)),
         tail=found, over_threshold=None if found is None else found.maximum(asked),
     )  # fmt: skip
+
+
+def _refuse_or_warn_of_few(crests: int, kurtosis: float) -> None:
+    """Of snaps between which nothing happens: no tail is fitted, and no Gaussian process is like it."""
+    told = (
+        f"{crests} crests of a record that is far from Gaussian (excess kurtosis {kurtosis:.3g}), as of a "
+        "line that is slack but for snaps: too few"
+    )
+    fix = "make the record longer, or take the maxima of many seeds (seed_extremes)"
+    if crests < FEWEST_PEAKS:
+        raise SceneError(f"values: {told} for a largest value; {fix}")
+    warn_caller(
+        f"values: {told} for peaks over a threshold, and the estimates as of a Gaussian process are far "
+        f"below what comes; {fix}",
+        PoorFitWarning,
+    )
 
 
 def _gaussian(

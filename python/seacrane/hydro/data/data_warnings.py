@@ -10,31 +10,35 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.inputs.caller import warn_caller
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import DampingWarning, HeadingGapWarning, WaterMismatchWarning
+from seacrane.warnings import AsymmetryWarning, DampingWarning, HeadingGapWarning, WaterMismatchWarning
 
 FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
+SYMMETRY_LIMIT, ONE_SIDED = 0.1, 0.45  # of the diagonals, and of the larger entry; coarse meshes leave less
+SKEW_LIMIT = 0.35  # of the diagonals, whatever the entry
+ROUND_OFF = 1e-4  # of the largest damping over mass: less is none
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
 
 
 def warn_of_data(database: HydroData) -> None:
     """All warnings that a database gives without being used; `load_database` asks for them."""
-    warn_of_damping(database)
+    warn_of_matrices(database)
     _warn_of_headings(database)
     _warn_of_box(database)
 
 
-def warn_of_damping(database: HydroData) -> None:
-    """Radiation damping within the trusted band, linear and quadratic damping at any frequency."""
+def warn_of_matrices(database: HydroData) -> None:
+    """Symmetry of added mass and damping within the trusted band, and damping that adds energy."""
     inside = np.flatnonzero(in_trusted_band(database))
     if database.speed == 0.0 and inside.size:
-        lowest = _smallest_eigenvalues(database.damping[inside])
+        _warn_of_asymmetry(database, inside)
+        lowest = smallest_eigenvalues(database.damping[inside], database.mass_matrix)
         if lowest.min() < DAMPING_LIMIT:
             at = database.omega[inside[int(lowest.argmin())]]
             _warn_negative(database, f"radiation damping at {at:.4g} rad/s", float(lowest.min()))
-    constant = _smallest_eigenvalues(database.linear_damping[None])
+    constant = smallest_eigenvalues(database.linear_damping[None], database.mass_matrix)
     if constant.min() < DAMPING_LIMIT:
         _warn_negative(database, "linear_damping", float(constant.min()))
     tabulated = database.roll_damping
@@ -89,15 +93,44 @@ def warn_of_water(
             )
 
 
-def _smallest_eigenvalues(damping: FloatArray) -> FloatArray:
+def smallest_eigenvalues(damping: FloatArray, mass_matrix: FloatArray) -> FloatArray:
     """The smallest eigenvalues of the symmetric part (n,), by the largest diagonals over all frequencies."""
-    scale = np.sqrt(np.abs(np.diagonal(damping, axis1=1, axis2=2)).max(axis=0))
-    active = scale > 0.0
-    if not np.any(active):
+    scale = _scales(damping, mass_matrix)
+    if not np.any(scale):
         off = np.abs(damping).max(axis=(1, 2))
         return np.asarray(np.where(off > 0.0, -1.0, 0.0))  # coupling alone is indefinite
-    scaled = damping[:, active][:, :, active] / np.outer(scale[active], scale[active])
+    scaled = damping / np.outer(scale, scale)
     return np.asarray(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0])
+
+
+def _scales(matrices: FloatArray, mass_matrix: FloatArray) -> FloatArray:
+    """Roots (6,) of the largest diagonals of matrices (n, 6, 6) over the frequencies.
+
+    One that is round-off beside the largest, both over the mass, counts as the bound of that round-off.
+    """
+    mass = np.diag(mass_matrix)
+    diagonal = np.abs(np.diagonal(matrices, axis1=1, axis2=2)).max(axis=0)
+    return np.asarray(np.sqrt(np.maximum(diagonal, ROUND_OFF * mass * (diagonal / mass).max())))
+
+
+def _warn_of_asymmetry(database: HydroData, inside: NDArray[np.intp]) -> None:
+    """At rest both matrices are symmetric: else a half is missing, or an entry misplaced."""
+    for name in ("added_mass", "damping"):
+        matrices = getattr(database, name)[inside]
+        scale = np.maximum(_scales(matrices, database.mass_matrix), 1e-150)  # no damping at all
+        apart = np.abs(matrices - matrices.swapaxes(1, 2)).max(axis=0)
+        larger = np.maximum(np.abs(matrices).max(axis=0), np.abs(matrices).max(axis=0).T)
+        share = apart / np.outer(scale, scale)
+        skew = np.where((apart > ONE_SIDED * larger) | (share > SKEW_LIMIT), share, 0.0)
+        row, column = np.unravel_index(int(skew.argmax()), skew.shape)
+        if skew[row, column] > SYMMETRY_LIMIT:
+            warn_caller(
+                f"database {database.name!r}: {name} is not symmetric: its entries {row + 1}{column + 1} and "
+                f"{column + 1}{row + 1} differ by {skew[row, column]:.1%} of the diagonals, which those of "
+                "no hull at rest do; motions that they couple are off by as much. Give both halves of the "
+                "matrices, or the mean of both",
+                AsymmetryWarning,
+            )
 
 
 def _warn_negative(database: HydroData, what: str, value: float) -> None:

@@ -13,6 +13,7 @@ from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOA
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.hydro.data.phase_centre import phase_centre, travel
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
 
@@ -40,23 +41,34 @@ def force_at(
             f"{database.omega[0]:.6g} to {database.omega[-1]:.6g} rad/s; ask within it, or pass "
             "outside='limits'"
         )
-    in_frequency = spline_weights(database.omega, np.clip(w, database.omega[0], database.omega[-1]))
-    force = _core.weighted_sums(in_frequency, _by_heading(database, b))
+    inside = np.clip(w, database.omega[0], database.omega[-1])
+    force = _core.weighted_sums(spline_weights(database.omega, inside), _by_heading(database, b))
+    _, _, centre = _held_circle(database)
+    if np.any(centre):
+        k = wavenumber(inside, g=database.g, depth=database.depth)
+        force = force * travel(centre, k, b)[:, None]
     return with_limits(database, w, force).reshape(*shape, 6)
 
 
 @one_thread
 def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -> ComplexArray:
     """Forces (q, k, 6) at headings (q,) times frequencies (k,) within the table, as `force_at` has them."""
-    circle, table = full_circle(database)
+    circle, table, centre = _held_circle(database)
     in_heading = _heading_weights(database, circle, np.asarray(heading, dtype=float))
     by_heading = np.tensordot(in_heading, table, axes=1)
     in_frequency = spline_weights(database.omega, np.asarray(omega, dtype=float))
-    return np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
+    force = np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
+    if not np.any(centre):
+        return force
+    k = wavenumber(np.asarray(omega, dtype=float), g=database.g, depth=database.depth)
+    return np.asarray(force * travel(centre, k, np.asarray(heading, dtype=float)[:, None])[:, :, None])
 
 
 def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
-    """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal."""
+    """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal.
+
+    Their phases are those of `_held_circle`.
+    """
     if heading.size and np.all(heading == heading[0]):  # long-crested seas, one seed after another
         one = _of_equal_headings(database, float(heading[0]), heading.size)
         if one is not None:
@@ -72,7 +84,7 @@ def _of_equal_headings(database: HydroData, heading: float, count: int) -> Compl
 
 
 def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
-    circle, table = _held_circle(database)
+    circle, table, _ = _held_circle(database)
     in_heading = _heading_weights(database, circle, heading)
     return np.asarray(
         (in_heading @ table.reshape(len(circle), -1)).reshape(len(heading), len(database.omega), 6)
@@ -80,8 +92,14 @@ def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> Comple
 
 
 @lru_cache(maxsize=8)
-def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
-    return full_circle(database)
+def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray, FloatArray]:
+    """As `full_circle`, without the phases of the wave's travel to the phase centre, and that centre (2,)."""
+    circle, table = full_circle(database)
+    k = wavenumber(database.omega, g=database.g, depth=database.depth)
+    centre = phase_centre(k, circle, table[:, :, 2])
+    if np.any(centre):
+        table = table / travel(centre, k, circle[:, None])[:, :, None]
+    return circle, table, centre
 
 
 def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:

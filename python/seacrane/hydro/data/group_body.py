@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import require_unmasked
 
 FloatArray = NDArray[np.float64]
 
@@ -52,6 +53,7 @@ class GroupBody:
         if not self.name:
             raise ValueError("a body of a group has no name; give each hull one of its own")
         for name, shape in SHAPES.items():
+            require_unmasked(f"body {self.name!r}: {name}", getattr(self, name))
             array = np.array(getattr(self, name), dtype=float)
             if array.shape != shape:
                 raise ValueError(f"body {self.name!r}: {name} has shape {array.shape}; {shape} is needed")

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import require_unmasked
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -173,6 +174,7 @@ def freeze(part: Any, n: int, m: int, name: str, *, restoring: str) -> None:
             letters = restoring
         if letters is None or value is None:
             continue
+        require_unmasked(f"database {name!r}: {entry.name}", value)
         wanted = tuple(sizes[letter] for letter in letters)
         array = np.array(value, dtype=complex if letters == "mni" else float)
         if array.shape != wanted:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping, check_increasing
 from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.inputs.checked import require_unmasked
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -102,6 +103,7 @@ class HydroGroupData:
             )
 
     def _freeze(self, name: str, shape: tuple[int, ...]) -> None:
+        require_unmasked(f"group {self.name!r}: {name}", getattr(self, name))
         array = np.array(getattr(self, name), dtype=complex if name == "force" else float)
         if array.shape != shape:
             raise ValueError(

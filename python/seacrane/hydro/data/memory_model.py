@@ -111,7 +111,7 @@ class MotionError:
     ----------
     seas : ndarray, shape (6,), or (6 k,) of a group of k hulls
         Standard deviation of the difference of each motion over that of the motion, at the heading where this
-        is largest; the worst heading and the worst sea of Tp 5 to 18 s.
+        is largest; the worst heading and the worst sea of Tp 5 to 18 s (`peak_periods` of hulls below 60 m).
     peaks : ndarray, of the same shape
         Complex difference of heave, roll and pitch over their value, at the largest of the band; zero for the
         others.

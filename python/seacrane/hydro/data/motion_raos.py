@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.hydro.data.long_waves import warn_of_phases
-from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of, vector_of
+from seacrane.hydro.data.phase_centre import phase_centre, travel
+from seacrane.inputs.checked import flag_of, number_of, numbers_of, require_unmasked, text_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber
 
@@ -115,21 +117,30 @@ class MotionRaos:
             For a heading in a gap of more than 45 deg.
         """
         w, b = np.asarray(omega, dtype=float), np.asarray(heading, dtype=float)
-        circle, table = self._circle()
+        circle, table, centre = self._circle
         in_heading = self._heading_weights(circle, b)
-        in_frequency = spline_weights(self.omega, np.clip(w, self.omega[0], self.omega[-1]))
+        inside = np.clip(w, self.omega[0], self.omega[-1])
+        in_frequency = spline_weights(self.omega, inside)
         by_heading = (in_heading @ table.reshape(circle.size, -1)).reshape(b.size, self.omega.size, 6)
         found = np.einsum("kn,knd->kd", in_frequency, by_heading)
+        if np.any(centre):
+            found = found * travel(centre, wavenumber(inside, g=self.g, depth=self.depth), b)[:, None]
         found[w > self.omega[-1] * (1.0 + 1e-9)] = 0.0
         return np.asarray(found)
 
-    def _circle(self) -> tuple[Array, Complex]:
-        """All headings with their motions, the mirrored ones added."""
-        if not self.symmetric:
-            return self.heading, self.values
-        heading, source, mirrored = both_sides(self.heading)
-        parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
-        return heading, self.values[source] * parity[:, None, :]
+    @cached_property
+    def _circle(self) -> tuple[Array, Complex, Array]:
+        """All headings with their motions, mirrored ones added and phases as at the phase centre, and it."""
+        heading, values = self.heading, self.values
+        if self.symmetric:
+            heading, source, mirrored = both_sides(self.heading)
+            parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
+            values = self.values[source] * parity[:, None, :]
+        k = wavenumber(self.omega, g=self.g, depth=self.depth)
+        centre = phase_centre(k, heading, values[:, :, 2])
+        if np.any(centre):
+            values = values / travel(centre, k, heading[:, None])[:, :, None]
+        return heading, values, centre
 
     def _heading_weights(self, circle: Array, heading: Array) -> Array:
         gap = largest_gap(circle)
@@ -167,6 +178,7 @@ def _headings(what: str, given: Any) -> Array:
 
 
 def _motions(what: str, given: Any, shape: tuple[int, int, int]) -> Complex:
+    require_unmasked(f"{what}: values", given)
     values = np.array(given)
     if not np.iscomplexobj(values):
         values = numbers_of(f"{what}: values", values)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.data_warnings import smallest_eigenvalues
 from seacrane.hydro.data.encounter import encounter_frequency, inside_table
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
@@ -152,7 +153,8 @@ def _matrix_rows(database: HydroData) -> list[CheckRow]:
         asymmetry = skewness(matrix).max()
         label = f"symmetry_{name}"
         rows.append(info(label, asymmetry) if moving else at_most(label, float(asymmetry), SYMMETRY_LIMIT))
-    label, smallest = "damping_smallest_eigenvalue", smallest_damping(damping)
+    label = "damping_smallest_eigenvalue"
+    smallest = float(smallest_eigenvalues(damping, database.mass_matrix).min())
     rows.append(info(label, smallest) if moving else at_least(label, smallest, DAMPING_LIMIT))
     rows.append(info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows
@@ -168,16 +170,6 @@ def skewness(matrices: FloatArray) -> FloatArray:
 
 def _surge_is_missing(database: HydroData) -> bool:
     return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
-
-
-def smallest_damping(damping: FloatArray) -> float:
-    """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
-    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
-    active = peak > 0.0
-    if not np.any(active):
-        return 0.0
-    scaled = (damping[:, active][:, :, active]) / np.outer(peak[active], peak[active])
-    return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
 
 
 def _natural_period_rows(database: HydroData) -> list[CheckRow]:

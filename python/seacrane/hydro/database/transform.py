@@ -50,7 +50,7 @@ def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_
     if r[1] != 0.0 and database.port_starboard_symmetric:
         database = _unfolded(database)
     transform = motion_transform(r)
-    _warn_quadratic(database, transform)
+    warn_of_quadratic(f"database {database.name!r}", database.quadratic_damping, transform)
     changes: dict[str, Any] = {
         name: _congruent(getattr(database, name), transform)
         for name in MATRICES
@@ -161,16 +161,15 @@ def _of_all_that_mix(limits: FloatArray, transform: FloatArray) -> FloatArray:
     return np.asarray(np.where(transform != 0.0, limits, 0.0).max(axis=1))
 
 
-def _warn_quadratic(database: HydroData, transform: FloatArray) -> None:
+def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> None:
     """Moments move as they are; v |v| of a translation at the old point is no such term at the new one."""
-    coupled = np.any(transform[:, 3:] - np.eye(6)[:, 3:], axis=1) & (database.quadratic_damping != 0.0)
+    coupled = np.any(transform[:, 3:] - np.eye(6)[:, 3:], axis=1) & (damping != 0.0)
     if np.any(coupled):
         motion = int(np.flatnonzero(coupled)[0])
         warn_caller(
-            f"database {database.name!r}: quadratic_damping[{motion}] = "
-            f"{database.quadratic_damping[motion]:.4g} belongs to the velocity at the old reference point; "
-            "it is kept with the velocity of the new one and gives no moment there, so that damping of "
-            "translations and rotations is off while they are coupled. Set quadratic_damping anew",
+            f"{what}: quadratic_damping[{motion}] = {damping[motion]:.4g} belongs to the velocity at the old "
+            "reference point; it is kept with the velocity of the new one and gives no moment there, so that "
+            "damping of translations and rotations is off while they are coupled. Set quadratic_damping anew",
             QuadraticDampingWarning,
         )
 

@@ -25,7 +25,6 @@ from seacrane.hydro.database.check import (
     at_most,
     info,
     skewness,
-    smallest_damping,
 )
 from seacrane.hydro.group.gap import clearance, gaps, radiating, spikes
 from seacrane.hydro.group.long_wave import long_wave_lift
@@ -66,6 +65,16 @@ def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
     if damping.size:
         rows.append(at_least("damping_smallest_eigenvalue", smallest_damping(damping), DAMPING_LIMIT))
     return rows
+
+
+def smallest_damping(damping: FloatArray) -> float:
+    """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
+    active = peak > 0.0
+    if not np.any(active):
+        return 0.0
+    scaled = (damping[:, active][:, :, active]) / np.outer(peak[active], peak[active])
+    return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
 
 
 def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:

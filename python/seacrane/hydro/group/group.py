@@ -20,6 +20,7 @@ from seacrane.hydro.group.gap import Gap, gaps
 from seacrane.hydro.group.group_file import load_group, save_group
 from seacrane.hydro.group.lid import group_with_lid
 from seacrane.hydro.group.modes import GroupMode, natural_modes_of
+from seacrane.hydro.group.moved import moved_group
 from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
 from seacrane.hydro.group.require import require_apart, require_group
 
@@ -75,6 +76,27 @@ class HydroGroup(HydroGroupData):
 
     def __len__(self) -> int:
         return len(self.bodies)
+
+    def at(self, points: Mapping[str, ArrayLike]) -> HydroGroup:
+        """The same hulls about other reference points; nothing is fitted or interpolated anew.
+
+        Matrices, forces and the memory model (with the same states) are moved exactly; waves keep their zero
+        phase at the group's origin.
+
+        Parameters
+        ----------
+        points : by body, (3,) m from its present reference point, in its own axes; a hull that is not named
+            keeps its own. Off the group's x axis the headings of both sides are written out.
+
+        Warns
+        -----
+        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+
+        Raises
+        ------
+        SceneError : no body of a name, or a point that is not three finite numbers.
+        """
+        return moved_group(self, points)
 
     def ordered(self, names: Sequence[str]) -> HydroGroup:
         """The same group with its bodies in another order; a memory moves along.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryModel
 from seacrane.hydro.memory.entries import memory_entries
 from seacrane.hydro.memory.identification import r_squared
@@ -22,7 +23,7 @@ LOST_R2 = 0.05
 FEWEST_FREQUENCIES = 8
 
 
-def judged_rows(model: MemoryModel, database: HydroData) -> tuple[FitRow, ...]:
+def judged_rows(model: MemoryModel, database: Hydrodynamics) -> tuple[FitRow, ...]:
     """Rows of a model's radiation pairs against another database's data, beside its other rows as they are.
 
     A pair is accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
@@ -102,13 +103,13 @@ def _mismatch(database: HydroData, model: MemoryModel) -> str:
     return ""
 
 
-def _inside(model: MemoryModel, database: HydroData) -> NDArray[np.bool_]:
+def _inside(model: MemoryModel, database: Hydrodynamics) -> NDArray[np.bool_]:
     low, high = model.band
     return np.asarray((database.omega >= low - 1e-9) & (database.omega <= high + 1e-9))
 
 
 def _pair_r2(
-    model: MemoryModel, database: HydroData, j: int, k: int, *, inside: NDArray[np.bool_]
+    model: MemoryModel, database: Hydrodynamics, j: int, k: int, *, inside: NDArray[np.bool_]
 ) -> tuple[float, float]:
     """R2 of added mass and damping of one pair, the data made symmetric as for the fit."""
     fitted = model.frequency_response(database.omega[inside])
@@ -120,7 +121,7 @@ def _pair_r2(
     return a, b
 
 
-def _pairs(model: MemoryModel, database: HydroData) -> Iterator[tuple[int, int]]:
+def _pairs(model: MemoryModel, database: Hydrodynamics) -> Iterator[tuple[int, int]]:
     """Pairs (j <= k) that the model has blocks for and the database data that vary."""
     added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
     modelled = {

@@ -61,9 +61,9 @@ def fit_memory(
         energy (`passivity_certificate` proves it), as small as `limit` allows; "passive", the same form, as
         large as `r2` asks; or "per-pair", the paper's, one single-input model per entry of the matrices.
     limit : of kind "by-motion", 0.01 by default: by how much the memory may change the standard deviation of
-        any motion in seas of Tp 5 to 18 s from any stored heading, against the database's own matrices; a
-        fifth of what it may change the peaks of heave, roll and pitch. What was reached is
-        `MemoryModel.motion`.
+        any motion in seas of Tp 5 to 18 s (hulls below 60 m: in their own, docs/memory.md) from any stored
+        heading, against the database's own matrices; a fifth of what it may change the peaks of heave, roll
+        and pitch. What was reached is `MemoryModel.motion`.
 
     Returns
     -------

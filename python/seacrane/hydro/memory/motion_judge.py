@@ -7,14 +7,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
 from seacrane.hydro.memory.retardation import RetardationModel
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-PEAK_PERIODS = np.geomspace(5.0, 18.0, 9)  # s, of the seas
+SHORTEST, LONGEST, SEAS = 5.0, 18.0, 9  # peak periods of the seas of a ship, s, and how many
+SHIP, MODELLED = 60.0, 115.0  # m: a ship's least length, and what a shorter hull may be a model of
 PEAK_ENHANCEMENT = 3.3
 GRID = 160  # frequencies over the band, beside those of the database
 ABOUT_PEAK = np.array([-3.0, -2.0, -1.2, -0.6, -0.25, 0.0, 0.25, 0.6, 1.2, 2.0, 3.0])  # half widths
@@ -35,6 +36,7 @@ class MotionJudge:
 
     Of a group of k hulls 6 stands for 6 k.
     about_peaks : frequencies about each resonance, rad/s.
+    periods : (seas,) peak periods, s.
     """
 
     def __init__(self, database: Hydrodynamics, band: tuple[float, float]) -> None:
@@ -47,7 +49,8 @@ class MotionJudge:
         self.omega = np.unique(np.clip(every, *band))
         solved = self.solved = _Solved(self.table, self.omega)
         self.added_mass, self.damping, self.motion = solved.added_mass, solved.damping, solved.motion
-        self.weights = _sea_energies(self.omega)
+        self.periods = peak_periods(_length(database))
+        self.weights = _sea_energies(self.omega, self.periods)
         variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
         size = np.abs(self.motion).max(axis=(0, 1))
         rotation = np.arange(len(size)) % 6 > 2
@@ -85,7 +88,8 @@ class MotionJudge:
         """
         solved = _Solved(self.table, omega)
         inside = (omega >= self.omega[0] - 1e-9) & (omega <= self.omega[-1] + 1e-9)
-        weight = (_sea_energies(omega) * inside).T @ np.where(self.moves, 1.0 / self.variance, 0.0)
+        energies = _sea_energies(omega, self.periods) * inside
+        weight = energies.T @ np.where(self.moves, 1.0 / self.variance, 0.0)
         square = np.ix_(range(len(omega)), group, group)
         left = solved.receptance[square] * np.sqrt(weight[:, group])[:, :, None]
         headings = np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
@@ -185,10 +189,31 @@ class _Solved:
         return found
 
 
-def _sea_energies(omega: FloatArray) -> FloatArray:
+def peak_periods(length: float) -> FloatArray:
+    """Peak periods of the seas (s) that a hull of a length (m) meets: 5 to 18 s for ships.
+
+    A shorter hull may be a boat or a buoy in the sea, or the model of a ship in waves to scale: the periods
+    go from those of such a model up to those in which it follows the waves, by Froude's law. Steps are as
+    those of a ship.
+    """
+    if length >= SHIP:
+        return np.geomspace(SHORTEST, LONGEST, SEAS)
+    low, high = SHORTEST * np.sqrt(length / MODELLED), LONGEST * np.sqrt(length / SHIP)
+    step = np.log(LONGEST / SHORTEST) / (SEAS - 1)
+    return np.geomspace(low, high, 1 + int(np.ceil(np.log(high / low) / step)))
+
+
+def _length(database: Hydrodynamics) -> float:
+    """Of the hull, or of the longest of a group, m."""
+    if isinstance(database, HydroGroupData):
+        return max(body.length for body in database.bodies)
+    return database.length
+
+
+def _sea_energies(omega: FloatArray, periods: FloatArray) -> FloatArray:
     """Energy (seas, n) of every sea at every frequency, on a scale of its own."""
     steps = np.gradient(omega)
-    return np.stack([_jonswap(omega, tp) * steps for tp in PEAK_PERIODS])
+    return np.stack([_jonswap(omega, tp) * steps for tp in periods])
 
 
 def _jonswap(omega: FloatArray, tp: float) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
-from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel, MotionFit
 from seacrane.hydro.memory.audit import judged_rows
 from seacrane.hydro.memory.joint_passivity import joint_passivity
@@ -23,13 +23,13 @@ MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 
 @one_thread
-def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) -> MemoryModel:
+def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics) -> MemoryModel:
     """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
 
     Parameters
     ----------
     model : of the database before it was moved.
-    transform : (6, 6) T, motions at the old point from those at the new one.
+    transform : (6, 6) T, of a group (6 k, 6 k), motions at the old point from those at the new one.
     moved : the database about the new point, against which the quality of each pair is judged anew.
     """
     blocks = tuple(_moved_block(block, transform) for block in model.blocks)
@@ -41,7 +41,7 @@ def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) ->
     return dataclasses.replace(about, rows=judged_rows(about, moved))
 
 
-def _moved_motion(motion: MotionFit, model: MemoryModel, moved: HydroData) -> MotionFit:
+def _moved_motion(motion: MotionFit, model: MemoryModel, moved: Hydrodynamics) -> MotionFit:
     """The motions of the new point judged anew."""
     judge = motion_judge(moved, model.band)
     floor = judge.error_of(retardation_functions(database=moved)).worst
@@ -64,7 +64,7 @@ def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
         B=b[:, inputs],
         C=c[outputs],
         D=d[np.ix_(outputs, inputs)],
-        state_scale=largest_states(block.A, b[:, inputs] * TYPICAL_VELOCITY[inputs]),
+        state_scale=largest_states(block.A, b[:, inputs] * TYPICAL_VELOCITY[inputs % 6]),
     )
 
 

@@ -9,7 +9,7 @@ waterline above its centre of gravity.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
@@ -36,7 +37,13 @@ PARAMETERS = "simulation_parameters"
 DEEP = (b"infinite", b"inf", b"infinity")
 
 
-def read_bemio(path: str | PathLike[str], *, mass_matrix: ArrayLike | None = None) -> HydroDatabase:
+def read_bemio(
+    path: str | PathLike[str],
+    *,
+    mass_matrix: ArrayLike | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
+) -> HydroDatabase:
     """Read a BEMIO file (HDF5) of one body with six motions.
 
     Parameters
@@ -44,6 +51,9 @@ def read_bemio(path: str | PathLike[str], *, mass_matrix: ArrayLike | None = Non
     path : file.
     mass_matrix : (6, 6) in SI about the centre of gravity. The file holds none; by default the displaced
         mass with usual radii of gyration.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
@@ -60,7 +70,8 @@ def read_bemio(path: str | PathLike[str], *, mass_matrix: ArrayLike | None = Non
         the entry.
     """
     source = Path(path)
-    return with_band_of_data(from_bemio(source, lambda file: _convert(source, file, mass_matrix)))
+    found = from_bemio(source, lambda file: _convert(source, file, mass_matrix, motions, leave_out))
+    return with_band_of_data(found)
 
 
 def from_bemio(path: Path, convert: Callable[[Any], Read]) -> Read:
@@ -96,7 +107,13 @@ def is_bemio(path: Path) -> bool:
         return False
 
 
-def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatabase:
+def _convert(
+    path: Path,
+    file: Any,
+    mass_matrix: ArrayLike | None,
+    motions: Sequence[str] | None,
+    leave_out: ArrayLike | None,
+) -> HydroDatabase:
     bodies = bodies_in(file)
     if len(bodies) != 1:
         raise FileFormatError(
@@ -107,13 +124,13 @@ def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatab
     body = bodies[0]
     rho, g, depth = water_in(path, file)
     omega = np.ravel(values_of(path, file, f"{PARAMETERS}/w"))
-    order = np.argsort(omega)
+    rising = np.argsort(omega)
     direction, places = rising_directions(
         np.radians(np.ravel(values_of(path, file, f"{PARAMETERS}/wave_dir")))
     )
     n, m = len(omega), len(np.ravel(values_of(path, file, f"{PARAMETERS}/wave_dir")))
     of = f"{body}/hydro_coeffs"
-    added_mass = rho * values_of(path, file, f"{of}/added_mass/all", (6, 6, n)).transpose(2, 0, 1)[order]
+    added_mass = rho * values_of(path, file, f"{of}/added_mass/all", (6, 6, n)).transpose(2, 0, 1)
     damping = rho * (values_of(path, file, f"{of}/radiation_damping/all", (6, 6, n)) * omega).transpose(
         2, 0, 1
     )
@@ -121,7 +138,10 @@ def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatab
     restoring = rho * g * values_of(path, file, f"{of}/linear_restoring_stiffness", (6, 6))
     parts = (values_of(path, file, f"{of}/excitation/{part}", (6, m, n)) for part in ("re", "im"))
     real, imaginary = parts
-    force = rho * g * (real + 1j * imaginary).transpose(1, 2, 0)[places][:, order]
+    force = rho * g * (real + 1j * imaginary).transpose(1, 2, 0)[places]
+    tables = {"added_mass": added_mass[rising], "damping": damping[rising], "force": force[:, rising]}
+    order = rising[frequencies_kept(path, "read_bemio", omega[rising], tables, leave_out)]
+    added_mass, force = added_mass[order], force[:, order]
     centre = np.ravel(values_of(path, file, f"{body}/properties/cg"))[:3]
     mass = rho * number_of(path, file, f"{body}/properties/disp_vol")
     box = equivalent_box(restoring, mass / rho, rho * g)
@@ -150,8 +170,9 @@ def _convert(path: Path, file: Any, mass_matrix: ArrayLike | None) -> HydroDatab
         source=f"BEMIO file {path.name}, {body}",
         port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass)),
     )
+    whole = as_read(path, "read_bemio", about_gravity, motions)
     return replace(
-        about_gravity.at((0.0, 0.0, -centre[2])),
+        whole.at((0.0, 0.0, -centre[2])),
         origin=(
             f"on the still waterline, above the centre of gravity, which BEMIO has at ({centre[0]:g}, "
             f"{centre[1]:g}, {centre[2]:g}) m"

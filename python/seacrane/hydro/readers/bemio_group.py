@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept
 from seacrane.hydro.readers.band_of_data import with_band_of_group
 from seacrane.hydro.readers.bemio import (
     HDF5,
@@ -33,7 +34,11 @@ FloatArray = NDArray[np.float64]
 
 
 def read_bemio_group(
-    path: str | PathLike[str], *, mass_matrices: Mapping[str, ArrayLike] | None = None
+    path: str | PathLike[str],
+    *,
+    mass_matrices: Mapping[str, ArrayLike] | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroGroup:
     """Read a BEMIO file (HDF5) of several bodies with six motions each.
 
@@ -42,6 +47,9 @@ def read_bemio_group(
     path : file.
     mass_matrices : by body, (6, 6) in SI about its centre of gravity. The file holds none; by default the
         displaced masses with usual radii of gyration.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
@@ -58,12 +66,19 @@ def read_bemio_group(
         entry.
     """
     source = Path(path)
-    found = from_bemio(source, lambda file: _convert(source, file, mass_matrices))
+    found = from_bemio(
+        source,
+        lambda file: as_read(
+            source, "read_bemio_group", _convert(source, file, mass_matrices, leave_out), motions
+        ),
+    )
     require_own_hydrostatics(source, found, "a file that was written anew")
     return with_band_of_group(found)
 
 
-def _convert(path: Path, file: Any, masses: Mapping[str, ArrayLike] | None) -> HydroGroup:
+def _convert(
+    path: Path, file: Any, masses: Mapping[str, ArrayLike] | None, leave_out: ArrayLike | None
+) -> HydroGroup:
     entries = bodies_in(file)
     rho, g, depth = water_in(path, file)
     names = _names(file, entries)
@@ -90,19 +105,21 @@ def _convert(path: Path, file: Any, masses: Mapping[str, ArrayLike] | None) -> H
         )
         force[:, :, at] = rho * g * (real + 1j * imaginary).transpose(1, 2, 0)[places][:, order]
         bodies.append(_body(path, file, entry, name, rho, g, None if given is None else given[i]))
+    tables = {"added_mass": added_mass, "damping": damping, "force": force}
+    kept = frequencies_kept(path, "read_bemio_group", omega[order], tables, leave_out)
     return HydroGroup(
         name=path.stem,
         bodies=tuple(bodies),
-        omega=omega[order],
+        omega=omega[order][kept],
         heading=direction,
-        added_mass=added_mass,
-        damping=damping,
+        added_mass=added_mass[kept],
+        damping=damping[kept],
         infinite_frequency_added_mass=infinite,
-        force=force,
+        force=force[:, kept],
         rho=rho,
         g=g,
         depth=depth,
-        port_starboard_symmetric=group_symmetric(bodies, added_mass),
+        port_starboard_symmetric=group_symmetric(bodies, added_mass[kept]),
         origin="origin of BEMIO's axes, on the still waterline",
         source=f"BEMIO file {path.name}",
     )

@@ -8,6 +8,7 @@ the degrees of freedom, phases to the origin of the mesh; forces are shifted to 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -18,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
@@ -25,7 +27,7 @@ from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
-from seacrane.warnings import MissingMotionsWarning
+from seacrane.warnings import AssumedReferenceWarning, MissingMotionsWarning
 
 if TYPE_CHECKING:
     import xarray
@@ -60,6 +62,8 @@ def read_capytaine(
     depth: float | None = None,
     mass_matrix: ArrayLike | None = None,
     restoring: ArrayLike | None = None,
+    rotation_centre: ArrayLike | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroDatabase:
     """Read a dataset that Capytaine wrote to NetCDF (complex values split into ``re`` and ``im``).
 
@@ -73,6 +77,8 @@ def read_capytaine(
     mass_matrix, restoring : (6, 6) in SI about the rotation centre; they take the place of
         ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these, or has
         not all six motions.
+    rotation_centre : (3,) m from the origin of the mesh, of files that do not tell it (before Capytaine 3).
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
@@ -82,16 +88,27 @@ def read_capytaine(
     Warns
     -----
     MissingMotionsWarning : some of the six motions are not in the file.
+    AssumedReferenceWarning : neither the file nor the caller tells the rotation centre.
 
     Raises
     ------
     FileFormatError : the file is missing, damaged or no Capytaine dataset; the message names the variable.
     """
     source = Path(path)
-    found = from_dataset(
-        source, lambda dataset: _convert(source, of_depth(source, dataset, depth), mass_matrix, restoring)
+    given = _Given(mass_matrix, restoring, rotation_centre, leave_out)
+    return with_band_of_data(
+        from_dataset(source, lambda dataset: _convert(source, of_depth(source, dataset, depth), given))
     )
-    return with_band_of_data(found)
+
+
+@dataclass(frozen=True, eq=False)
+class _Given:
+    """What the caller says."""
+
+    mass: ArrayLike | None
+    restoring: ArrayLike | None
+    centre: ArrayLike | None
+    leave_out: ArrayLike | None
 
 
 def from_dataset(path: Path, convert: Callable[[xarray.Dataset], Read]) -> Read:
@@ -150,24 +167,29 @@ def is_capytaine(path: Path) -> bool:
         return False
 
 
-def _convert(
-    path: Path, dataset: xarray.Dataset, mass_matrix: ArrayLike | None, restoring: ArrayLike | None
-) -> HydroDatabase:
+def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> HydroDatabase:
     rho, g, depth = water_of(path, dataset)
     dataset = over_omega(path, dataset, g, depth)
-    dataset = single(path, _by_motion(path, dataset, given=mass_matrix is not None and restoring is not None))
+    complete = given.mass is not None and given.restoring is not None
+    dataset, solved = _by_motion(path, dataset, given=complete)
+    dataset = single(path, dataset)
     omega, rows = frequencies(path, dataset)
     added_mass = real_values(path, dataset, "added_mass", ("omega", *MATRIX))
     damping = real_values(path, dataset, "radiation_damping", ("omega", *MATRIX))
-    mass = _matrix(path, dataset, "inertia_matrix", "mass_matrix", mass_matrix)
-    stiffness = _matrix(path, dataset, "hydrostatic_stiffness", "restoring", restoring)
+    mass = _matrix(path, dataset, "inertia_matrix", "mass_matrix", given.mass)
+    stiffness = _matrix(path, dataset, "hydrostatic_stiffness", "restoring", given.restoring)
     direction, order = directions(path, dataset)
-    force = wave_force(path, dataset)[order][:, rows]
-    centre = _rotation_centre(dataset)
+    force = wave_force(path, dataset)[order]
+    tables = {"added_mass": added_mass[rows], "damping": damping[rows], "force": force[:, rows]}
+    rows = rows[frequencies_kept(path, "read_capytaine", omega[rows], tables, given.leave_out)]
+    force = force[:, rows]
+    centre = _rotation_centre(path, dataset, given.centre)
     box = equivalent_box(stiffness, float(mass[0, 0]) / rho, rho * g)
+    if given.mass is None:
+        mass = mass_of_file(path, "read_capytaine(mass_matrix=...)", mass, box=box)
     version = str(dataset.attrs.get("capytaine_version", "of unknown version"))
     body = str(np.ravel(_name(dataset))[0])
-    return HydroDatabase(
+    found = HydroDatabase(
         name=path.stem,
         omega=omega[rows],
         heading=direction,
@@ -191,6 +213,7 @@ def _convert(
         source=f"Capytaine {version}, file {path.name}, body {body}",
         port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass[rows])),
     )
+    return as_read(path, "read_capytaine", found, solved)
 
 
 def water_of(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
@@ -232,8 +255,8 @@ def single(path: Path, dataset: xarray.Dataset, *, bodies: bool = False) -> xarr
     return dataset
 
 
-def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Dataset:
-    """The dataset with the six motions in our order, found by name; one that it lacks has zeros.
+def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> tuple[xarray.Dataset, tuple[str, ...]]:
+    """The dataset with the six motions in our order, found by name, and those it has; others have zeros.
 
     ``given``: mass matrix and restoring are, so that motions may be missing.
     """
@@ -271,7 +294,8 @@ def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Da
             MissingMotionsWarning,
         )
     every = {dimension: list(MOTION_NAMES) for dimension in MATRIX}
-    return dataset.reindex(every, fill_value=0.0) if missing else dataset.sel(every)
+    whole = dataset.reindex(every, fill_value=0.0) if missing else dataset.sel(every)
+    return whole, tuple(name.lower() for name in MOTION_NAMES if name in plain)
 
 
 def over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
@@ -372,11 +396,21 @@ def _complex(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[s
     return np.asarray(real + 1j * imaginary)
 
 
-def _rotation_centre(dataset: xarray.Dataset) -> FloatArray:
-    """Where the rotations turn about, from the origin of the mesh (which it is where the file is silent)."""
-    if "rotation_center" not in dataset.variables:
+def _rotation_centre(path: Path, dataset: xarray.Dataset, given: ArrayLike | None) -> FloatArray:
+    """Where the rotations turn about, from the origin of the mesh (which it is where nothing tells)."""
+    told = given if "rotation_center" not in dataset.variables else dataset["rotation_center"].values
+    if told is None:
+        warn_caller(
+            f"{path}: does not tell about which point the body turns, as Capytaine tells from version 3 on; "
+            "the origin of its mesh is taken, and matrices of another point would be misread. Give "
+            "read_capytaine(rotation_centre=(x, y, z)) in m",
+            AssumedReferenceWarning,
+        )
         return np.zeros(3)
-    return np.asarray(np.ravel(dataset["rotation_center"].values), dtype=float)
+    centre = np.ravel(np.asarray(told, dtype=float))
+    if centre.shape != (3,) or not np.all(np.isfinite(centre)):
+        raise FileFormatError(f"{path}: the rotation centre is {shown(told)}; give (x, y, z) in m")
+    return centre
 
 
 def limit_of(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_group
 from seacrane.hydro.readers.capytaine import (
     MATRIX,
@@ -50,6 +51,8 @@ def read_capytaine_group(
     mass_matrices: Given | None = None,
     restorings: Given | None = None,
     rotation_centres: Given | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroGroup:
     """Read a dataset of several bodies that Capytaine wrote to NetCDF.
 
@@ -61,6 +64,9 @@ def read_capytaine_group(
     mass_matrices, restorings : by body, (6, 6) in SI about its rotation centre; in the place of the blocks of
         ``inertia_matrix`` and ``hydrostatic_stiffness``.
     rotation_centres : by body, (3,) m from the origin of the mesh; of files that do not hold them.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
@@ -76,8 +82,16 @@ def read_capytaine_group(
     FileFormatError : the file is missing, damaged or no such dataset; the message names body and variable.
     """
     source = Path(path)
-    given = _Given(mass_matrices, restorings, rotation_centres)
-    found = from_dataset(source, lambda dataset: _convert(source, of_depth(source, dataset, depth), given))
+    given = _Given(mass_matrices, restorings, rotation_centres, leave_out)
+    found = from_dataset(
+        source,
+        lambda dataset: as_read(
+            source,
+            "read_capytaine_group",
+            _convert(source, of_depth(source, dataset, depth), given),
+            motions,
+        ),
+    )
     require_own_hydrostatics(source, found, "restorings={name: (6, 6)}")
     return with_band_of_group(found)
 
@@ -85,8 +99,15 @@ def read_capytaine_group(
 class _Given:
     """What the caller says by body."""
 
-    def __init__(self, masses: Given | None, restorings: Given | None, centres: Given | None) -> None:
+    def __init__(
+        self,
+        masses: Given | None,
+        restorings: Given | None,
+        centres: Given | None,
+        leave_out: ArrayLike | None,
+    ) -> None:
         self.masses, self.restorings, self.centres = masses, restorings, centres
+        self.leave_out = leave_out
 
 
 def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> HydroGroup:
@@ -99,11 +120,17 @@ def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> HydroGroup:
     added_mass = real_values(path, dataset, "added_mass", ("omega", *MATRIX))
     damping = real_values(path, dataset, "radiation_damping", ("omega", *MATRIX))
     direction, order = directions(path, dataset)
+    force = wave_force(path, dataset)[order]
+    tables = {"added_mass": added_mass[rows], "damping": damping[rows], "force": force[:, rows]}
+    rows = rows[frequencies_kept(path, "read_capytaine_group", omega[rows], tables, given.leave_out)]
     masses = _blocks(path, dataset, "inertia_matrix", names, given.masses)
     restorings = _blocks(path, dataset, "hydrostatic_stiffness", names, given.restorings)
     bodies = []
     for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, restorings, strict=True)):
         box = box_of(path, name, restoring, float(mass[0, 0]) / rho, rho * g)
+        if given.masses is None:
+            asked = f"read_capytaine_group(mass_matrices={{{name!r}: ...}})"
+            mass = mass_of_file(f"{path}: {name}", asked, mass, box=tuple(box.values()))
         if draughts is not None:
             box["draught"] = float(draughts[i])
         bodies.append(
@@ -125,7 +152,7 @@ def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> HydroGroup:
         damping=damping[rows],
         infinite_frequency_added_mass=limit_of(added_mass, np.isinf(omega)),
         zero_frequency_added_mass=limit_of(added_mass, omega == 0.0),
-        force=wave_force(path, dataset)[order][:, rows],
+        force=force[:, rows],
         rho=rho,
         g=g,
         depth=depth,

@@ -13,18 +13,19 @@ def equivalent_box(restoring: FloatArray, volume: float, weight_density: float) 
 
     A box has ``C55 / C33 = L^2 / 12`` but for the small term of the heights of buoyancy and gravity,
     waterplane ``C33 / (rho g) = L B`` and volume ``L B T``. ``weight_density`` is rho g in N/m3. A pointed
-    ship comes out shorter than it is (246 m as 226 m): good enough for scales, not for geometry.
+    ship comes out shorter than it is (246 m as 226 m): good enough for scales, not for geometry. Where C55 is
+    not positive, of a hull that turns over by itself, it tells no length: the box is as broad as long.
 
-    Raises ValueError: C33 or C55 is not positive: nothing floats on this waterplane.
+    Raises ValueError: C33 is not positive: nothing floats on this waterplane.
     """
     heave, pitch = float(restoring[2, 2]), float(restoring[4, 4])
-    if heave <= 0.0 or pitch <= 0.0:
+    if heave <= 0.0:
         raise ValueError(
-            f"restoring C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad; both have to be positive for a "
-            "floating vessel: check the hydrostatics"
+            f"restoring C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad; the first has to be positive "
+            "for a floating vessel: check the hydrostatics"
         )
-    length = float(np.sqrt(12.0 * pitch / heave))
     area = heave / weight_density if weight_density > 0.0 else 0.0
+    length = float(np.sqrt(12.0 * pitch / heave)) if pitch > 0.0 else float(np.sqrt(area))
     if not (0.0 < area < np.inf and 0.0 < length < np.inf):
         raise ValueError(
             f"C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad with {weight_density:.6g} N/m3 of water "

@@ -13,6 +13,7 @@ from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.group.moved import afloat
 from seacrane.hydro.readers import (
     bemio,
     bemio_group,
@@ -50,6 +51,7 @@ def load_database(
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
     the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim), NEMOH (a folder).
+    Hulls of a group are moved to reference points on the still water, as scenes need them (`HydroGroup.at`).
 
     Parameters
     ----------
@@ -78,6 +80,8 @@ def load_database(
     else:
         with silently(RoughDataWarning):
             database = _trusted(_read(found, source, speed, depth), trusted_band)
+    if isinstance(database, HydroGroup):
+        database = afloat(database)
     for hull in database.hulls.values() if isinstance(database, HydroGroup) else [database]:
         warn_of_data(hull)
         warn_of_long_waves(hull)

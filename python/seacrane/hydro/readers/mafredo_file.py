@@ -110,12 +110,17 @@ def _loads(group: Any) -> tuple[FloatArray, FloatArray, ComplexArray]:
 def _by_names(variable: Any, order: tuple[str, ...]) -> FloatArray:
     """A variable's numbers with its dimensions in that order."""
     axes = [variable.dimensions.index(name) for name in order]
-    return np.asarray(np.asarray(variable[...], dtype=float).transpose(axes))
+    return np.asarray(_unmasked(variable).transpose(axes))
+
+
+def _unmasked(variable: Any) -> FloatArray:
+    """A variable's numbers; NaN where the file holds none, which NetCDF hands over masked."""
+    return np.asarray(np.ma.filled(np.ma.asarray(variable[...]).astype(float), np.nan))
 
 
 def _numbers(variable: Any) -> FloatArray:
     """A coordinate, which must be a list of finite numbers (infinity excepted for frequencies)."""
-    values = np.ravel(np.asarray(variable[...], dtype=float))
+    values = np.ravel(_unmasked(variable))
     if values.size == 0 or np.any(np.isnan(values)) or np.any(np.isneginf(values)):
         raise ValueError(f"{variable.name} is empty or holds undefined values")
     return values
@@ -124,7 +129,7 @@ def _numbers(variable: Any) -> FloatArray:
 def _scalar(info: Any, name: str) -> float:
     if info is None or name not in info.variables:
         return 0.0
-    value = float(np.asarray(info[name][...]))
+    value = float(_unmasked(info[name]))
     if not np.isfinite(value):
         raise ValueError(f"{name} is {value}")
     return value

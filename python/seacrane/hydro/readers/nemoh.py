@@ -4,12 +4,14 @@
 force, A and B. ``ExcitationForce.tec`` has a block for each wave direction, with rows of omega and, for each
 force, modulus and phase (rad) in the time factor exp(-i omega t): its conjugate is ours. ``KH.dat`` is the
 restoring matrix in SI, ``Hydrostatics.dat`` tells centre of gravity and volume, ``Nemoh.cal`` the water, the
-directions and the point that the rotations turn about.
+directions and the point that the rotations turn about. NEMOH 3 heads its tables with their frequencies' unit.
+The stiffness is about the centre of gravity, and that of Capytaine's exports about the rotation centre.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -20,9 +22,12 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept, whole_stiffness
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
+from seacrane.hydro.readers.numbers_of_text import NUMBER, is_number, number_of_word
+from seacrane.hydro.readers.stiffness_point import stiffness_about
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
 from seacrane.inputs.caller import warn_caller
@@ -34,7 +39,7 @@ FloatArray = NDArray[np.float64]
 RADIATION, EXCITATION = "RadiationCoefficients.tec", "ExcitationForce.tec"
 STIFFNESS, HYDROSTATICS, CONTROL = "KH.dat", "Hydrostatics.dat", "Nemoh.cal"
 INNER = ("results", "Results", "mesh", "Mesh")
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
+UNITS = ("rad/s", "Hz", "s")  # of the tables' first column, in the order of Nemoh.cal
 MOTIONS = 6
 
 
@@ -46,6 +51,8 @@ def read_nemoh(
     depth: float = np.inf,
     rotation_centre: ArrayLike = (0.0, 0.0, 0.0),
     mass_matrix: ArrayLike | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroDatabase:
     """Read a folder of NEMOH's results of one body with six motions.
 
@@ -56,6 +63,9 @@ def read_nemoh(
         ``Nemoh.cal``, such as Capytaine exports; beside it they are not used.
     mass_matrix : (6, 6) in SI about the rotation centre; by default the displaced mass at the centre of
         gravity with usual radii of gyration.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
 
     Returns
     -------
@@ -87,7 +97,7 @@ def read_nemoh(
             AssumedDensityWarning,
         )
     try:
-        found = _convert(folder, files, water, mass_matrix)
+        found = as_read(folder, "read_nemoh", _convert(folder, files, water, mass_matrix, leave_out), motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -108,25 +118,38 @@ class Water:
 
 
 def _convert(
-    folder: Path, files: dict[str, Path], water: Water, mass_matrix: ArrayLike | None
+    folder: Path,
+    files: dict[str, Path],
+    water: Water,
+    mass_matrix: ArrayLike | None,
+    leave_out: ArrayLike | None,
 ) -> HydroDatabase:
     radiation = blocks(files[RADIATION])
     if len(radiation) != MOTIONS:
         raise FileFormatError(
             f"{files[RADIATION]}: {len(radiation)} degrees of freedom; the six of one body are needed"
         )
-    solved = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]))
+    control = sought(folder, CONTROL)
+    whole = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]), control)
+    solved = whole.kept(folder, "read_nemoh", leave_out)
     omega, direction, added_mass = solved.omega, solved.direction, solved.added_mass
     gravity, volume = read_hydrostatics(files[HYDROSTATICS])
-    restoring = read_stiffness(files[STIFFNESS])
-    box = equivalent_box(restoring, volume, water.rho * water.g)
     centre = water.centres[0]
+    from_phases = np.array([centre[0] - water.phase_origin[0], centre[1] - water.phase_origin[1]])
+    force = solved.force * phase_at(from_phases, omega, direction, water.g, water.depth)
+    restoring = stiffness_about(
+        centre,
+        read_stiffness(files[STIFFNESS]),
+        gravity=gravity,
+        lift=force[:, 0],
+        usual="rotation centre" if control is None else "centre of gravity",
+    )
+    box = equivalent_box(restoring, volume, water.rho * water.g)
     if mass_matrix is None:
         mass_matrix = usual_mass_matrix(
             folder, "NEMOH's results hold no mass matrix, pass mass_matrix to read_nemoh",
             mass=water.rho * volume, centre=gravity - centre, length=box[0], breadth=box[1],
         )  # fmt: skip
-    from_phases = np.array([centre[0] - water.phase_origin[0], centre[1] - water.phase_origin[1]])
     return HydroDatabase(
         name=folder.resolve().name,
         omega=omega,
@@ -135,7 +158,7 @@ def _convert(
         damping=solved.damping,
         restoring=restoring,
         mass_matrix=np.asarray(mass_matrix, dtype=float),
-        force=solved.force * phase_at(from_phases, omega, direction, water.g, water.depth),
+        force=force,
         rho=water.rho,
         g=water.g,
         depth=water.depth,
@@ -161,12 +184,26 @@ class Solution:
     damping: FloatArray
     force: NDArray[np.complex128]
 
+    def kept(self, where: Path, reader: str, leave_out: ArrayLike | None) -> Solution:
+        """Without the frequencies that the caller leaves out; `frequencies_kept` raises for what is none."""
+        tables = {"added_mass": self.added_mass, "damping": self.damping, "force": self.force}
+        rows = frequencies_kept(where, reader, self.omega, tables, leave_out)
+        return Solution(
+            omega=self.omega[rows],
+            direction=self.direction,
+            added_mass=self.added_mass[rows],
+            damping=self.damping[rows],
+            force=self.force[:, rows],
+        )
 
-def solution(matrices: Path, forces: Path, radiation: list[_Block], waves: list[_Block]) -> Solution:
+
+def solution(
+    matrices: Path, forces: Path, radiation: list[_Block], waves: list[_Block], control: Path | None
+) -> Solution:
     """What the blocks of both files hold, frequencies and directions rising."""
-    omega, order = _frequencies(matrices, radiation)
+    omega, order = _frequencies(matrices, radiation, control)
     values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
-    if not np.array_equal(_frequencies(forces, waves)[0], omega):
+    if not np.array_equal(_frequencies(forces, waves, control)[0], omega):
         raise FileFormatError(f"{forces}: other frequencies than {RADIATION}; use files of one run")
     direction, places = rising_directions(np.array([_direction(forces, each) for each in waves]))
     wave = np.array([block.rows[order] for block in waves])[places]
@@ -200,8 +237,8 @@ def blocks(path: Path, *, bodies: int = 1) -> list[_Block]:
 
     for number, line in enumerate(text_lines(path), start=1):
         words = line.split()
-        if words and re.fullmatch(NUMBER, words[0]):
-            rows.append(numbers_in(path, number, words))
+        if words and is_number(words[0]):
+            rows.append(numbers_in(path, number, words, failed=True))
             if len(rows[-1]) != 1 + 2 * motions:
                 many = "six" if bodies == 1 else motions
                 raise FileFormatError(
@@ -218,7 +255,9 @@ def blocks(path: Path, *, bodies: int = 1) -> list[_Block]:
     return found
 
 
-def _frequencies(path: Path, blocks: list[_Block]) -> tuple[FloatArray, NDArray[np.intp]]:
+def _frequencies(
+    path: Path, blocks: list[_Block], control: Path | None
+) -> tuple[FloatArray, NDArray[np.intp]]:
     """Frequencies (rad/s), rising, the same in every block, and their places in it."""
     first = blocks[0].rows[:, 0]
     for block in blocks[1:]:
@@ -227,8 +266,43 @@ def _frequencies(path: Path, blocks: list[_Block]) -> tuple[FloatArray, NDArray[
                 f"{path}, line {block.line}: {block.title[:60]!r} has other frequencies than the first; the "
                 "file is truncated"
             )
-    order = np.argsort(first)
-    return first[order], order
+    unit = _unit(path, control)
+    if unit == "s" and np.any(first <= 0.0):
+        raise FileFormatError(f"{path}: a period is {first.min():g} s; give positive ones")
+    omega = 2.0 * np.pi / first if unit == "s" else first * (2.0 * np.pi if unit == "Hz" else 1.0)
+    order = np.argsort(omega)
+    return omega[order], order
+
+
+def _unit(path: Path, control: Path | None) -> str:
+    """What a table's first column is in: as its head says, else ``Nemoh.cal``; rad/s where neither does."""
+    head = next((line for line in text_lines(path) if line.strip()), "")
+    words = re.search(r'VARIABLES\s*=\s*"[^"(]*\(([^)"]*)\)', head, re.IGNORECASE)
+    headed = words.group(1).strip().lower() if words else None
+    known = {unit.lower(): unit for unit in UNITS}
+    if headed is not None and headed not in known:
+        raise FileFormatError(f"{path}, line 1: frequencies in {headed[:20]!r}; {', '.join(UNITS)} are read")
+    asked = None if control is None else _unit_of_control(control)
+    if headed is not None and asked is not None and known[headed] != asked:
+        raise FileFormatError(
+            f"{path}, line 1: headed by {known[headed]}, and {control} asks for {asked}; give the files of "
+            "one run"
+        )
+    return known[headed] if headed is not None else asked or UNITS[0]
+
+
+def _unit_of_control(path: Path) -> str | None:
+    """The unit that ``Nemoh.cal`` (NEMOH 3) asks tables to be written over."""
+    for number, line in enumerate(text_lines(path), start=1):
+        if re.search(r"output\s+freq\w*\s+type", line, re.IGNORECASE):
+            word = line.split()[0]
+            if word not in ("1", "2", "3"):
+                raise FileFormatError(
+                    f"{path}, line {number}: type {word[:20]!r} of output frequencies; give 1, 2 or 3 for "
+                    f"{', '.join(UNITS)}"
+                )
+            return UNITS[int(word) - 1]
+    return None
 
 
 def _direction(path: Path, block: _Block) -> float:
@@ -262,7 +336,7 @@ def read_stiffness(path: Path) -> FloatArray:
     rows = [numbers_in(path, number, words) for number, words in lines]
     if len(rows) != MOTIONS or any(len(row) != MOTIONS for row in rows):
         raise FileFormatError(f"{path}: is no matrix of six rows and columns; it is truncated or damaged")
-    return np.array(rows)
+    return whole_stiffness(np.array(rows))
 
 
 def read_control(path: Path) -> tuple[Water, list[str]]:
@@ -303,14 +377,15 @@ def read_control(path: Path) -> tuple[Water, list[str]]:
     return water, [row[0] for _, row in rows if len(row) == 1 and row[0].lower().endswith(".dat")]
 
 
-def numbers_in(path: Path, line: int, words: list[str]) -> list[float]:
+def numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:
+    """Finite numbers; where a solution may have ``failed``, NaN too."""
     try:
-        values = [float(word.upper().replace("D", "E")) for word in words]
-    except ValueError:
-        raise FileFormatError(f"{path}, line {line}: {' '.join(words)[:60]!r} are no numbers") from None
-    if not np.all(np.isfinite(values)):
-        raise FileFormatError(f"{path}, line {line}: {' '.join(words)[:60]!r} are not all finite")
-    return values
+        return [np.nan if failed and word.lower() == "nan" else number_of_word(word) for word in words]
+    except ValueError as error:
+        told = " ".join(words)[:60]
+        raise FileFormatError(
+            f"{path}, line {line}: {told!r} are no numbers, or not all finite: {error}"
+        ) from None
 
 
 def text_lines(path: Path) -> list[str]:

@@ -6,7 +6,7 @@ Hydrostatics are a file for each body, ``KH_0.dat`` and ``Hydrostatics_0.dat`` o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path, PureWindowsPath
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers.as_read import as_read
 from seacrane.hydro.readers.band_of_data import with_band_of_group
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.nemoh import (
@@ -37,6 +38,7 @@ from seacrane.hydro.readers.nemoh import (
     sought,
 )
 from seacrane.hydro.readers.of_bodies import box_of, group_symmetric, of_each, require_own_hydrostatics
+from seacrane.hydro.readers.stiffness_point import stiffness_about
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wave_directions import phase_at
 
@@ -49,6 +51,8 @@ def read_nemoh_group(
     *,
     mass_matrices: Given | None = None,
     restorings: Given | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroGroup:
     """Read a folder of NEMOH's results of several bodies.
 
@@ -59,6 +63,9 @@ def read_nemoh_group(
     mass_matrices : by body, (6, 6) in SI about that point; by default the displaced masses at the centres of
         gravity with usual radii of gyration.
     restorings : by body, (6, 6) in SI, in the place of ``KH_0.dat`` on.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
 
     Returns
     -------
@@ -93,12 +100,13 @@ def read_nemoh_group(
                 f"{', '.join(names)} are "
                 "needed"
             )
-        solved = solution(files[RADIATION], files[EXCITATION], radiation, waves)
+        whole = solution(files[RADIATION], files[EXCITATION], radiation, waves, files[CONTROL])
+        solved = whole.kept(folder, "read_nemoh_group", leave_out)
         bodies = [
-            _body(folder, water, (i, name), given, stiffness[i], hydrostatics[i])
+            _body(folder, water, (i, name), given, (stiffness[i], hydrostatics[i]), solved)
             for i, name in enumerate(names)
         ]
-        found = _group(folder, water, bodies, solved)
+        found = as_read(folder, "read_nemoh_group", _group(folder, water, bodies, solved), motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -147,15 +155,24 @@ def _body(
     water: Water,
     which: tuple[int, str],
     given: _Given,
-    stiffness: Path | None,
-    hydrostatics: Path | None,
+    files: tuple[Path | None, Path | None],
+    solved: Solution,
 ) -> GroupBody:
     index, name = which
+    stiffness, hydrostatics = files
     if given.restorings is not None:
         restoring, told = given.restorings[index], folder
     else:
         told = _needed(folder, stiffness, f"KH_{index}.dat", name)
         restoring = read_stiffness(told)
+        if hydrostatics is not None:
+            restoring = stiffness_about(
+                water.centres[index],
+                restoring,
+                gravity=read_hydrostatics(hydrostatics)[0],
+                lift=solved.force[:, 0, 6 * index : 6 * index + 6],
+                usual="centre of gravity",
+            )
     if given.masses is not None:
         mass = given.masses[index]
         box = box_of(told, name, restoring, float(mass[0, 0]) / water.rho, water.rho * water.g)

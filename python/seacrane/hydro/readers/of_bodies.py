@@ -45,8 +45,13 @@ def box_of(
 ) -> dict[str, Any]:
     """Length, breadth and draught of a body's equivalent box, m; `equivalent_box` with the body's name.
 
-    Raises FileFormatError: nothing floats on such a waterplane.
+    Raises FileFormatError: nothing floats on such a waterplane, or C55 is that of all bodies together.
     """
+    if not restoring[4, 4] > 0.0:
+        raise FileFormatError(
+            f"{path}: body {name}: restoring C33 = {restoring[2, 2]:.6g} N/m and C55 = {restoring[4, 4]:.6g} "
+            "N m/rad; both have to be positive in a group: check whether they are this body's own"
+        )
     try:
         length, breadth, draught = equivalent_box(restoring, volume, weight_density)
     except ValueError as error:

@@ -7,6 +7,7 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -17,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
@@ -66,6 +68,7 @@ class _Source:
     rho: float
     depth: float
     length: float | None
+    displaced: float | None
 
 
 def read_orcaflex(
@@ -76,6 +79,8 @@ def read_orcaflex(
     vessel_type: str | None = None,
     draught: str | None = None,
     rho: float | None = None,
+    motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> HydroDatabase:
     """Read a vessel type of an OrcaFlex text model (``.yml``), or a ``.dhyd`` file of MaFreDo.
 
@@ -86,6 +91,9 @@ def read_orcaflex(
         hydrostatic stiffness of a ``.yml`` file, and are needed for ``.dhyd``, which holds neither.
     vessel_type, draught : names, needed where a model holds several.
     rho : water density in kg/m3 in place of the model's, which is 1025 where it gives none.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
@@ -113,7 +121,8 @@ def read_orcaflex(
         else:
             kind = read_vessel_type(source, vessel_type=vessel_type, draught=draught)
             found = _orcaflex(source, kind, rho)
-        database = _database(source, found, mass_matrix, restoring)
+        made = _database(source, found, mass_matrix, restoring, leave_out)
+        database = as_read(source, "read_orcaflex", made, motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -181,6 +190,7 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
         rho=rho,
         depth=kind.depth,
         length=kind.length,
+        displaced=None if kind.volume is None else rho * kind.volume,
     )
 
 
@@ -236,15 +246,31 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
         rho=_density(path, rho),
         depth=np.inf,
         length=None,
+        displaced=None,
     )
 
 
 def _database(
-    path: Path, found: _Source, mass_matrix: ArrayLike | None, restoring: ArrayLike | None
+    path: Path,
+    found: _Source,
+    mass_matrix: ArrayLike | None,
+    restoring: ArrayLike | None,
+    leave_out: ArrayLike | None,
 ) -> HydroDatabase:
     mass = _given(path, "mass_matrix", mass_matrix, found.mass_matrix)
     stiffness = _given(path, "restoring", restoring, found.restoring)
+    if mass_matrix is None:
+        asked = "read_orcaflex(mass_matrix=...)"
+        box = equivalent_box(stiffness, float(mass[0, 0]) / found.rho, found.rho * GRAVITY)
+        mass = mass_of_file(path, asked, mass, displaced=found.displaced, box=box)
     rows, columns = _common(path, found)
+    tables = {
+        "added_mass": found.added_mass[rows],
+        "damping": found.damping[rows],
+        "force": found.force[:, columns],
+    }
+    kept = frequencies_kept(path, "read_orcaflex", found.omega[rows], tables, leave_out)
+    rows, columns = rows[kept], columns[kept]
     omega = found.omega[rows]
     heading, force, motion, symmetric = _circle(path, found, columns)
     box = equivalent_box(stiffness, float(mass[0, 0]) / found.rho, found.rho * GRAVITY)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import shown
-from seacrane.inputs.whole_file import read_whole
+from seacrane.inputs.whole_file import decoded, read_whole
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -77,6 +77,7 @@ class VesselType:
     centre: FloatArray
     inertia: FloatArray
     stiffness: FloatArray | None
+    volume: float | None
     other_origin: FloatArray
     other_linear: FloatArray
     other_quadratic: FloatArray
@@ -183,6 +184,7 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
         centre=_point(state, "CentreOfMass" if state.has("CentreOfMass") else "CentreOfGravity"),
         inertia=state.at(INERTIA).table(3, 3) * KILO if state.has(INERTIA) else np.zeros((3, 3)),
         stiffness=state.at(STIFFNESS).table(3, 3) * KILO if state.has(STIFFNESS) else None,
+        volume=state.at("DisplacedVolume").finite() if state.has("DisplacedVolume") else None,
         other_origin=_point(state, "OtherDampingOrigin"),
         other_linear=_six(state, "OtherLinearDamping") * KILO,
         other_quadratic=_six(state, "OtherQuadraticDamping") * KILO,
@@ -201,7 +203,10 @@ def _document(path: Path) -> dict[str, Any]:
         ) from None
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        text = read_whole(path, LARGEST_FILE, "save the vessel type alone").decode("utf-8-sig")
+        data = read_whole(path, LARGEST_FILE, "save the vessel type alone")
+        text = decoded(data)
+        if b"\0" in data and "\0" not in text:
+            raise FileFormatError(f"{path}: no UTF-8 text; save the model again")
         depth = 0
         for event in yaml.parse(text, Loader=loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
@@ -211,8 +216,6 @@ def _document(path: Path) -> dict[str, Any]:
         found = yaml.load(text, Loader=loader)
     except OSError as error:
         raise FileFormatError(f"{path}: cannot be read ({error.strerror}); check the path") from error
-    except UnicodeDecodeError as error:
-        raise FileFormatError(f"{path}: no UTF-8 text ({error.reason}); save the model again") from error
     except (yaml.YAMLError, ValueError, TypeError) as error:
         if isinstance(error, FileFormatError):
             raise

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import number_of_word
 from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
@@ -98,9 +98,6 @@ class TextRecords:
 
     def _number(self, word: str, what: str) -> float:
         try:
-            value = float(word.replace("D", "E").replace("d", "e"))
-        except ValueError:
-            raise self.error(f"{what}: {word[:40]!r} is not a number") from None
-        if not math.isfinite(value):
-            raise self.error(f"{what}: {word[:40]!r} is not a finite number")
-        return value
+            return number_of_word(word)
+        except ValueError as error:
+            raise self.error(f"{what}: {error}") from None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass, fields
 from os import PathLike
@@ -12,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
+from seacrane.hydro.readers.numbers_of_text import number_of_word
 from seacrane.hydro.readers.text_records import TextRecords
 
 FloatArray = NDArray[np.float64]
@@ -39,7 +40,7 @@ ROWS = {
     "r66": "Yaw radius of gyration",
 }
 TONNES = 1000.0
-NUMBER = re.compile(r"^[-+]?(\d+(?:\.\d*)?|\.\d+)([EeDd][-+]?\d+)?\*?$")
+NUMBER = re.compile(rf"^{WORD}\*?$")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,10 +121,10 @@ def _value(records: TextRecords, line: str, label: str) -> float:
     if not numbers or not NUMBER.match(words[-1]):
         raise records.error(f"{label}: no number at the end of the row; the file is damaged or truncated")
     marked = [word for word in numbers if word.endswith("*")]
-    value = float((marked or numbers)[-1].rstrip("*").replace("D", "E").replace("d", "e"))
-    if not math.isfinite(value):
-        raise records.error(f"{label}: {numbers[-1][:40]} is not a finite number")
-    return value
+    try:
+        return number_of_word((marked or numbers)[-1].rstrip("*"))
+    except ValueError as error:
+        raise records.error(f"{label}: {error}") from None
 
 
 def contradictions(hydrostatics: VeresHydrostatics, loading: Loading) -> list[str]:

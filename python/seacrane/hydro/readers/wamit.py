@@ -8,6 +8,7 @@ rotations 1/L. Phases in ``.out`` are rounded to degrees and not used.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -20,6 +21,7 @@ from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.as_read import as_read, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
@@ -64,6 +66,7 @@ def read_wamit(
     length_scale: float = 1.0,
     rho: float | None = None,
     mass_matrix: ArrayLike | None = None,
+    motions: Sequence[str] | None = None,
 ) -> HydroDatabase:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
@@ -77,7 +80,9 @@ def read_wamit(
     volume, depth, g, length_scale : m3, m, m/s2, m (ULEN), of a set without ``.out``, such as another code
         exports: there ``volume`` is needed. Beside a ``.out`` they are not used.
     rho : kg/m3, of a set that does not tell it.
-    mass_matrix : (6, 6) in SI about the origin, of a set without ``.frc``.
+    mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
 
     Returns
     -------
@@ -106,7 +111,7 @@ def read_wamit(
     mass = None if mass_matrix is None else np.asarray(mass_matrix, dtype=float)
     given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass)
     try:
-        found = _convert(stem, files, given)
+        found = as_read(stem, "read_wamit", _convert(stem, files, given), motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -358,11 +363,12 @@ def water_density(stem: Path, listed: float | None, given: float | None) -> floa
 def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
     """Mass matrix (6, 6): as given, or the displaced mass with the radii of gyration of ``.frc``."""
     control, listing = body.control, body.listing
-    if body.mass is not None and (control is None or control.mass is None):
+    mass = body.rho * listing.volume
+    asked = "read_wamit(mass_matrix=...)"
+    if body.mass is not None:
         return body.mass
     if control is not None and control.mass is not None:
-        return control.mass
-    mass = body.rho * listing.volume
+        return mass_of_file(control.path, asked, control.mass, displaced=mass)
     centre = listing.center_of_buoyancy.copy()
     if listing.center_of_gravity is not None:
         centre = listing.center_of_gravity.copy()
@@ -371,7 +377,7 @@ def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
         about_origin = mass * control.radii * np.abs(control.radii)
         matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
         matrix[3:, 3:] = about_origin
-        return matrix
+        return mass_of_file(control.path, asked, matrix)
     if control is not None and control.center_of_gravity is not None:
         centre = control.center_of_gravity
     return usual_mass_matrix(

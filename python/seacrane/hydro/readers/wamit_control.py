@@ -6,18 +6,20 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
+from seacrane.hydro.readers.numbers_of_text import is_number, number_of_word
 from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
-NUMBER = r"([-+]?[\d.]+(?:[EeDd][-+]?\d+)?)"
+NUMBER = rf"({WORD}|\*+)"
 IOPTN_MOTIONS = 3  # the fourth option of the second line
 
 
@@ -98,7 +100,7 @@ def read_listing(path: Path) -> Listing:
     version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
     symmetry = re.search(r"Symmetry:[^\n]*", text)
     panels = maybe(r"Total panels:\s+(\d+)")
-    periods = [float(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
+    periods = [number_of_word(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
     return Listing(
         path=path,
         version=version.group(1) if version else "of unknown version",
@@ -201,23 +203,13 @@ class _ListDirected:
         """How many numbers the next line starts with, which stays."""
         words = self.line("IMASS or radii of gyration").replace(",", " ").split()
         self._next -= 1
-        count = 0
-        for word in words:
-            try:
-                float(word)
-            except ValueError:
-                break
-            count += 1
-        return count
+        return sum(1 for _ in takewhile(is_number, words))
 
     def _value(self, word: str, what: str) -> float:
         try:
-            value = float(word.replace("D", "E").replace("d", "e"))
-        except ValueError:
-            raise self.error(f"{what}: {word[:40]!r} is not a number") from None
-        if not math.isfinite(value):
-            raise self.error(f"{what}: {word[:40]!r} is not a finite number")
-        return value
+            return number_of_word(word)
+        except ValueError as error:
+            raise self.error(f"{what}: {error}") from None
 
 
 def listing_lines(path: Path) -> list[str]:
@@ -232,13 +224,10 @@ def listing_lines(path: Path) -> list[str]:
 def _number(path: Path, text: str, match: re.Match[str], group: int) -> float:
     word = match.group(group)
     try:
-        value = float(word.replace("D", "E").replace("d", "e"))
-        if not math.isfinite(value):
-            raise ValueError
-        return value
-    except ValueError:
+        return number_of_word(word)
+    except ValueError as error:
         line = text.count("\n", 0, match.start()) + 1
-        raise FileFormatError(f"{path}, line {line}: {word[:40]!r} is not a finite number") from None
+        raise FileFormatError(f"{path}, line {line}: {error}") from None
 
 
 def water_depth(path: Path, text: str, last: int) -> float:

@@ -14,7 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.wamit_tables import check_complete, motion_of, read_table
+from seacrane.hydro.readers.wamit_tables import (
+    BODY_AXES,
+    ROUND_OFF,
+    Table,
+    check_complete,
+    largest_of_kind,
+    motion_of,
+    read_table,
+)
+from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import PartialSetWarning
 
 FloatArray = NDArray[np.float64]
 
@@ -46,12 +56,15 @@ def read_mean_drift(path: Path) -> MeanDrift:
     rows = np.flatnonzero(one_wave & (table.values[:, 0] > 0.0))
     if rows.size == 0:
         raise FileFormatError(f"{path}: no row of one period and one heading; it holds no mean drift")
-    table = table.only(rows)
+    table = _of_space_axes(table.only(rows), first + 2)
+    rows = np.arange(len(table.lines))
     motion = motion_of(table, first + 2)
     real, imaginary = table.values[:, first + 5], table.values[:, first + 6]
+    size = np.hypot(real, imaginary)
     largest = np.zeros(6)
-    np.maximum.at(largest, motion, np.hypot(real, imaginary))
-    bad = np.flatnonzero(np.abs(imaginary) > REAL_TOLERANCE * largest[motion])
+    np.maximum.at(largest, motion, size)
+    allowed = REAL_TOLERANCE * largest[motion] + ROUND_OFF * largest_of_kind(size, motion)
+    bad = np.flatnonzero(np.abs(imaginary) > allowed)
     if bad.size:
         raise table.error(
             int(bad[0]), f"a mean load with an imaginary part of {imaginary[bad[0]]:g}; the line is damaged"
@@ -65,3 +78,18 @@ def read_mean_drift(path: Path) -> MeanDrift:
     values = np.zeros((len(headings), len(periods), 6))
     values[in_heading, in_period, motion] = real
     return MeanDrift(path, periods, headings, values)
+
+
+def _of_space_axes(table: Table, column: int) -> Table:
+    """Without the mean moments about axes of the body, which stand beside those about axes in space."""
+    aside = np.isin(table.values[:, column], BODY_AXES)
+    if not aside.any():
+        return table
+    if aside.all():
+        raise table.error(0, "holds moments in axes of the body alone; write mean drift in axes of space")
+    warn_caller(
+        f"{table.path}, line {table.lines[aside][0]} on: {aside.sum()} rows of mean moments in axes of the "
+        "body (-4, -5, -6) are left out; those in axes of space are read",
+        PartialSetWarning,
+    )
+    return table.only(np.flatnonzero(~aside))

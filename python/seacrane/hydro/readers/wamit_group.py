@@ -7,7 +7,7 @@ are those of `seacrane.hydro.readers.wamit`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.hydro.readers.as_read import as_read
 from seacrane.hydro.readers.band_of_data import with_band_of_group
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.of_bodies import box_of, group_symmetric, of_each, require_own_hydrostatics
@@ -59,6 +60,7 @@ def read_wamit_group(
     *,
     rho: float | None = None,
     mass_matrices: Mapping[str, ArrayLike] | None = None,
+    motions: Sequence[str] | None = None,
 ) -> HydroGroup:
     """Read the WAMIT results of several bodies at ``path``: a folder, the common stem, or one of the files.
 
@@ -71,6 +73,8 @@ def read_wamit_group(
     rho : kg/m3, of a listing that does not tell it.
     mass_matrices : by body, (6, 6) in SI about its origin; by default the displaced masses with usual radii
         of gyration.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
 
     Returns
     -------
@@ -94,7 +98,12 @@ def read_wamit_group(
     if listing is None:
         raise FileFormatError(f"{stem}.out: no such file; it tells the bodies, their places and the water")
     try:
-        found = _convert(stem, read_group_listing(listing), listing, rho, mass_matrices)
+        found = as_read(
+            stem,
+            "read_wamit_group",
+            _convert(stem, read_group_listing(listing), listing, rho, mass_matrices),
+            motions,
+        )
     except FileFormatError:
         raise
     except ValueError as error:

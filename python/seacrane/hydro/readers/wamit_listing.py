@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import number_of_word
 from seacrane.hydro.readers.wamit_control import NUMBER, listing_lines, water_depth
 from seacrane.hydro.readers.wamit_tables import (
     INFINITE_FREQUENCY_PERIOD,
@@ -83,7 +84,7 @@ def read_group_listing(path: Path) -> GroupListing:
     density = re.search(rf"Water density:\s+{NUMBER}", text)
     version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
     ends = [*starts[1:], len(text)]
-    rho = float(density.group(1).replace("D", "E")) if density else 0.0
+    rho = number_of_word(density.group(1)) if density else 0.0
     return GroupListing(
         version=version.group(1) if version else "of unknown version",
         g=first,
@@ -125,9 +126,7 @@ def _body(path: Path, name: str, text: str, scale: float) -> ListedBody:
         position=np.array(place[:3]),
         heading=float(np.radians(place[3])),
         volume=float(np.mean(volumes)),
-        gravity=np.array(
-            [float(word.replace("D", "E")) for word in gravity.groups()] if gravity else buoyancy
-        ),
+        gravity=np.array([number_of_word(word) for word in gravity.groups()] if gravity else buoyancy),
         restoring=restoring * scale ** (2 + np.add.outer(rotations, rotations)),
         lid_panels=int(free.group(1)) if free else 0,
     )
@@ -138,12 +137,9 @@ def _numbers(path: Path, text: str, pattern: str, what: str, name: str) -> list[
     if found is None:
         raise FileFormatError(f"{path}: no {what} of {name}; the listing is truncated, or no WAMIT listing")
     try:
-        values = [float(word.replace("D", "E")) for word in found.groups()]
-    except ValueError:
-        values = [np.nan]
-    if not np.all(np.isfinite(values)):
-        raise FileFormatError(f"{path}: {what} of {name} are no finite numbers: {found.group(0)[:80]!r}")
-    return values
+        return [number_of_word(word) for word in found.groups()]
+    except ValueError as error:
+        raise FileFormatError(f"{path}: {what} of {name}, {found.group(0)[:80]!r}: {error}") from None
 
 
 def listed_tables(path: Path, lines: list[str]) -> tuple[Table, Table]:
@@ -195,9 +191,6 @@ def _is_row(words: list[str]) -> bool:
 
 def _value(path: Path, number: int, word: str) -> float:
     try:
-        value = float(word.replace("D", "E"))
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise FileFormatError(f"{path}, line {number}: {word[:40]!r} is not a finite number")
-    return value
+        return number_of_word(word)
+    except ValueError as error:
+        raise FileFormatError(f"{path}, line {number}: {error}") from None

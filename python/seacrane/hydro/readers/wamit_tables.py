@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import is_number, number_of_word
 from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
@@ -18,7 +20,8 @@ IntArray = NDArray[np.int64]
 ZERO_FREQUENCY_PERIOD = -1.0
 INFINITE_FREQUENCY_PERIOD = 0.0
 PHASE_TOLERANCE = 1e-4  # files hold seven digits of modulus, phase, real and imaginary part
-ROUND_OFF = 1e-8
+ROUND_OFF = 1e-6  # of the largest force or moment: beyond single precision
+BODY_AXES = (-6.0, -5.0, -4.0)  # rows of mean moments in the axes of the body, beside those of space
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +132,10 @@ def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
     """Read the restoring matrix (6 k, 6 k): rows of i, j, C; of several bodies entries may be left out."""
     size = 6 * bodies
     table = read_table(path, (3,))
-    motions = size * motion_of(table, 0, bodies) + motion_of(table, 1, bodies)
-    if len(motions) < 36 * bodies:
+    first, second = motion_of(table, 0, bodies), motion_of(table, 1, bodies)
+    motions = size * first + second
+    half = bodies == 1 and len(motions) == 21 and (np.all(first <= second) or np.all(first >= second))
+    if len(motions) < 36 * bodies and not half:
         raise table.error(
             len(motions) - 1,
             f"{len(motions)} of {36 * bodies} entries end here; the file is truncated",
@@ -150,7 +155,7 @@ def read_table(path: Path, widths: tuple[int, ...]) -> Table:
             f"{path}: cannot be read ({error.strerror}); check the path and its rights"
         ) from error
     every = [(number, line) for number, line in enumerate(text.split("\n"), start=1) if line.strip()]
-    if every and not _is_number(every[0][1].split()[0]):
+    if every and not is_number(every[0][1].split()[0]):
         del every[0]
     if not every:
         raise FileFormatError(f"{path}, line 1: no numbers; the file is empty or truncated")
@@ -162,12 +167,12 @@ def read_table(path: Path, widths: tuple[int, ...]) -> Table:
             wanted = " or ".join(str(width) for width in widths)
             raise FileFormatError(f"{path}, line {number}: {wanted} numbers are expected, found {len(words)}")
         try:
-            values[row, : len(words)] = [float(word) for word in words]
-        except ValueError:
-            bad = next(word for word in words if not _is_number(word))
-            raise FileFormatError(f"{path}, line {number}: {bad[:40]!r} is not a number") from None
-        if not np.all(np.isfinite(values[row, : len(words)])):
-            raise FileFormatError(f"{path}, line {number}: a number is not finite: {line.strip()[:80]!r}")
+            values[row, : len(words)] = [number_of_word(word) for word in words]
+        except ValueError as error:
+            told = f"{error}, in {line.strip()[:80]!r}"
+            if "finite" in told:
+                told = f"a number is not finite: {line.strip()[:80]!r}"
+            raise FileFormatError(f"{path}, line {number}: {told}") from None
     return Table(path, values, np.array([number for number, _ in every]))
 
 
@@ -176,14 +181,6 @@ def _check_last_line(path: Path, text: str, every: list[tuple[int, str]]) -> Non
     number, last = every[-1]
     if not text.endswith("\n") and len(every) > 1 and len(last.rstrip()) < len(every[-2][1].rstrip()):
         raise FileFormatError(f"{path}, line {number}: shorter than the line before; the file is truncated")
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
 
 
 def motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
@@ -200,14 +197,12 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     """Real and imaginary part, which have to agree with modulus and phase of the same row.
 
     Motions that symmetry forbids are round-off, where WAMIT's four columns do not agree: a share of the
-    largest value of the same motion is allowed.
+    largest force, or moment, is allowed.
     """
     modulus, phase_deg, real, imaginary = table.values[:, 3:7].T
     value = real + 1j * imaginary
     error = np.abs(value - modulus * np.exp(1j * np.radians(phase_deg)))
-    largest = np.zeros(int(motion.max(initial=0)) + 1)
-    np.maximum.at(largest, motion, np.abs(value))
-    bad = np.flatnonzero(error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * largest[motion])
+    bad = np.flatnonzero(error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * largest_of_kind(value, motion))
     if bad.size:
         row = int(bad[0])
         raise table.error(
@@ -216,6 +211,13 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
             f"{imaginary[row]:g}i; the line is damaged",
         )
     return np.asarray(value)
+
+
+def largest_of_kind(value: NDArray[Any], motion: IntArray) -> FloatArray:
+    """Of each row the largest force of all rows, or the largest moment."""
+    turns = motion % 6 > 2
+    largest = [float(np.abs(value[rows]).max(initial=0.0)) for rows in (~turns, turns)]
+    return np.where(turns, largest[1], largest[0])
 
 
 def check_complete(

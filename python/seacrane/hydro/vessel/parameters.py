@@ -19,6 +19,7 @@ from seacrane.hydro.memory.retardation import RetardationModel
 FloatArray = NDArray[np.float64]
 
 RIGID_TOLERANCE = 1e-5
+ROUND_OFF = 1e-6  # of the mass: an added mass below it is none
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -80,12 +81,26 @@ def time_domain_vessel(
         mass=mass,
         center_of_mass=centre,
         inertia=inertia,
-        added_mass=model.added_mass + model.additional_added_mass + rest,
+        added_mass=_without_round_off(model.added_mass + model.additional_added_mass, mass_matrix) + rest,
         linear_damping=linear,
         quadratic_damping=quadratic,
         restoring=restoring,
         memory=model,
     )
+
+
+def _without_round_off(added_mass: FloatArray, mass_matrix: FloatArray) -> FloatArray:
+    """The added mass; directions in which it is negative by round-off, beside the mass, have none.
+
+    Yaw of a round body is such a direction. What is beyond round-off stays, and is refused by name.
+    """
+    scale = np.sqrt(np.diag(mass_matrix))
+    scaled = 0.5 * (added_mass + added_mass.T) / np.outer(scale, scale)
+    values, axes = np.linalg.eigh(scaled)
+    if values[0] >= 0.0 or values[0] < -ROUND_OFF * max(1.0, values[-1]):
+        return added_mass
+    lifted = (axes * np.maximum(-values, 0.0)) @ axes.T
+    return np.asarray(added_mass + lifted * np.outer(scale, scale))
 
 
 def rigid_part(database: HydroData) -> tuple[float, FloatArray]:

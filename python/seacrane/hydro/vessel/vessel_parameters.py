@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from seacrane.hydro.data.below_band import warn_of_resonance_below_band
-from seacrane.hydro.data.data_warnings import warn_of_damping
+from seacrane.hydro.data.data_warnings import warn_of_matrices
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel, MotionFit
 from seacrane.hydro.data.motion import natural_frequency
@@ -53,7 +53,7 @@ def vessel_parameters(
     Warns
     -----
     RollDampingWarning, MemoryFitWarning, MemoryMismatchWarning, NonPassiveMemoryWarning, DampingWarning,
-    BelowBandWarning
+    AsymmetryWarning, BelowBandWarning
 
     Raises
     ------
@@ -67,7 +67,7 @@ def vessel_parameters(
 
 def _warn(database: HydroData, vessel: VesselParameters) -> None:
     """Name fits that miss their aim, a memory of other data or that delivers energy, and roll damping."""
-    warn_of_damping(database)
+    warn_of_matrices(database)
     warn_of_resonance_below_band(database)
     if isinstance(vessel.memory, MemoryModel):
         _warn_of_misfits(database.name, vessel.memory)
