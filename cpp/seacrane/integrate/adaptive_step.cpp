@@ -142,6 +142,8 @@ void AdaptiveStep::after_success(double h, double error, bool cut_before, bool t
     return;
   }
   step_ = preferred_step(h, growth * h);
+  // Nor does one cut to the resolution of time say that no step does.
+  if (truncated) step_ = std::max(step_, 2.0 * smallest_step(time_));
   if (!truncated) error_memory_ = std::max(error, least_error_memory);
 }
 

@@ -115,17 +115,6 @@ class _Around:
         ships = floating_bodies(self.scene) | self.led
         return contact.body in ships and contact.on in {*ships, GROUND}
 
-    def welded_mass(self, body: str) -> float:
-        """Of a body and of those welded to it, kg."""
-        welds = [(one.first, one.second) for one in self.scene.joints.values() if one.kind == "weld"]
-        found, ahead = {body}, [body]
-        while ahead:
-            here = ahead.pop()
-            beside = {other for ends in welds if here in ends for other in ends} - found
-            found |= beside
-            ahead += beside
-        return sum(self.scene.bodies[one].mass for one in found if one in self.scene.bodies)
-
     def as_weight(self, field: str, force: float, unit: str, on: str = "") -> Proportion:
         """A force over the weight of all bodies; one on a ship whose motion is given has none to compare."""
         bodies = self.scene.bodies.values() if on not in self.led else ()
@@ -289,7 +278,7 @@ def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     own = around.parts[part.body]
     if own[0] is part:
         water = part.density * sum(displaced_volume(one) for one in own)
-        share = _over(water, around.welded_mass(part.body))
+        share = _over(water, welded_mass(around.scene, part.body))
         yield Proportion("size", "all parts displace {:.3g} times the body's mass", share, 0.0, LIGHT, "m")
     body, sizes = around.scene.bodies[part.body], np.sort(part.size)
     reach = 2.0 * math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)  # of a box with it
@@ -327,7 +316,8 @@ def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
     """Each point counts with its share of the lighter body."""
     count = len(contact.points)
     bodies = [one for one in (contact.body, contact.on) if one in around.scene.bodies]
-    mass = min(welded_mass(around.scene, one) for one in bodies) / count
+    heavy = [one for one in bodies if one not in around.led] or bodies
+    mass = min(welded_mass(around.scene, one) for one in heavy) / count
     weight = mass * abs(around.scene.gravity)
     if len(contact.forces):
         deepest = float(contact.compressions[-1])
