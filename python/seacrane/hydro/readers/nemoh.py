@@ -97,7 +97,8 @@ def read_nemoh(
             AssumedDensityWarning,
         )
     try:
-        found = as_read(folder, "read_nemoh", _convert(folder, files, water, mass_matrix, leave_out), motions)
+        made = _convert(folder, files, water, mass_matrix, leave_out)
+        found = as_read(f"{files[RADIATION]}, {EXCITATION}", "read_nemoh", made, motions)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -131,7 +132,7 @@ def _convert(
         )
     control = sought(folder, CONTROL)
     whole = solution(files[RADIATION], files[EXCITATION], radiation, blocks(files[EXCITATION]), control)
-    solved = whole.kept(folder, "read_nemoh", leave_out)
+    solved = whole.kept(files[RADIATION], files[EXCITATION], "read_nemoh", leave_out)
     omega, direction, added_mass = solved.omega, solved.direction, solved.added_mass
     gravity, volume = read_hydrostatics(files[HYDROSTATICS])
     centre = water.centres[0]
@@ -184,10 +185,11 @@ class Solution:
     damping: FloatArray
     force: NDArray[np.complex128]
 
-    def kept(self, where: Path, reader: str, leave_out: ArrayLike | None) -> Solution:
+    def kept(self, matrices: Path, forces: Path, reader: str, leave_out: ArrayLike | None) -> Solution:
         """Without the frequencies that the caller leaves out; `frequencies_kept` raises for what is none."""
         tables = {"added_mass": self.added_mass, "damping": self.damping, "force": self.force}
-        rows = frequencies_kept(where, reader, self.omega, tables, leave_out)
+        told = f"{matrices}, {forces.name}"
+        rows = frequencies_kept(told, reader, self.omega, tables, leave_out)
         return Solution(
             omega=self.omega[rows],
             direction=self.direction,
@@ -378,7 +380,7 @@ def read_control(path: Path) -> tuple[Water, list[str]]:
 
 
 def numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:
-    """Finite numbers; where a solution may have ``failed``, NaN too."""
+    """Finite numbers; where a solution may have failed, NaN too."""
     try:
         return [np.nan if failed and word.lower() == "nan" else number_of_word(word) for word in words]
     except ValueError as error:

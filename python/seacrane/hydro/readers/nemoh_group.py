@@ -101,12 +101,12 @@ def read_nemoh_group(
                 "needed"
             )
         whole = solution(files[RADIATION], files[EXCITATION], radiation, waves, files[CONTROL])
-        solved = whole.kept(folder, "read_nemoh_group", leave_out)
+        solved = whole.kept(files[RADIATION], files[EXCITATION], "read_nemoh_group", leave_out)
         bodies = [
             _body(folder, water, (i, name), given, (stiffness[i], hydrostatics[i]), solved)
             for i, name in enumerate(names)
         ]
-        found = as_read(folder, "read_nemoh_group", _group(folder, water, bodies, solved), motions)
+        found = as_read(told, "read_nemoh_group", _group(folder, water, bodies, solved), motions)
     except FileFormatError:
         raise
     except ValueError as error:
