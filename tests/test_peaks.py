@@ -9,7 +9,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Result, Run, Scene, Stage, simulate, simulate_stages, simulate_to_file, summary
+from seacrane import (
+    Curve,
+    Result,
+    Run,
+    Scene,
+    Stage,
+    cases,
+    ensemble,
+    simulate,
+    simulate_stages,
+    simulate_to_file,
+    summary,
+)
 from seacrane.ensembles import Kept
 from seacrane.operability.levels import RecordNumbers
 from seacrane.pictures import view
@@ -153,3 +165,71 @@ def test_the_strip_of_the_page_shows_the_peak() -> None:
     found = re.search(r'"title":"line tension.*?"high":([-\d.e+]+)', view(result).html)
     assert found and float(found[1]) == pytest.approx(largest(result).item() / 1e3, rel=1e-3)
     assert largest(result).item() > 1.05 * result["line_tension"].max()
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str) -> None:
+    """T = m g (3 cos phi - 2 cos phi0) of a mass on a rod that is let go at phi0."""
+    scene, angle = Scene(name="pendulum", gravity=GRAVITY), 0.8
+    place = LENGTH * np.array([np.sin(angle), 0.0, -np.cos(angle)])
+    scene.add_body("mass", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=place)
+    scene.add_joint(
+        kind="distance", name="rod", first="ground", second="mass", point=(0.0, 0.0, 0.0), second_point=place,
+        length=LENGTH,
+    )  # fmt: skip
+    result = simulate(scene, 9.0, dt_out=1.3, formulation=formulation)
+    least, most = result.reached("tension")
+    assert most.max() == pytest.approx(WEIGHT * (3.0 - 2.0 * np.cos(angle)), rel=1e-3)
+    assert least.min() == pytest.approx(WEIGHT * np.cos(angle), rel=1e-3)
+    assert result["tension"].max() < 0.99 * most.max()
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_driver_reaches_what_it_carries(formulation: str) -> None:
+    scene, omega, height = Scene(name="driven", gravity=GRAVITY), 2.0, 1.5
+    scene.add_body(
+        "sledge", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=(0.0, 0.0, 0.0),
+        velocity=(0.0, 0.0, height * omega),
+    )  # fmt: skip
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="sledge", point=(0, 0, 0), axis=(0, 0, 1)
+    )
+    scene.add_driver(
+        joint="guide", name="lift", curve=Curve.harmonic(amplitude=height, omega=omega, phase=-np.pi / 2)
+    )
+    result = simulate(scene, 8.0, dt_out=1.1, formulation=formulation)
+    least, most = result.reached("driver_force")
+    assert most.max() == pytest.approx(WEIGHT + MASS * height * omega**2, rel=1e-3)
+    assert least.min() == pytest.approx(WEIGHT - MASS * height * omega**2, rel=1e-3)
+
+
+def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_other() -> None:
+    scene, length, per_length = Scene(name="deep", gravity=GRAVITY), 1000.0, 20.0
+    scene.add_body("load", mass=2e4, inertia=np.diag([1e4] * 3), position=(0.0, 0.0, -length))
+    scene.add_line(
+        "wire", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0)] * 2, length=length, EA=4e8,
+        rung="with mass", mass_per_length=per_length, segments=8, segment_rung="quasi-static",
+    )  # fmt: skip
+    result = simulate(scene, 1.0, start="rest")
+    assert result["hook_load"][:, -1] == pytest.approx(2e4 * GRAVITY, rel=1e-3)
+    upper, lower = result["end_tension"][:, 0].T
+    assert lower == pytest.approx(2e4 * GRAVITY, rel=1e-3)
+    assert upper == pytest.approx((2e4 + per_length * length) * GRAVITY, rel=1e-3)
+    told = summary(result)
+    assert told["hook load wire"].maximum == pytest.approx(2e4 * GRAVITY, rel=1e-3)
+    assert told["hoist tension wire"].maximum == pytest.approx(
+        (2e4 + per_length * length) * GRAVITY, rel=1e-3
+    )
+
+
+def test_members_in_lanes_keep_the_peaks_of_runs_by_themselves() -> None:
+    given: dict[str, Any] = {
+        "over": {"seed": [1, 2, 3]}, "t_end": 8.0, "dt_out": 2.0,
+        "keep": {"roll": "roll.max", "torque": "slew_torque.max", "heave": "heave.min"},
+    }  # fmt: skip
+    alone = ensemble(cases.case2(), lanes=1, **given).dataset
+    beside = ensemble(cases.case2(), lanes=4, **given).dataset
+    coarse = ensemble(cases.case2(), lanes=1, **{**given, "keep": {"roll": "roll"}}).dataset
+    for name in ("roll", "torque", "heave"):
+        assert beside[name].to_numpy() == pytest.approx(alone[name].to_numpy(), rel=1e-3)
+    assert (coarse["roll"].max("time") < 0.999 * alone["roll"]).any()

@@ -30,8 +30,8 @@ class Formulation : public System {
   virtual const std::vector<Vec6d>& accelerations() const = 0;
   /// Time of the last derivative(); not a number before it.
   virtual double evaluated_at() const = 0;
-  /// Tension of a link, an element that holds a distance, at the last derivative(), N; not a number where it
-  /// is not unique.
+  /// At the last derivative(), of an element that holds a distance its tension, N, of a driver its force or
+  /// moment; not a number where it is not known.
   virtual double tension(int element) const = 0;
   /// What `load` alone adds to these accelerations: M^-1 load of the bodies as they are joined, through the
   /// factors of the last derivative(). Both hold a wrench or an acceleration for each body that is stepped,

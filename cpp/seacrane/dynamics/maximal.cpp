@@ -30,6 +30,7 @@ MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
 
 double MaximalSystem::tension(int element) const {
   const ElementModel& e = model_.elements[idx(element)];
+  if (e.driver) return lambda_[idx(e.row)];
   return e.unique_reaction ? -lambda_[idx(e.row)] : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -1,10 +1,16 @@
 #include "seacrane/run/extremes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "seacrane/elements/joints/distance.hpp"
 
 namespace seacrane {
+namespace {
+
+constexpr int kLoose = -1, kNotKnown = -2;
+
+}  // namespace
 
 void Extremes::Group::begin() {
   for (const RecordedChannel* c : channels) {
@@ -44,12 +50,26 @@ void Extremes::find_links(const Stepper& at) {
   links_of_ = &at;
   links_.clear();
   const std::vector<ElementModel>& elements = at.stepped_model()->elements;
+  const auto add = [&](const ElementModel& described) {
+    const auto found = std::ranges::find_if(elements, [&](const ElementModel& e) {
+      return e.name == described.name && e.driver == described.driver;
+    });
+    const bool is_there = found != elements.end();
+    const int place = is_there ? static_cast<int>(found - elements.begin()) : kNotKnown;
+    links_.push_back(is_there && found->rows == 0 ? kLoose : place);
+  };
   for (const ElementModel& described : at.model->elements) {
-    if (described.kind != Distance::kind) continue;
-    const auto found = std::ranges::find(elements, described.name, &ElementModel::name);
-    const bool holds = found != elements.end() && found->rows > 0;
-    links_.push_back(holds ? static_cast<int>(found - elements.begin()) : -1);
+    if (described.kind == Distance::kind && !described.driver) add(described);
   }
+  const SceneDescription& scene = at.model->description;
+  for (std::size_t d = 0; d < scene.drivers.size(); ++d) add(at.model->elements[scene.joints.size() + d]);
+}
+
+/// Of links, and behind these of drivers.
+double Extremes::held_force(const Stepper& at, std::size_t i) const {
+  const int element = links_[i];
+  if (element == kLoose) return 0.0;
+  return element == kNotKnown ? std::numeric_limits<double>::quiet_NaN() : at.stepped.tension(element);
 }
 
 Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
@@ -70,10 +90,10 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
   double* out = evaluation_.data();
   for (const RecordedChannel* c : evaluations_.channels) {
     if (c->channel->peaks == Peaks::of_links) {
-      for (std::size_t i = 0; i < c->size; ++i) {
-        const int element = links_[i];
-        out[i] = element < 0 ? 0.0 : at.stepped.tension(element);
-      }
+      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, i);
+    } else if (c->channel->peaks == Peaks::of_drivers) {
+      const std::size_t first = links_.size() - c->size;
+      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, first + i);
     } else {
       c->channel->write(output(at, t, stepped_.data(), terms), out);
     }

@@ -51,6 +51,7 @@ class Extremes {
   void place(Stepper& at, double t, const double* y);
   Output output(Stepper& at, double t, const double* state, const Terms& terms);
   void find_links(const Stepper& at);
+  double held_force(const Stepper& at, std::size_t i) const;
   void add(Group& group, double t, const double* values);
   auto seeing(const Group& group) {
     return [this, &group](std::size_t k, double t, double value) {
@@ -66,7 +67,7 @@ class Extremes {
   double evaluated_ = 0.0;          // time of evaluation_
   std::vector<double> evaluation_;  // of the last step
   const Stepper* links_of_ = nullptr;
-  std::vector<int> links_;  // elements of what is stepped; -1: one that does not hold
+  std::vector<int> links_;  // elements of what is stepped, of links, then of drivers
   std::vector<double> row_, state_, bodies_, stepped_, rate_;
   std::vector<CoordinateRow<double>> coordinates_;
   std::vector<BodyLoad<double>> one_load_;

@@ -7,7 +7,7 @@ namespace seacrane {
 namespace {
 
 constexpr double kHighest = 0.25;  // of the larger difference beside it: a peak above is of no smooth curve
-constexpr double kAbrupt = 0.25;   // likewise: a curve whose next difference is smaller has jumped
+constexpr double kAbrupt = 0.25;  // of the slope on that side: a curve whose next slope is smaller has jumped
 constexpr int kIterations = 4;
 
 }  // namespace
@@ -41,7 +41,8 @@ std::optional<PeakWindow::Peak> PeakWindow::peak(std::size_t i, std::size_t curv
   const double largest = std::max(std::abs(before), std::abs(after));
   if (falls ? i + 2 < count_ : i >= 2) {
     const std::size_t near = falls ? i + 1 : i - 1, far = falls ? i + 2 : i - 2;
-    if (!(std::abs(value(near, curve) - value(far, curve)) >= kAbrupt * largest)) return std::nullopt;
+    const double share = (times_[far] - times_[near]) / (times_[near] - times_[i]);
+    if (!(std::abs(value(near, curve) - value(far, curve)) >= kAbrupt * share * largest)) return std::nullopt;
   }
   const double scale = 0.5 * (times_[i + 1] - times_[i - 1]), start = (times_[i - 1] - times_[i]) / scale,
                end = (times_[i + 1] - times_[i]) / scale;

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 USUAL = (
-    "vessel_motion", "actuator_force", "hydraulic_force", "tension", "line_tension", "end_tension",
-    "section_tension", "gas_spring_tension", "contact_press", "limit_force",
+    "vessel_motion", "actuator_force", "driver_force", "hydraulic_force", "tension", "line_tension",
+    "end_tension", "section_tension", "gas_spring_tension", "contact_press", "limit_force",
 )  # fmt: skip
 # Derived channels that rise, or fall, with what they are made of.
 MONOTONE = (

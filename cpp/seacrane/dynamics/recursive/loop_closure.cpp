@@ -49,11 +49,9 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
   for (VecXd* vector : {&free_, &scale_, &combined_, &multipliers_}) *vector = VecXd::Zero(n);
 }
 
-double LoopClosure::multiplier(int element) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i].element == element) return multipliers_[static_cast<Eigen::Index>(i)];
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+int LoopClosure::row_of(int element) const {
+  const auto found = std::ranges::find(rows_, element, &Row::element);
+  return found == rows_.end() ? -1 : static_cast<int>(found - rows_.begin());
 }
 
 /// g := D M^-1 D^T for the inertias that the tree holds factored.

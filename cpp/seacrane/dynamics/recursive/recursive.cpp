@@ -183,6 +183,7 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
   for (const double power : drive_power_) terms_->add_driver_power(power);
+  keep_solution();
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
@@ -297,16 +298,31 @@ void RecursiveSystem::find_hung() {
   }
 }
 
+void RecursiveSystem::keep_solution() {
+  if (driven_.any() && !tensions_.any()) driven_.read(articulated_, drives_);
+  if (loops_.rows() == 0) return;
+  kept_load_ = load_;
+  kept_acceleration_ = acceleration_;
+  kept_multipliers_ = loops_.multipliers();
+}
+
 /// Of a branch by what it must add to the loads of all that hangs on it, for these to move as they do; of a
-/// cut joint its multiplier.
+/// cut joint and of a driver in rows by its multiplier.
 double RecursiveSystem::tension(int element) const {
   const ElementModel& e = model_.elements[idx(element)];
-  if (!e.unique_reaction) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<int>& hung = hung_[idx(element)];
-  if (hung.empty()) return -loops_.multiplier(element);
+  const int row = hung.empty() ? loops_.row_of(element) : -1;
+  if (row >= 0 && (e.driver || e.unique_reaction)) return (e.driver ? 1.0 : -1.0) * kept_multipliers_[row];
+  if (e.driver && !drives_.empty()) {
+    return driven_.force(element, drives_, evaluated_at_, terms_->curve_limit(), followed_.data());
+  }
+  if (hung.empty() || !e.unique_reaction) return std::numeric_limits<double>::quiet_NaN();
+  const bool has_loops = loops_.rows() > 0;
+  const std::vector<Vec6d>&acceleration = has_loops ? kept_acceleration_ : acceleration_,
+        &load = has_loops ? kept_load_ : load_;
   Vec3d force = Vec3d::Zero();
   for (const int b : hung) {
-    force += mass_[idx(b)].topRows<3>() * acceleration_[idx(b)] - load_[idx(b)].head<3>();
+    force += mass_[idx(b)].topRows<3>() * acceleration[idx(b)] - load[idx(b)].head<3>();
   }
   const auto& bodies = terms_->bodies();
   const BodyKinematics<double>&first = bodies[idx(e.first)], &second = bodies[idx(e.second)];

@@ -87,6 +87,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
   void find_hung();
+  void keep_solution();
 
   std::shared_ptr<Terms> terms_;
   const Model& model_;
@@ -98,6 +99,10 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   DrivenSpeeds driven_;
   std::vector<TurningInertia> turning_;  // by body
   std::vector<std::vector<int>> hung_;   // by element: of a link that is a branch, all bodies that hang on it
+  // Of the last derivative(), where projections overwrite it.
+  std::vector<Vec6d> kept_load_, kept_acceleration_;
+  VecXd kept_multipliers_;
+  std::vector<double> drives_;
   Layout layout_;
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> bias_, load_, acceleration_, twist_, direction_;

@@ -53,11 +53,12 @@ struct Output {
 
 /// Where least and largest values of a channel between outputs come from.
 enum class Peaks {
-  of_none,    // none are kept
-  of_states,  // the states at the ends and in the middle of every step: it follows from these
-  of_lines,   // likewise; where lines are quasi-static the last evaluation of every step
-  of_links,   // the last evaluation of every step, see Formulation::tension()
-  of_limits,  // what the search for events has evaluated there
+  of_none,     // none are kept
+  of_states,   // the states at the ends and in the middle of every step: it follows from these
+  of_lines,    // likewise; where lines are quasi-static the last evaluation of every step
+  of_links,    // the last evaluation of every step, see Formulation::tension()
+  of_drivers,  // likewise
+  of_limits,   // what the search for events has evaluated there
 };
 
 /// A quantity that can be recorded.

@@ -105,6 +105,7 @@ std::vector<Channel> joint_channels() {
        .unit = "N or N m",
        .text = "load of the driver along its coordinate",
        .needs = {.solution = true},
+       .peaks = Peaks::of_drivers,
        .write = write_driver_force},
       {.name = "reaction_force",
        .axes = {&axes::joint, &axes::xyz},
