@@ -85,6 +85,18 @@ def test_peaks_are_those_of_a_dense_record(integrator: str) -> None:
             assert seldom.reached(channel)[0].min(axis=0) == pytest.approx(dense.min(axis=0), abs=error)
 
 
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_accelerations_that_are_asked_for_are_those_of_the_peak(formulation: str) -> None:
+    EA, fall = 4e8, 0.05
+    peak = GRAVITY * np.sqrt(1.0 + 2.0 * EA / LENGTH * fall / WEIGHT)
+    channels = ["acceleration", "line_tension"]
+    result = simulate(hung(EA=EA, fall=fall), 1.5, dt_out=0.4, channels=channels, formulation=formulation)
+    least, most = result.reached("acceleration[mass 1, z]")
+    assert most.max() == pytest.approx(peak, rel=2e-3)
+    assert least.min() == pytest.approx(-GRAVITY, rel=1e-3)
+    assert result["acceleration"][:, 0, 2].max() < 0.95 * peak
+
+
 def test_what_is_asked_for_is_kept_and_other_channels_are_as_recorded() -> None:
     scene = hung(EA=4e8)
     asked = simulate(scene, 1.0, dt_out=0.5, channels=["position", "hook_load"])

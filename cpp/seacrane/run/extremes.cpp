@@ -37,8 +37,12 @@ Extremes::Extremes(const Model& model, Recording& recording)
       limits_.channels.push_back(&c);
     } else {
       evaluations_.channels.push_back(&c);
+      has_accelerations_ |= peaks == Peaks::of_accelerations;
     }
   }
+  std::ranges::stable_partition(evaluations_.channels, [](const RecordedChannel* c) {
+    return c->channel->peaks != Peaks::of_accelerations;  // which place bodies anew
+  });
   for (Group* group : {&states_, &evaluations_, &limits_}) group->begin();
   row_.resize(states_.curves.size());
   evaluation_.resize(evaluations_.curves.size());
@@ -73,7 +77,7 @@ double Extremes::held_force(const Stepper& at, std::size_t i) const {
 }
 
 Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
-  return {t, state, at.system, terms, coordinates_, one_load_, rate_.data()};
+  return {t, state, at.system, terms, accelerations_, coordinates_, one_load_, rate_.data()};
 }
 
 void Extremes::read_evaluation(Stepper& at, double from, double t, const double* y) {
@@ -87,9 +91,13 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
   stepped_.resize(idx(terms.model().layout.size));
   const std::size_t memory = idx(terms.model().layout.size - terms.model().layout.memory);
   std::copy_n(y + at.stepped.size() - memory, memory, stepped_.end() - static_cast<std::ptrdiff_t>(memory));
+  if (has_accelerations_) accelerations_ = at.bodies.accelerations();
   double* out = evaluation_.data();
   for (const RecordedChannel* c : evaluations_.channels) {
-    if (c->channel->peaks == Peaks::of_links) {
+    if (c->channel->peaks == Peaks::of_accelerations) {
+      place(at, t, y);  // the last of them
+      c->channel->write(output(at, t, bodies_.data(), at.system.terms()), out);
+    } else if (c->channel->peaks == Peaks::of_links) {
       for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, i);
     } else if (c->channel->peaks == Peaks::of_drivers) {
       const std::size_t first = links_.size() - c->size;
@@ -102,13 +110,17 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
   evaluated_ = t;
 }
 
+void Extremes::take_end(Stepper& at, double from, double to, const StateAt& state_at) {
+  if (!(to > from) || states_.curves.empty()) return;
+  if (states_.window.empty()) take_state(at, from, state_at);
+  take_state(at, to, state_at);
+}
+
 void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces) {
   if (!(to > from)) return;
-  if (!states_.curves.empty()) {
-    if (states_.window.empty()) take_state(at, from, state_at);
-    take_state(at, 0.5 * (from + to), state_at);
-    take_state(at, to, state_at);
-  }
+  if (!states_.curves.empty() && states_.window.empty()) take_state(at, from, state_at);
+  if (!states_.curves.empty()) take_state(at, 0.5 * (from + to), state_at);
+  take_end(at, from, to, state_at);
   if (!evaluations_.curves.empty() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
   if (!limits_.curves.empty() && forces != nullptr) {
     add(limits_, 0.5 * (from + to), forces);

@@ -28,6 +28,8 @@ class Extremes {
   /// What a run that continues needs, of the same channels: values since the last output, and of the stretch.
   std::vector<double> save() const;
   void load(const std::vector<double>& saved);
+  /// Takes the end of a step alone: of a run that is stepped beside others.
+  void take_end(Stepper& at, double from, double to, const StateAt& state_at);
   /// The next step begins on the other side of a kink, or the run ends.
   void end_stretch();
   /// The step has kinks inside: no curve goes through its values.
@@ -63,9 +65,10 @@ class Extremes {
   const Model& model_;
   Recording& recording_;
   Group states_, evaluations_, limits_;
-  bool needs_coordinates_ = false;
-  double evaluated_ = 0.0;          // time of evaluation_
-  std::vector<double> evaluation_;  // of the last step
+  bool needs_coordinates_ = false, has_accelerations_ = false;
+  std::vector<Vec6d> accelerations_;  // of the described bodies, at the last evaluation
+  double evaluated_ = 0.0;            // time of evaluation_
+  std::vector<double> evaluation_;    // of the last step
   const Stepper* links_of_ = nullptr;
   std::vector<int> links_;  // elements of what is stepped, of links, then of drivers
   std::vector<double> row_, state_, bodies_, stepped_, rate_;

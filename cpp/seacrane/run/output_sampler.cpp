@@ -128,9 +128,9 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, one_load_,
-              rate_.data() + model_.layout.loads, residual.position, residual.rate, residual_before, balance,
-              impact_loss});
+  out.append({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(), coordinates_,
+              one_load_, rate_.data() + model_.layout.loads, residual.position, residual.rate,
+              residual_before, balance, impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 
@@ -151,6 +151,11 @@ OutputSampler::StateAt OutputSampler::state_of(const Stepper& at) {
 void OutputSampler::take_step(Stepper& at, double from, double to, const StateAt& state_at,
                               const double* forces) {
   extremes_.take(at, from, to, state_at, forces);
+  if (next_ == times_.size()) extremes_.end_stretch();
+}
+
+void OutputSampler::take_step_beside(Stepper& at, double from, double to, const StateAt& state_at) {
+  extremes_.take_end(at, from, to, state_at);
   if (next_ == times_.size()) extremes_.end_stretch();
 }
 

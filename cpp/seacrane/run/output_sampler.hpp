@@ -44,6 +44,7 @@ class OutputSampler {
     extremes_.read_evaluation(at, in.previous_time(), in.time(), in.state());
   }
   void take_step(Stepper& at, double from, double to, const StateAt& state_at, const double* forces);
+  void take_step_beside(Stepper& at, double from, double to, const StateAt& state_at);
   void end_stretch() { extremes_.end_stretch(); }
   void forget_stretch() { extremes_.forget_stretch(); }
   /// One row of all channels of the scene, at the present time.

@@ -298,7 +298,7 @@ void Simulation::record_beside(double from, double t, double curve_limit,
                                const OutputSampler::StateAt& state_at) {
   set_curve_limit(stepper(), curve_limit);
   outputs_.record_until(stepper(), t, energy_lost(), state_at);
-  outputs_.take_step(stepper(), from, t, state_at, nullptr);
+  outputs_.take_step_beside(stepper(), from, t, state_at);
 }
 
 void Simulation::go_on_from(double t, const double* y, const Counters& taken, double wall_seconds) {

@@ -43,7 +43,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void write_bodies(double t, const double* y, double* bodies) override;
   void place_bodies(double t, const double* y) override { place(t, y); }
   bool closes_joints() const override { return loops_.rows() == 0; }
-  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  const std::vector<Vec6d>& accelerations() const override {
+    return kept_acceleration_.empty() ? acceleration_ : kept_acceleration_;
+  }
   double evaluated_at() const override { return evaluated_at_; }
   double tension(int element) const override;
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
