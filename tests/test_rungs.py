@@ -194,7 +194,7 @@ def test_the_second_run_that_simulate_takes_is_the_elastic_one() -> None:
     kept = ensemble(
         over_the_top(), over={"gravity": [G]}, keep={"top": "line_tension.max"}, t_end=2.5, dt_out=0.1
     )
-    assert kept.dataset.top.item() == result["line_tension"].max()
+    assert kept.dataset.top.item() == result.reached("line_tension")[1].max()
 
 
 def test_inputs_that_will_be_set_make_a_run_elastic_before_it() -> None:

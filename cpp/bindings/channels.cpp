@@ -26,6 +26,9 @@ void bind_channels(py::module_& m) {
           "The same where a scene holds several of what it has one of otherwise, such as vessels.")
       .def_readonly("unit", &Channel::unit)
       .def_readonly("text", &Channel::text)
+      .def_property_readonly(
+          "has_extremes", [](const Channel& c) { return c.peaks != Peaks::of_none; },
+          "Whether least and largest values between outputs can be kept of it.")
       .def_readonly("by_default", &Channel::by_default, "Whether it is recorded unasked.");
   m.def(
       "channels", [] { return all_channels(); }, "Every channel there is, in the order of results.");

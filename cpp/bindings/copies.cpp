@@ -52,7 +52,8 @@ void bind_copies() {
   by_names<StateSpaceBlock>({"inputs", "outputs", "a", "b", "c", "d", "state_scale"});
   by_names<TwistHistory>({"start", "intervals", "recent", "quadrature"});
   by_names<StepHistory>({"formulation", "integrator", "values", "rate", "kink"});
-  by_names<RecordHistory>({"start_energy", "start_work", "residual", "impact_loss", "quaternions"});
+  by_names<RecordHistory>(
+      {"start_energy", "start_work", "residual", "impact_loss", "quaternions", "extremes"});
   by_names<State>({"time", "values", "inputs", "histories", "steps", "closed", "record", "parts"});
   copy_models();
 }

@@ -13,20 +13,34 @@ Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssiz
 
 std::vector<double> to_values(const Array& a) { return {a.data(), a.data() + a.size()}; }
 
+/// Columns of the rows of a recording, of a channel's shape.
+Array columns(const Recording& r, const RecordedChannel& c, std::size_t offset, py::ssize_t rows) {
+  std::vector<py::ssize_t> shape{rows};
+  for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
+  Array values(shape);
+  double* target = values.mutable_data();
+  for (py::ssize_t i = 0; i < rows; ++i) {
+    const double* row = r.rows().data() + static_cast<std::size_t>(i) * r.width() + offset;
+    target = std::copy_n(row, c.size, target);
+  }
+  return values;
+}
+
 py::dict channels(const Recording& r, std::size_t most) {
   const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
   py::dict out;
   out["time"] = Array(rows, r.times().data());
+  for (const RecordedChannel& c : r.channels()) out[c.channel->name.c_str()] = columns(r, c, c.offset, rows);
+  return out;
+}
+
+py::dict extremes(const Recording& r, std::size_t most) {
+  const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
+  py::dict out;
   for (const RecordedChannel& c : r.channels()) {
-    std::vector<py::ssize_t> shape{rows};
-    for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
-    Array values(shape);
-    double* target = values.mutable_data();
-    for (py::ssize_t i = 0; i < rows; ++i) {
-      const double* row = r.rows().data() + static_cast<std::size_t>(i) * r.width() + c.offset;
-      target = std::copy_n(row, c.size, target);
-    }
-    out[c.channel->name.c_str()] = values;
+    if (!c.least) continue;
+    out[c.channel->name.c_str()] =
+        py::make_tuple(columns(r, c, *c.least, rows), columns(r, c, c.largest(), rows));
   }
   return out;
 }
@@ -147,12 +161,14 @@ void bind_options(py::module_& m) {
       m, "RunOptions",
       "Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in "
       "units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the "
-      "method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs.")
+      "method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs. "
+      "`extremes`: those of the channels of which least and largest values between outputs are kept, "
+      "where the core has them (Channel.has_extremes).")
       .def(py::init([](std::string formulation, std::string integrator, double scaled_tolerance,
                        std::optional<double> fixed_step, std::optional<double> max_step,
                        std::optional<double> spectral_radius, std::optional<double> energy_limit,
                        const Array& output_times, std::set<std::string> channels,
-                       std::optional<std::size_t> capacity) {
+                       std::set<std::string> extremes, std::optional<std::size_t> capacity) {
              return RunOptions{std::move(formulation),
                                std::move(integrator),
                                scaled_tolerance,
@@ -163,13 +179,14 @@ void bind_options(py::module_& m) {
                                to_values(output_times),
                                capacity,
                                std::move(channels),
+                               std::move(extremes),
                                RunOptions{}.ask_every};
            }),
            py::kw_only(), py::arg("formulation") = "redundant", py::arg("integrator"),
            py::arg("scaled_tolerance") = RunOptions{}.scaled_tolerance, py::arg("fixed_step") = py::none(),
            py::arg("max_step") = py::none(), py::arg("spectral_radius") = py::none(),
            py::arg("energy_limit") = py::none(), py::arg("output_times"), py::arg("channels"),
-           py::arg("capacity") = py::none());
+           py::arg("extremes") = std::set<std::string>(), py::arg("capacity") = py::none());
 }
 
 py::module_ state_file() { return py::module_::import("seacrane.inputs.state"); }
@@ -180,19 +197,24 @@ void bind_record(py::module_& m) {
       m, "RecordHistory",
       "What recording keeps from output to output, used where `steps` is: energy and work (J) that "
       "energy_balance is counted from, the largest residual before projection since the last output (m or "
-      "rad), energy lost in impacts (J), and the last recorded quaternions.")
+      "rad), energy lost in impacts (J), the last recorded quaternions, and least and largest "
+      "values since the last output.")
       .def(py::init([](double start_energy, double start_work, double residual, double impact_loss,
-                       const Array& quaternions) {
-             return R{start_energy, start_work, residual, impact_loss, to_values(quaternions)};
+                       const Array& quaternions, const Array& extremes) {
+             return R{start_energy,           start_work,         residual, impact_loss,
+                      to_values(quaternions), to_values(extremes)};
            }),
            py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("residual"),
-           py::arg("impact_loss"), py::arg("quaternions"))
+           py::arg("impact_loss"), py::arg("quaternions"), py::arg("extremes") = std::vector<double>())
       .def_readonly("impact_loss", &R::impact_loss, "J")
       .def_readonly("start_energy", &R::start_energy, "J")
       .def_readonly("start_work", &R::start_work, "J")
       .def_readonly("residual", &R::residual, "m or rad")
       .def_property_readonly(
-          "quaternions", [](const R& r) { return to_array(r.quaternions); }, "copy");
+          "quaternions", [](const R& r) { return to_array(r.quaternions); }, "copy")
+      .def_property_readonly(
+          "extremes", [](const R& r) { return to_array(r.extremes); },
+          "Least and largest values since the last output, and the steps before; a copy.");
 }
 
 }  // namespace
@@ -337,6 +359,13 @@ void bind_simulation(py::module_& m) {
           },
           py::arg("most") = std::numeric_limits<std::ptrdiff_t>::max(),
           "Recorded arrays by name, time first (copies), of no more than the first `most` outputs.")
+      .def(
+          "extremes",
+          [](S& s, std::size_t most) {
+            return s.alone([most](Simulation& run) { return extremes(run.recording(), most); });
+          },
+          py::arg("most") = std::numeric_limits<std::ptrdiff_t>::max(),
+          "Least and largest values by channel, at each output those since the output before (copies).")
       .def_property_readonly("recorded", alone([](Simulation& s) { return s.recording().count(); }),
                              "Outputs recorded.")
       .def(

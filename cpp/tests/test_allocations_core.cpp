@@ -101,7 +101,10 @@ TEST_CASE("the run loop allocates nothing after its start: steps, outputs and th
       options.integrator = space == std::string::npos ? integrator : integrator.substr(space + 1);
       options.fixed_step = 0.01;
       for (int i = 0; i <= 300; ++i) options.output_times.push_back(0.01 * i);
-      for (const auto& name : channel_names(*model, false)) options.channels.insert(name);
+      for (const auto& name : channel_names(*model, false)) {
+        options.channels.insert(name);
+        options.extremes.insert(name);
+      }
       Simulation run(model, initial_state(*model), options);
       const std::function<bool(double)> keep_going = [](double) { return true; };
       run.advance(0.05, keep_going);

@@ -3387,6 +3387,11 @@ class Channel:
         The same where a scene holds several of what it has one of otherwise, such as vessels.
         """
     @property
+    def has_extremes(self) -> bool:
+        """
+        Whether least and largest values between outputs can be kept of it.
+        """
+    @property
     def name(self) -> str:
         ...
     @property
@@ -3476,7 +3481,7 @@ class StepHistory:
         """
 class RecordHistory:
     """
-    What recording keeps from output to output, used where `steps` is: energy and work (J) that energy_balance is counted from, the largest residual before projection since the last output (m or rad), energy lost in impacts (J), and the last recorded quaternions.
+    What recording keeps from output to output, used where `steps` is: energy and work (J) that energy_balance is counted from, the largest residual before projection since the last output (m or rad), energy lost in impacts (J), the last recorded quaternions, and least and largest values since the last output.
     """
     def __copy__(self) -> RecordHistory:
         ...
@@ -3488,12 +3493,17 @@ class RecordHistory:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, residual: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+    def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, residual: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], extremes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = []) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    @property
+    def extremes(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Least and largest values since the last output, and the steps before; a copy.
+        """
     @property
     def impact_loss(self) -> float:
         """
@@ -3521,9 +3531,9 @@ class RecordHistory:
         """
 class RunOptions:
     """
-    Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs.
+    Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs. `extremes`: those of the channels of which least and largest values between outputs are kept, where the core has them (Channel.has_extremes).
     """
-    def __init__(self, *, formulation: str = 'redundant', integrator: str, scaled_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, fixed_step: typing.SupportsFloat | typing.SupportsIndex | None = None, max_step: typing.SupportsFloat | typing.SupportsIndex | None = None, spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], capacity: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+    def __init__(self, *, formulation: str = 'redundant', integrator: str, scaled_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, fixed_step: typing.SupportsFloat | typing.SupportsIndex | None = None, max_step: typing.SupportsFloat | typing.SupportsIndex | None = None, spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], extremes: collections.abc.Set[str] = set(), capacity: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -3630,6 +3640,10 @@ class Simulation:
     def events(self) -> list:
         """
         (time in s, limit, kind, speed of approach in m/s or rad/s, impulse in N s or N m s, energy lost in J) of all events so far.
+        """
+    def extremes(self, most: typing.SupportsInt | typing.SupportsIndex = 9223372036854775807) -> dict:
+        """
+        Least and largest values by channel, at each output those since the output before (copies).
         """
     def set_inputs(self, slots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """

@@ -28,6 +28,11 @@ class Formulation : public System {
   virtual bool closes_joints() const = 0;
   /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
   virtual const std::vector<Vec6d>& accelerations() const = 0;
+  /// Time of the last derivative(); not a number before it.
+  virtual double evaluated_at() const = 0;
+  /// At the last derivative(), of an element that holds a distance its tension, N, of a driver its force or
+  /// moment; not a number where it is not known.
+  virtual double tension(int element) const = 0;
   /// What `load` alone adds to these accelerations: M^-1 load of the bodies as they are joined, through the
   /// factors of the last derivative(). Both hold a wrench or an acceleration for each body that is stepped,
   /// at its state point in inertial axes, and one for the ground at the end. For J^T of unit forces these are

@@ -28,7 +28,14 @@ MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
   inertial_multipliers_ = MatXd::Zero(model_.rows(), tensions_.count());
 }
 
+double MaximalSystem::tension(int element) const {
+  const ElementModel& e = model_.elements[idx(element)];
+  if (e.driver) return lambda_[idx(e.row)];
+  return e.unique_reaction ? -lambda_[idx(e.row)] : std::numeric_limits<double>::quiet_NaN();
+}
+
 void MaximalSystem::derivative(double t, const double* y, double* ydot) {
+  evaluated_at_ = t;
   terms_->evaluate(t, y, ydot);
   if (model_.description.baumgarte > 0.0) rate_residual(*terms_, y, residual_.data());
   solver_.factor();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ class MaximalSystem final : public Formulation {
   void place_bodies(double t, const double* y) override { terms_->read(t, y); }
   bool closes_joints() const override { return false; }
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  double evaluated_at() const override { return evaluated_at_; }
+  double tension(int element) const override;
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
   double condition() const override { return solver_.condition(); }
@@ -84,6 +87,7 @@ class MaximalSystem final : public Formulation {
   std::optional<MaximalJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;
+  double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();
   long dense_solves_ = 0;
 };
 

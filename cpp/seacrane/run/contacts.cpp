@@ -222,6 +222,14 @@ void Contacts::look_inside(Stepper& at) {
   }
 }
 
+void Contacts::read_forces(const Stepper& at, double* out) const {
+  for (std::size_t i = 0; i < after_.size(); ++i) {
+    const bool holds = at.model->limits[i].element >= 0;
+    out[i] = holds ? middle_[i] : 0.0;
+    out[after_.size() + i] = holds ? after_[i].value : 0.0;
+  }
+}
+
 /// Where in the last step, as a part of it, a limit's quantity is surely negative, or may be least; 0:
 /// nowhere.
 Contacts::Dip Contacts::dip(Stepper& at, std::size_t i) const {

@@ -62,6 +62,9 @@ class Contacts {
   /// Starts watching from the state (t, bodies) of `at`.
   void start(Stepper& at, double t, const double* bodies);
 
+  /// Forces of all limits in the middle of the last step, then those at its end; zero of what does not hold.
+  void read_forces(const Stepper& at, double* out) const;
+
   const std::vector<Event>& events() const { return events_; }
   double energy_lost() const { return energy_lost_; }
   /// Takes what the run before this one had lost, J.

@@ -37,7 +37,9 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
       rank_(rank),
       energy_(options.energy_limit),
       times_(options.output_times),
-      recording_(model, options.channels, options.capacity.value_or(options.output_times.size())),
+      recording_(model, options.channels, options.capacity.value_or(options.output_times.size()),
+                 options.extremes),
+      extremes_(model, recording_),
       bodies_(idx(model.layout.size), 0.0),
       rate_(idx(model.layout.size), 0.0),
       coordinates_(model.coordinates.size()),
@@ -59,12 +61,13 @@ void OutputSampler::continue_from(const RecordHistory& history) {
   start_work_ = history.start_work;
   largest_residual_ = history.residual;
   recording_.set_last("quaternion", history.quaternions);
+  extremes_.load(history.extremes);
 }
 
 RecordHistory OutputSampler::history(double t, double impact_loss) const {
   // A run that continues from an output writes it once more.
   const double residual = last_time_ == t ? std::max(largest_residual_, last_residual_) : largest_residual_;
-  return {start_energy_, start_work_, residual, impact_loss, recording_.last("quaternion")};
+  return {start_energy_, start_work_, residual, impact_loss, recording_.last("quaternion"), extremes_.save()};
 }
 
 void OutputSampler::take_residual(Stepper& at) {
@@ -125,20 +128,35 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, one_load_,
-              rate_.data() + model_.layout.loads, residual.position, residual.rate, residual_before, balance,
-              impact_loss});
+  out.append({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(), coordinates_,
+              one_load_, rate_.data() + model_.layout.loads, residual.position, residual.rate,
+              residual_before, balance, impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 
 void OutputSampler::record_until(Stepper& at, double t, double impact_loss) {
-  record_until(at, t, impact_loss, [&at](double now, double* y) {
+  record_until(at, t, impact_loss, state_of(at));
+}
+
+OutputSampler::StateAt OutputSampler::state_of(const Stepper& at) {
+  return [&at](double now, double* y) {
     if (now >= at.integrator->time()) {
       std::copy_n(at.integrator->state(), at.stepped.size(), y);
     } else {
       at.integrator->interpolate(now, y);
     }
-  });
+  };
+}
+
+void OutputSampler::take_step(Stepper& at, double from, double to, const StateAt& state_at,
+                              const double* forces) {
+  extremes_.take(at, from, to, state_at, forces);
+  if (next_ == times_.size()) extremes_.end_stretch();
+}
+
+void OutputSampler::take_step_beside(Stepper& at, double from, double to, const StateAt& state_at) {
+  extremes_.take_end(at, from, to, state_at);
+  if (next_ == times_.size()) extremes_.end_stretch();
 }
 
 void OutputSampler::record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at) {

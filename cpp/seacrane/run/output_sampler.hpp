@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/run/extremes.hpp"
 #include "seacrane/run/guards.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/restart.hpp"
@@ -29,12 +30,23 @@ class OutputSampler {
   /// What a run that continues at time t needs.
   RecordHistory history(double t, double impact_loss) const;
 
+  /// Writes the state of the stepped bodies at a time.
+  using StateAt = Extremes::StateAt;
   /// Records the outputs due until t. `impact_loss`: so far, J.
   void record_until(Stepper& at, double t, double impact_loss);
-  /// Writes the state of the stepped bodies at a time.
-  using StateAt = std::function<void(double t, double* y)>;
+  /// That of the integrator, which is projected at the end of its step alone.
+  static StateAt state_of(const Stepper& at);
   /// Records outputs whose states come from elsewhere than the integrator.
   void record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at);
+  /// Least and largest values between outputs, see Extremes; call `take_step` behind record_until().
+  void read_evaluation(Stepper& at) {
+    const Integrator& in = *at.integrator;
+    extremes_.read_evaluation(at, in.previous_time(), in.time(), in.state());
+  }
+  void take_step(Stepper& at, double from, double to, const StateAt& state_at, const double* forces);
+  void take_step_beside(Stepper& at, double from, double to, const StateAt& state_at);
+  void end_stretch() { extremes_.end_stretch(); }
+  void forget_stretch() { extremes_.forget_stretch(); }
   /// One row of all channels of the scene, at the present time.
   Recording snapshot(Stepper& at, double impact_loss);
   /// Takes the largest residual that projection has found since it was asked last.
@@ -56,6 +68,7 @@ class OutputSampler {
   const std::vector<double>& times_;
   std::size_t next_ = 0;
   Recording recording_;
+  Extremes extremes_;
   double start_energy_ = 0.0, start_work_ = 0.0;
   double largest_residual_ = 0.0;  // before projection, since the last output
   double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_residual_ = 0.0;  // of the last output

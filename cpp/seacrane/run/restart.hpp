@@ -22,6 +22,7 @@ struct RecordHistory {
   double residual = 0.0;                        // m or rad, largest before projection since the last output
   double impact_loss = 0.0;                     // J, of limits since the start
   std::vector<double> quaternions;              // of the last output; none: not recorded
+  std::vector<double> extremes;                 // see Extremes::save()
 };
 
 /// Everything that changes during a run; a copy is a checkpoint.

@@ -22,6 +22,7 @@ struct RunOptions {
   std::vector<double> output_times;       // increasing; those before the start are left out
   std::optional<std::size_t> capacity;    // outputs to take memory for; none: all
   std::set<std::string> channels;
+  std::set<std::string> extremes;  // channels of which least and largest values between outputs are kept
   std::chrono::milliseconds ask_every{20};  // of wall time: how often advance() asks whether to go on
 };
 

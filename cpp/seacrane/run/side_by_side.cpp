@@ -317,6 +317,9 @@ void SideBySide::set_aside(std::size_t lane, const std::string& why) {
 
 /// Drops the derivative's past: the next step is on the other side of a kink.
 void SideBySide::reset() {
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (!has_left(lane)) runs_[lane]->end_stretch();
+  }
   const double now = integrator_->time();
   std::copy_n(integrator_->state(), all_.size(), all_.data());
   system_->set_curve_limit(kinks_.next(all_kinks_, *integrator_, now));
@@ -328,7 +331,7 @@ void SideBySide::record(double smooth_until) {
   known_ = 0;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     if (has_left(lane)) continue;
-    runs_[lane]->record_beside(integrator_->time(), smooth_until,
+    runs_[lane]->record_beside(integrator_->previous_time(), integrator_->time(), smooth_until,
                                [&](double t, double* y) { take_lane(state_at(t).data(), lane, y); });
   }
 }

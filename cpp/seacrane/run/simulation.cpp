@@ -30,7 +30,8 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const State& start, R
       outputs_(*model_, options_, rank_),
       event_time_(start.time),
       bodies_(start.values),
-      state_(stepper().stepped.size()) {
+      state_(stepper().stepped.size()),
+      forces_(2 * model_->limits.size()) {
   if (!model_->limits.empty()) {
     contacts_ = std::make_unique<Contacts>(*model_, [this](ClosedSet closed) -> Stepper& {
       return steppers_.of(closed, event_time_, bodies_.data());
@@ -98,6 +99,8 @@ bool Simulation::carry_out_event() {
   if (!found) return false;
   const double t = *found;
   record_until(t);
+  take_step(t);
+  outputs_.end_stretch();
   Stepper& at = stepper();
   state_.resize(at.stepped.size());
   integrator().interpolate(t, state_.data());
@@ -137,8 +140,14 @@ void Simulation::settle(double t) {
 
 /// Restarts the derivative's history at the present state.
 void Simulation::reset_integrator() {
+  outputs_.end_stretch();
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   integrator().reset(time(), state_.data());
+}
+
+/// Whether loads may have kinks inside a step, see retake_to_switch().
+bool Simulation::steps_over_kinks() const {
+  return switches_ && integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
 }
 
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
@@ -146,7 +155,7 @@ void Simulation::reset_integrator() {
 /// for what they step over.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  const bool is_left = integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
+  const bool is_left = steps_over_kinks();
   if (is_left && integrator_of(options_.integrator).residual_form) {  // which cannot restart there
     switches_->watch(stepper(), time(), integrator().state());
     return false;
@@ -183,6 +192,7 @@ void Simulation::step(double limit) {
   try {
     at.integrator->step(limit);
     require_finite(*at.integrator, at.stepped);
+    outputs_.read_evaluation(at);
   } catch (const IntegrationError& error) {
     explain(error, at);
   }
@@ -217,16 +227,27 @@ void Simulation::finish_step(double now, double stop) {
     stepper().bodies.sample_histories(now, bodies_.data());
   }
   record_until(now);
+  take_step(now);
   const double strike = switches_ ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
   if (now < stop && strike == kNever && !(switches_ && switches_->has_jumped())) return;
   // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
   switch_at_ = strike;
+  outputs_.end_stretch();
   end_of_smooth_stretch(now);
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);
   settle(now);
   integrator().reset(now, state_.data());
   if (switches_) switches_->watch(stepper(), now, state_.data());
+}
+
+/// The last step, or its part until an event, for least and largest values.
+void Simulation::take_step(double to) {
+  const bool is_whole = to >= time();
+  if (contacts_ && is_whole) contacts_->read_forces(stepper(), forces_.data());
+  outputs_.take_step(stepper(), integrator().previous_time(), to, OutputSampler::state_of(stepper()),
+                     contacts_ && is_whole ? forces_.data() : nullptr);
+  if (steps_over_kinks()) outputs_.forget_stretch();
 }
 
 bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {
@@ -277,15 +298,18 @@ State Simulation::state() {
   return out;
 }
 
-void Simulation::record_beside(double t, double curve_limit, const OutputSampler::StateAt& state_at) {
+void Simulation::record_beside(double from, double t, double curve_limit,
+                               const OutputSampler::StateAt& state_at) {
   set_curve_limit(stepper(), curve_limit);
   outputs_.record_until(stepper(), t, energy_lost(), state_at);
+  outputs_.take_step_beside(stepper(), from, t, state_at);
 }
 
 void Simulation::go_on_from(double t, const double* y, const Counters& taken, double wall_seconds) {
   beside_ += taken;
   wall_seconds_ += wall_seconds;
   if (t == time()) return;
+  outputs_.end_stretch();
   state_.assign(y, y + stepper().stepped.size());
   integrator().reset(t, state_.data());
 }

@@ -77,8 +77,11 @@ class Simulation {
   void watch_kinks(double t, const double* y) { switches_->watch(stepper(), t, y); }
   /// At time(), as it is stepped.
   const double* stepped_state() const { return integrator().state(); }
-  /// Records the outputs due until t, at states that were stepped elsewhere; `curve_limit`: see Curve::at.
-  void record_beside(double t, double curve_limit, const OutputSampler::StateAt& state_at);
+  /// Records the outputs due until t and the step from `from`, at states that were stepped elsewhere;
+  /// `curve_limit`: see Curve::at.
+  void record_beside(double from, double t, double curve_limit, const OutputSampler::StateAt& state_at);
+  /// The next step begins behind a kink.
+  void end_stretch() { outputs_.end_stretch(); }
   /// Takes over what was stepped elsewhere until t.
   void go_on_from(double t, const double* y, const Counters& taken, double wall_seconds);
   /// Why it was not stepped on beside others; empty: it was. Notes it.
@@ -102,6 +105,8 @@ class Simulation {
   void step_from(double t, ClosedSet closed);
   void reset_integrator();
   void watch_limits(bool goes_on = false);
+  bool steps_over_kinks() const;
+  void take_step(double to);
   void record_until(double t) { outputs_.record_until(stepper(), t, energy_lost()); }
   /// The state at time() in bodies' poses and twists.
   void write_bodies(double* bodies) const;
@@ -119,6 +124,7 @@ class Simulation {
   double switch_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end on one
   double event_time_ = 0.0;                                     // with bodies_, of the last event
   std::vector<double> bodies_, state_;                          // of the described bodies, of what is stepped
+  std::vector<double> forces_;                                  // of limits, see Contacts::read_forces()
   double wall_seconds_ = 0.0;
   Counters beside_;  // of steps that were taken elsewhere
   std::string set_aside_;

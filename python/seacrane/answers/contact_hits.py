@@ -34,7 +34,7 @@ class ContactHit:
     speed : float
         At which the point came, m/s; 0 where the run began with it closed.
     peak : float
-        Largest force away from the surface in the outputs, N.
+        Largest force away from the surface, N.
     impulse : float
         Of that force by the trapezoidal rule over the outputs, N s.
     dynamic_factor : float
@@ -62,8 +62,8 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
     Parameters
     ----------
     result : Result
-        With the channel "contact_press". Peak and impulse are those of its outputs: 20 outputs within a hit
-        give both to about 1 %.
+        With the channel "contact_press". The impulse is that of its outputs: 20 outputs within a hit give it
+        to about 1 %.
     contact : str
         Name of the contact.
 
@@ -93,8 +93,9 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
     for i in range(count):
         point = f"{contact}.{i + 1}"
         press = np.asarray(result.select("contact_press", contact_point=point))
+        largest = result.reached("contact_press", contact_point=point)[1]
         for number, begin, end, speed in _closed(result, point, float(press[0])):
-            peak, impulse = _of_hit(np.asarray(result.time), press, begin, end)
+            peak, impulse = _of_hit(np.asarray(result.time), press, largest, begin, end)
             onto = weight * _upright(result, element, i, int(np.searchsorted(result.time, begin)))
             found.append(ContactHit(
                 point=point, number=number, begin=begin, end=end, speed=speed, peak=peak, impulse=impulse,
@@ -140,13 +141,14 @@ def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, 
     return out
 
 
-def _of_hit(time: Array, press: Array, begin: float, end: float) -> tuple[float, float]:
+def _of_hit(time: Array, press: Array, largest: Array, begin: float, end: float) -> tuple[float, float]:
+    """Peak and impulse. The output behind a hit tells what it reached after the last one within."""
     within = (time > begin) & (time < end)
-    if not within.any():
-        return 0.0, 0.0
+    first, last = np.searchsorted(time, [begin, end])
+    peak = float(largest[first : last + 1].max(initial=0.0))
     ends: Any = np.interp([begin, end], time, press)
     ends[0] = ends[0] if begin <= time[0] else 0.0
     ends[1] = ends[1] if end >= time[-1] else 0.0
     t = np.concatenate([[begin], time[within], [end]])
     n = np.concatenate([ends[:1], press[within], ends[1:]])
-    return float(press[within].max()), float(np.trapezoid(n, t))
+    return peak, float(np.trapezoid(n, t))

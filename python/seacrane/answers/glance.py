@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.answers.blocks import cards
 from seacrane.answers.limits_section import judged_bounds
@@ -13,6 +14,7 @@ from seacrane.result import Result
 from seacrane.result.contact_loads import contact_loads
 from seacrane.result.traces import Trace, traces
 
+Array = NDArray[np.float64]
 Cards = dict[str, tuple[str, bool | None]]
 
 
@@ -28,24 +30,30 @@ def _largest(result: Result, channel: str, label: str) -> Cards:
     found = _finite(result, channel)
     if not found:
         return {}
-    one = max(found, key=lambda trace: float(np.nanmax(np.abs(trace.values))))
-    at = int(np.nanargmax(np.abs(one.values)))
-    return {label: (f"{one.values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", None)}
+    one = max(found, key=lambda trace: float(np.nanmax(np.abs(_farthest(trace)))))
+    values = _farthest(one)
+    at = int(np.nanargmax(np.abs(values)))
+    return {label: (f"{values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", None)}
+
+
+def _farthest(one: Trace) -> Array:
+    """Of least and largest values since the output before the one farther from zero."""
+    return np.where(np.abs(one.least) > np.abs(one.largest), one.least, one.largest)
 
 
 def _hook_loads(result: Result) -> Cards:
     found = [one for one in hook_loads(result) if np.isfinite(one.values).any()]
     if not found:
         return {}
-    largest = max(found, key=lambda one: float(np.nanmax(one.values)))
-    least = min(found, key=lambda one: float(np.nanmin(one.values)))
+    largest = max(found, key=lambda one: float(np.nanmax(one.largest)))
+    least = min(found, key=lambda one: float(np.nanmin(one.least)))
     places = {
-        "Largest hook load": (largest, int(np.nanargmax(largest.values))),
-        "Least hook load": (least, int(np.nanargmin(least.values))),
+        "Largest hook load": (largest, largest.largest, int(np.nanargmax(largest.largest))),
+        "Least hook load": (least, least.least, int(np.nanargmin(least.least))),
     }
     return {
-        text: (f"{one.values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", one.values[at] >= 0.0 or None)
-        for text, (one, at) in places.items()
+        text: (f"{values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", values[at] >= 0.0 or None)
+        for text, (one, values, at) in places.items()
     }
 
 
@@ -53,11 +61,11 @@ def _roll(result: Result) -> Cards:
     rolls = _finite(result, "vessel_motion", motion="roll")
     if not rolls:
         return {}
-    one = max(rolls, key=lambda trace: float(np.nanmax(np.abs(trace.values))))
+    one = max(rolls, key=lambda trace: float(np.nanmax(np.abs(_farthest(trace)))))
     values = one.values[np.isfinite(one.values)]
     half = values[values.size // 2 :]
     return {
-        "Roll": (f"{values.min():.3g} to {values.max():.3g} deg", None),
+        "Roll": (f"{np.nanmin(one.least):.3g} to {np.nanmax(one.largest):.3g} deg", None),
         "Mean roll, second half": (f"{half.mean():.3g} deg", None),
     }
 

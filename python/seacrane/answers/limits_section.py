@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane.answers.blocks import note, verdict
 from seacrane.answers.section import Section
+from seacrane.description.pick import Pick
 from seacrane.result import Result
 from seacrane.result.events import Event
 from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
@@ -128,13 +129,18 @@ def _settled(value: float) -> float:
 def _coordinate(result: Result, recorded: str | None) -> Any:
     if recorded is None or "coordinate" not in result.channels:
         return None
-    return _finite(result.select("coordinate", joint_coordinate=recorded))
+    return _reached(result, "coordinate", joint_coordinate=recorded)
 
 
 def _finite(values: Any) -> Any:
     """Without what an interrupted run left open; None where nothing is left."""
     kept = values[np.isfinite(values)]
     return kept if kept.size else None
+
+
+def _reached(result: Result, channel: str, **names: str) -> Any:
+    """Least and largest values of a curve, finite ones; None where there are none."""
+    return _finite(np.concatenate(result.reached(Pick(channel=channel, names=names))))
 
 
 def _force(result: Result, name: str) -> Any:
@@ -149,9 +155,9 @@ def _force_at_start(result: Result, name: str) -> float | None:
 
 
 def _forces(result: Result, name: str) -> str:
-    force = _force(result, name)
-    if force is None:
+    if _force(result, name) is None:
         return ""
+    force = _reached(result, "limit_force", limit=name)
     factor, unit = shown_unit("N", [force])
     return f"{factor * force.min():.4g} to {factor * force.max():.4g} {unit}"
 
@@ -165,7 +171,7 @@ def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judge
     for name in names:
         if "tension" not in result.channels or name not in result.coords["link"]:
             continue
-        tension = _finite(result.select("tension", link=name))
+        tension = _reached(result, "tension", link=name)
         if tension is None:
             continue
         factor, unit = shown_unit("N", [tension])
@@ -195,8 +201,8 @@ def _html(result: Result) -> str:
     head = "".join(f"<th>{name}</th>" for name in ("limit", "kind", "bound", "reached", "held?"))
     rows = "\n".join(map(_row, judged_bounds(result)))
     return f"<table><thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table>" + note(
-        "Reached values are those at the outputs. Capacities of structure and wire are limit states: see the "
-        "summary."
+        "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see "
+        "the summary."
     )
 
 

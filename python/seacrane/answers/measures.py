@@ -50,7 +50,7 @@ def worst(result: Result, channel: str) -> float | None:
     """Largest absolute value of a channel over the run, or None if no number was recorded."""
     if channel not in result.channels or not np.isfinite(result[channel]).any():
         return None
-    return float(np.nanmax(np.abs(result[channel])))
+    return max(float(np.nanmax(np.abs(bound))) for bound in result.reached(channel))
 
 
 def energy_closure(result: Result) -> float | None:
@@ -114,9 +114,9 @@ def statistics_of(result: Result) -> tuple[list[Statistics], int]:
 
 
 def _statistics(one: Trace, result: Result) -> Statistics:
-    high, low = int(np.nanargmax(one.values)), int(np.nanargmin(one.values))
+    high, low = int(np.nanargmax(one.largest)), int(np.nanargmin(one.least))
     return Statistics(
-        title=one.title, unit=one.unit, largest=float(one.values[high]), largest_at=float(result.time[high]),
-        smallest=float(one.values[low]), smallest_at=float(result.time[low]),
+        title=one.title, unit=one.unit, largest=float(one.largest[high]), largest_at=float(result.time[high]),
+        smallest=float(one.least[low]), smallest_at=float(result.time[low]),
         mean=float(np.nanmean(one.values)), std=float(np.nanstd(one.values)),
     )  # fmt: skip

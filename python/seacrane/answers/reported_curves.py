@@ -46,6 +46,8 @@ class Curve:
         Which one; empty where there is one only.
     values : ndarray, shape (n,)
         In the unit.
+    bounds : (ndarray, ndarray) or None
+        Least and largest values since the output before, where the run keeps them.
     load : bool
         Whether it has a dynamic factor.
     pulls : bool
@@ -64,6 +66,7 @@ class Curve:
     label: str
     unit: str
     values: Array
+    bounds: tuple[Array, Array] | None = None
     load: bool = False
     pulls: bool = False
     static: float | None = None
@@ -75,6 +78,22 @@ class Curve:
     def name(self) -> str:
         """Kind and label."""
         return f"{self.kind} {self.label}".rstrip()
+
+    @property
+    def least(self) -> Array:
+        """Least values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[0]
+
+    @property
+    def largest(self) -> Array:
+        """Largest values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[1]
+
+
+def _scaled(factor: float, one: Trace) -> dict[str, Any]:
+    """Values and bounds of a curve in another unit."""
+    bounds = None if one.bounds is None else (factor * one.least, factor * one.largest)
+    return {"values": factor * one.values, "bounds": bounds}
 
 
 def reported_curves(result: Result) -> list[Curve]:
@@ -111,13 +130,13 @@ def _curves(result: Result) -> list[Curve]:
         and not (name == "hook_load" and hung and _same(result, one))
     ]
     leads = [
-        Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
+        Curve(kind=one.channel, label=one.label, unit=one.unit, **_scaled(1.0, one))
         for name in LEADS
         if name in held
         for one in beyond_rounding(traces(result, name))
     ]
     gaps = [
-        Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
+        Curve(kind=one.channel, label=one.label, unit=one.unit, **_scaled(1.0, one))
         for one in (traces(result, GAPS) if GAPS in held else [])
     ]
     hoists = [curve for one in hung for curve in _hoist(result, one, hung)]
@@ -131,30 +150,31 @@ def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, 
     lower, upper, hook = one["suspension"], one["top"], one["label"]
     weights = result.about.hanging_weight
     load = _first_of(result, ("hook_load", lower), ("link_tension", hook), ("tension", lower))
-    pull = _first_of(result, ("line_tension", upper.removesuffix(" line")), ("line_tension", upper),
+    pull = _first_of(result, ("end_tension", upper.rpartition(".")[0], "first"),
+                     ("line_tension", upper.removesuffix(" line")), ("line_tension", upper),
                      ("link_tension", hook), ("tension", upper), ("hook_load", upper))  # fmt: skip
     found = []
     if load is not None:
         per_tonne = TONNES[load.unit] / STANDARD_GRAVITY
-        found.append((HOOK, "t", per_tonne * load.values, lower, weights.get(lower, (None, 1))))
+        found.append((HOOK, "t", _scaled(per_tonne, load), lower, weights.get(lower, (None, 1))))
     if pull is not None:
         factor, unit = REPORTED.get(pull.unit, (1.0, pull.unit))
-        found.append(("hoist tension", unit, factor * pull.values, upper, weights.get(upper, (None, 1))))
+        found.append(("hoist tension", unit, _scaled(factor, pull), upper, weights.get(upper, (None, 1))))
     return [
-        Curve(kind=kind, label=label, unit=unit, values=values, load=True, pulls=True, rung=one["rung"],
+        Curve(kind=kind, label=label, unit=unit, **values, load=True, pulls=True, rung=one["rung"],
               suspension=name, of_one_fall=kind != HOOK, static=None if weight is None else
               weight * si_factor(unit) / (1 if kind == HOOK else falls))
         for kind, unit, values, name, (weight, falls) in found
     ]  # fmt: skip
 
 
-def _first_of(result: Result, *wanted: tuple[str, str]) -> Trace | None:
-    """The first of these curves that was recorded, by channel and name, and is more than rounding."""
-    for channel, name in wanted:
+def _first_of(result: Result, *wanted: tuple[str, ...]) -> Trace | None:
+    """The first of these curves that was recorded, by channel and names, and is more than rounding."""
+    for channel, *names in wanted:
         if channel in result.channels:
             every = traces(result, channel)
             for one in beyond_rounding(every):
-                if one.names == (name,) or (not one.names and channel == "link_tension"):
+                if one.names == tuple(names) or (not one.names and channel == "link_tension"):
                     return one
     return None
 
@@ -183,7 +203,7 @@ def _load(result: Result, one: Trace) -> Curve:
         factor, unit = TONNES[one.unit] / STANDARD_GRAVITY, "t"
     static = _hanging_weight(result, one) if one.channel in TENSIONS else None
     return Curve(
-        kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values,
+        kind=one.channel.replace("_", " "), label=one.label, unit=unit, **_scaled(factor, one),
         load=one.channel != "slew_torque",
         pulls=one.channel in TENSIONS,
         suspension=_suspension(result, one) if one.channel in TENSIONS else "",
@@ -253,7 +273,7 @@ def _motions(result: Result) -> list[Curve]:
         return []
     every = [one for motion in MOTIONS for one in traces(result, "vessel_motion", motion=motion)]
     return [
-        Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, values=one.values)
+        Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, **_scaled(1.0, one))
         for one in beyond_rounding(every)
     ]
 

@@ -24,6 +24,7 @@ from seacrane.plotting.tabular import Tabular
 from seacrane.plotting.text import text_table
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
+from seacrane.result.extremes import inside
 from seacrane.result.utilisation import Utilisation
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ WET = (
     "min/static is over the least static load of each line: with parts in water below, that with all of them "
     "under water."
 )
+OUTPUTS = "min and max of {} are those of the outputs; of all else, those of the run between them too."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
@@ -103,6 +105,8 @@ class Summary(Tabular):
         In SI units. They print with forces in kN, moments in kN m, hook loads in t, angles in deg.
     remarks : tuple of str
         What limits the numbers: a short record, a transient inside.
+    of_outputs : tuple of str
+        Rows whose least and largest values are those of the outputs; those of all others are of the run.
     utilisation : Utilisation
         Of the scene's limit states, over the whole run.
     contacts : ContactLoads
@@ -114,6 +118,7 @@ class Summary(Tabular):
     end: float
     rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
+    of_outputs: tuple[str, ...] = ()
     utilisation: Utilisation = NO_LIMITS
     contacts: ContactLoads = NO_CONTACTS
 
@@ -155,7 +160,8 @@ class Summary(Tabular):
         """What stands below the table: what a star means, and the remarks."""
         starred = any(not row.static_known for row in self.rows)
         blind = any(row.blind for row in self.rows)
-        return [*([STARRED] if starred else []), *([DASHED] if blind else []), *self.remarks]
+        outputs = [OUTPUTS.format(", ".join(self.of_outputs))] if 0 < len(self.of_outputs) < len(self) else []
+        return [*([STARRED] if starred else []), *([DASHED] if blind else []), *outputs, *self.remarks]
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """By row and column, plain values."""
@@ -251,12 +257,23 @@ def summary(
         for one in curves
     ]
     least = _least_pulls(result)
-    rows = [_row(one, time, one.values[part], least) for one in every]
-    inside = [replace(one, values=one.values[part]) for one in every]
+    kept = [
+        replace(
+            one,
+            values=one.values[part],
+            bounds=(
+                inside(result, part, one.values, one.least),
+                inside(result, part, one.values, one.largest),
+            ),
+        )
+        for one in every
+    ]
+    rows = [_row(one, time, least) for one in kept]
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
-        remarks=(*remarks_on(result, time, inside), *_restless(told), *([WET] if least else [])),
-        utilisation=result.utilisation, contacts=contact_loads(result),
+        remarks=(*remarks_on(result, time, kept), *_restless(told), *([WET] if least else [])),
+        of_outputs=tuple(one.name for one in every if one.bounds is None), utilisation=result.utilisation,
+        contacts=contact_loads(result),
     )  # fmt: skip
 
 
@@ -308,13 +325,14 @@ def _part(result: Result, after: float | None, before: float | None) -> slice:
     return part
 
 
-def _row(curve: Curve, time: Array, values: Array, least: Mapping[str, tuple[float, int]]) -> SummaryRow:
-    known = curve.static is not None
+def _row(curve: Curve, time: Array, least: Mapping[str, tuple[float, int]]) -> SummaryRow:
+    known, values = curve.static is not None, curve.values
     first = values[np.isfinite(values)][0]
     static = float(first if curve.static is None else curve.static)
-    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    low, high = int(np.nanargmin(curve.least)), int(np.nanargmax(curve.largest))
+    minimum, maximum = float(curve.least[low]), float(curve.largest[high])
     per = si_factor(curve.unit)
-    blind = known and curve.rung in BLIND and float(values[low]) < SLACK * static
+    blind = known and curve.rung in BLIND and minimum < SLACK * static
     pull, falls = least.get(curve.suspension, (0.0, 1))
     over = pull * per / (falls if curve.of_one_fall else 1) or (static if known else 0.0)
     has_factor = curve.load and known and not blind
@@ -322,11 +340,11 @@ def _row(curve: Curve, time: Array, values: Array, least: Mapping[str, tuple[flo
         name=curve.name, unit=SI_UNITS.get(curve.unit, curve.unit), printed=curve.unit,
         static=static / per, static_known=known,
         mean=float(np.nanmean(values)) / per, std=float(np.nanstd(values)) / per,
-        minimum=float(values[low]) / per, minimum_at=float(time[low]),
-        maximum=float(values[high]) / per, maximum_at=float(time[high]),
-        factor=_factor(static, float(values[low]), float(values[high])) if has_factor else None,
+        minimum=minimum / per, minimum_at=float(time[low]),
+        maximum=maximum / per, maximum_at=float(time[high]),
+        factor=_factor(static, minimum, maximum) if has_factor else None,
         blind=blind,
-        slack_margin=float(values[low]) / over if curve.pulls and over > 0.0 else None,
+        slack_margin=minimum / over if curve.pulls and over > 0.0 else None,
     )  # fmt: skip
 
 

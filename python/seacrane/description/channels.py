@@ -30,6 +30,8 @@ class Channel:
         and for expressions, which say it themselves.
     turns : bool
         Whether it is an angle that counts whole turns.
+    has_extremes : bool
+        Whether a run keeps its least and largest values between outputs, where it is asked for them.
     """
 
     dims: tuple[str, ...]
@@ -39,6 +41,7 @@ class Channel:
     by_default: bool = True
     made_of: tuple[str, ...] = ()
     turns: bool = False
+    has_extremes: bool = False
 
     def dims_of(self, axes: int) -> tuple[str, ...]:
         """Dimensions of an array with so many axes."""
@@ -52,6 +55,7 @@ def _core_channel(channel: _core.Channel) -> Channel:
         unit=channel.unit,
         long_name=channel.text,
         by_default=channel.by_default,
+        has_extremes=channel.has_extremes,
     )
 
 
@@ -100,7 +104,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "suspension",
             "N",
             "load on the lower end of a link, a wire or a line, all its falls together",
-            f"tension line_tension {_POSE}",
+            f"tension line_tension end_tension {_POSE}",
         ),
         "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
         "relative_position": _derived("pair axis", "m", "of a named point over another", _POSE),
@@ -138,7 +142,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "1",
             "load on the lower end over the least static one there, that under water where parts in water "
             "hang; slack at zero",
-            f"tension line_tension {_POSE}",
+            f"tension line_tension end_tension {_POSE}",
             by_default=False,
         ),
         "sling_angle": _derived(
@@ -152,7 +156,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             "",
             "1",
             "hook load over what the crane's table allows at this radius, times its design factor",
-            f"tension line_tension {_POSE}",
+            f"tension line_tension end_tension {_POSE}",
             several="hook",
             by_default=False,
         ),
@@ -217,6 +221,7 @@ FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 # Dimensions whose names belong to the scene.
 NAMED = frozenset(dim for channel in CHANNELS.values() for dim in channel.dims_of_several[1:]) - set(FIXED)
 COUNTED_ON = ("energy_balance", "impact_loss")  # each run of stages counts from its own start
+LEAST, LARGEST = "_least", "_largest"  # what files call extremes, behind the channel's name
 OWN = "own"  # expressions of other channels
 AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
 
@@ -229,8 +234,19 @@ def unit_of(channel: str, names: Collection[str]) -> str:
     return CHANNELS[channel].unit
 
 
+def channel_of(name: str) -> str:
+    """The channel whose least or largest values an array of a file holds; of others the name itself."""
+    for ending in (LEAST, LARGEST):
+        if name.endswith(ending) and name.removesuffix(ending) in CHANNELS:
+            return name.removesuffix(ending)
+    return name
+
+
 def attributes(name: str) -> dict[str, str]:
-    """`units` and `long_name` of a channel, or of `time`."""
+    """`units` and `long_name` of a channel, of its least or largest values, or of `time`."""
     if name == "time":
         return {"units": "s", "long_name": "time since the start of the run"}
-    return {"units": CHANNELS[name].unit, "long_name": CHANNELS[name].long_name}
+    kind = CHANNELS[channel_of(name)]
+    which = name.removeprefix(channel_of(name)).removeprefix("_")
+    told = f"{which} value since the output before: {kind.long_name}" if which else kind.long_name
+    return {"units": kind.unit, "long_name": told}

@@ -47,8 +47,8 @@ class Kept:
     channel : str
         Its name, or a selector with names in brackets, as of `Result.select`.
     what : str
-        "series" (default): values over time. "mean", "standard_deviation", "maximum", "minimum": of its
-        output times, each with the same weight.
+        "series" (default): values over time. "mean", "standard_deviation": of its output times, each with the
+        same weight. "maximum", "minimum": of the run, also between outputs, see `Result.reached`.
     names : mapping of str to str
         Names along its dimensions, as of `Result.select`, such as ``{"body": "payload", "axis": "z"}``;
         dimensions that are not named are kept.
@@ -147,7 +147,9 @@ class Kept:
                 coords={"time": time[::every], **coords},
                 attributes=told,
             )
-        values = np.asarray(NUMBERS[self.what](channel, axis=0), dtype=float)
+        least, largest = result.reached(self.channel, part=part, **self.names)
+        of = {"minimum": least, "maximum": largest}.get(self.what, channel)
+        values = np.asarray(NUMBERS[self.what](of, axis=0), dtype=float)
         told = told | {"long_name": f"{TEXTS[self.what]} of {told['long_name']}"}
         return Labelled(values=values, dims=dims[1:], coords=coords, attributes=told)
 

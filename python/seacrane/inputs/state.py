@@ -29,7 +29,8 @@ DIGEST = hashlib.sha256().digest_size
 LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
 _RECORD = ("start_energy", "start_work", "residual", "impact_loss")
-_ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
+_EXTREMES = "extremes"  # an array that may hold what is not finite: there was none
+_ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions", _EXTREMES)
 _KINK = "kink"  # an array of states that have one
 
 
@@ -73,6 +74,7 @@ def state_to_bytes(state: _core.State) -> bytes:
         "rate": steps.rate,
         "record": [] if record is None else [getattr(record, name) for name in _RECORD],
         "quaternions": [] if record is None else record.quaternions,
+        _EXTREMES: [] if record is None else record.extremes,
     }
     if steps.kink is not None:
         arrays[_KINK] = [steps.kink]
@@ -159,7 +161,7 @@ def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]
     for name, count in counts.items():
         arrays[name] = np.frombuffer(body, "<f8", count, at).astype(np.float64)
         at += 8 * count
-        if not np.isfinite(arrays[name]).all():
+        if name != _EXTREMES and not np.isfinite(arrays[name]).all():
             raise FileFormatError(
                 f"{path}: {shown(name)} holds a value that is not finite; save the state again"
             )
@@ -194,7 +196,7 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
     record = None
     if arrays["record"].size:
         numbers = dict(zip(_RECORD, arrays["record"], strict=True))
-        record = _core.RecordHistory(quaternions=arrays["quaternions"], **numbers)
+        record = _core.RecordHistory(quaternions=arrays["quaternions"], extremes=arrays[_EXTREMES], **numbers)
     return _core.State(
         time=_one(arrays["time"]),
         values=arrays["values"],

@@ -65,11 +65,13 @@ class RecordNumbers:
     def __call__(self, result: Result) -> Array:
         """The numbers of a result."""
         values = result.curve(self.channel, **self.names)
-        return record_numbers(values[result.part(after=self.after, stage=self.stage or None)])
+        part = result.part(after=self.after, stage=self.stage or None)
+        least, largest = result.reached(self.channel, part=part, **self.names)
+        return record_numbers(values[part], float(least.min()), float(largest.max()))
 
 
-def record_numbers(values: Array) -> Array:
-    """Largest, smallest, significant high and low value of a record (n,).
+def record_numbers(values: Array, least: float = np.inf, largest: float = -np.inf) -> Array:
+    """Largest, smallest, significant high and low value of a record (n,) that reached `least` and `largest`.
 
     Crests and troughs are those of the parabola through their neighbours.
     """
@@ -77,8 +79,8 @@ def record_numbers(values: Array) -> Array:
     high, low = crests(values, mean), crests(-values, -mean)
     return np.array(
         [
-            max(float(values.max()), mean + high.max(initial=0.0)),
-            min(float(values.min()), mean - low.max(initial=0.0)),
+            max(float(values.max()), mean + high.max(initial=0.0), largest),
+            min(float(values.min()), mean - low.max(initial=0.0), least),
             mean + _highest_third(high) if high.size else float(values.max()),
             mean - _highest_third(low) if low.size else float(values.min()),
         ]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
@@ -17,6 +18,7 @@ from seacrane.result import Result
 from seacrane.result.history import wanted_traces
 from seacrane.result.traces import Trace
 
+Array = NDArray[np.float64]
 MOST_LINES, MOST_PANELS, USUAL_PANELS = 6, 8, 4
 FINENESS = 2.0**-13  # step of a line over its range
 USUAL = (
@@ -27,7 +29,7 @@ USUAL = (
 def strip_of(
     result: Result | None, channels: Sequence[str | Pick] | None, motion: Motion, blob: Blob
 ) -> list[dict[str, Any]]:
-    """Panels of the strip: title, unit, and lines over the frames.
+    """Panels of the strip: title, unit, lines over the frames, and their least and largest values between.
 
     Raises SceneError for a channel that the result does not hold, a name along its dimensions that there is
     not, or more lines than a panel shows.
@@ -67,7 +69,10 @@ def _panel(result: Result, choice: str | Pick, motion: Motion, blob: Blob) -> di
             f"'{lines[0].channel}[{lines[0].names[0]}]'"
         )
     rows = linear_rows(motion, result.time, np.array([one.values for one in lines]).T)
-    low, high = float(rows.min()), float(rows.max())
+    least = between_frames(motion, result.time, [one.least for one in lines], np.fmin, rows)
+    largest = between_frames(motion, result.time, [one.largest for one in lines], np.fmax, rows)
+    low, high = float(least.min()), float(largest.max())
+    step = max((high - low) * FINENESS, 1e-12)
     alone = len(lines) == 1
     return {
         "title": lines[0].title if alone else str(choice).replace("_", " "),
@@ -75,5 +80,18 @@ def _panel(result: Result, choice: str | Pick, motion: Motion, blob: Blob) -> di
         "labels": ["" if alone else one.label for one in lines],
         "low": low,
         "high": high,
-        "values": blob.series(rows, max((high - low) * FINENESS, 1e-12)),
+        "values": blob.series(rows, step),
+        "bounds": blob.series(np.concatenate([least, largest]), step),
     }
+
+
+def between_frames(
+    motion: Motion, time: Array, bounds: Sequence[Array], extreme: np.ufunc, rows: Array
+) -> Array:
+    """The least or largest values (k, frames) of curves since the frame before, with those of the frames."""
+    out = rows.copy()
+    frame = np.clip(np.ceil((time - motion.start) / motion.interval - 1e-6), 0, rows.shape[1] - 1).astype(int)
+    for row, bound in zip(out, bounds, strict=True):
+        good = np.isfinite(bound)
+        extreme.at(row, frame[good], bound[good])
+    return out

@@ -37,10 +37,14 @@ DOTS_PER_INCH = 130
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """One curve over the sheet's abscissa: label and values, shape (n,)."""
+    """One curve over the sheet's abscissa: label and values, shape (n,).
+
+    `bounds`: its least and largest values since the place before, where they are known.
+    """
 
     label: str
     values: Array
+    bounds: tuple[Array, Array] | None = None
     style: str = "-"
     colour: int = 0
 
@@ -53,13 +57,21 @@ class Panel:
     unit: str
     lines: tuple[Line, ...]
 
-    def extremes(self) -> tuple[tuple[int, int], tuple[int, int]] | None:
-        """Line and index of the smallest and of the largest value; None where nothing is finite."""
-        values = np.array([line.values for line in self.lines])
-        if not np.isfinite(values).any():
+    def extremes(self) -> tuple[tuple[int, int, float], tuple[int, int, float]] | None:
+        """Line, index and value of the smallest and of the largest; None where nothing is finite."""
+        if not np.isfinite([line.values for line in self.lines]).any():
             return None
-        low, high = (np.unravel_index(int(at(values)), values.shape) for at in (np.nanargmin, np.nanargmax))
-        return (int(low[0]), int(low[1])), (int(high[0]), int(high[1]))
+        least, largest = (
+            np.array([line.values if line.bounds is None else line.bounds[i] for line in self.lines])
+            for i in (0, 1)
+        )
+        low = np.unravel_index(int(np.nanargmin(least)), least.shape)
+        high = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
+        return (int(low[0]), int(low[1]), float(least[low])), (
+            int(high[0]),
+            int(high[1]),
+            float(largest[high]),
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,11 +236,11 @@ def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:
     if found is None:
         return
     words: list[str] = []
-    for word, marker, (number, at) in zip(("min", "max"), ("v", "^"), found, strict=True):
+    for word, marker, (number, at, value) in zip(("min", "max"), ("v", "^"), found, strict=True):
         line, place = panel.lines[number], sheet.abscissa[at]
         colour = COLOURS[line.colour % len(COLOURS)]
-        cell.plot(place, line.values[at], marker, color=colour, markersize=5, clip_on=False, zorder=4)
-        words.insert(0, f"{word} {line.values[at]:.4g} at {place:.4g} {sheet.abscissa_unit}")
+        cell.plot(place, value, marker, color=colour, markersize=5, clip_on=False, zorder=4)
+        words.insert(0, f"{word} {value:.4g} at {place:.4g} {sheet.abscissa_unit}")
     if len(panel.lines) <= FEW_LINES:
         place_of_text: dict[str, Any] = {"xy": (0.0, 1.0), "xycoords": "axes fraction"}
         cell.annotate(

@@ -65,6 +65,7 @@ def panels_of(quantity: str, found: Iterable[Trace], *, skip: int = 0) -> list[P
                 Line(
                     label=" ".join(one.names[skip:]),
                     values=one.values,
+                    bounds=one.bounds,
                     colour=i,
                     style=STYLES[i // len(COLOURS) % len(STYLES)],
                 )

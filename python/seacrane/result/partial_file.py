@@ -22,7 +22,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, NAMED
+from seacrane.description.channels import CHANNELS, NAMED, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs import sole_writer
 from seacrane.inputs.state import state_from_bytes
@@ -71,7 +71,7 @@ class Piece:
     @property
     def dims(self) -> dict[str, tuple[str, ...]]:
         """The dimensions of each channel."""
-        return {name: CHANNELS[name].dims_of(array.ndim) for name, array in self.arrays.items()
+        return {name: CHANNELS[channel_of(name)].dims_of(array.ndim) for name, array in self.arrays.items()
                 if name != "time"}  # fmt: skip
 
     def to_bytes(self) -> bytes:
@@ -173,7 +173,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
     with path.open("rb") as file:
         for piece, _ in pieces_of(file, path):
             for name, array in piece.arrays.items():
-                if name == "time" or channels is None or name in channels:
+                if name == "time" or channels is None or channel_of(name) in channels:
                     parts.setdefault(name, []).append(array)
                     total += array.nbytes
             if total > largest:

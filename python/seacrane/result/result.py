@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.description.body_motion import POSE, position_of
-from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
+from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes, channel_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import on_body
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
@@ -34,6 +34,7 @@ from seacrane.result.checked_parts import (
 from seacrane.result.dataframe import dataframe_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
+from seacrane.result.extremes import Extremes, as_arrays, inside, parted
 from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
@@ -54,7 +55,7 @@ LARGEST_RESULT = 4 * 2**30  # bytes
 
 
 def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
-    return {name: CHANNELS[name].dims_of(array.ndim) for name, array in channels.items()}
+    return {name: CHANNELS[channel_of(name)].dims_of(array.ndim) for name, array in channels.items()}
 
 
 @named
@@ -79,6 +80,9 @@ class Result(Mapping[str, Array]):
         Version, method and counters of the run.
     about : About
         Its settings, stages and limit states, and what pictures and reports need of its scene.
+    extremes : mapping of str to (ndarray, ndarray)
+        Of some channels the least and the largest values since the output before, from the steps of the run;
+        of the channel's shape, read-only. See `reached`.
     interrupted : bool
         True if the run was stopped before its end; it then holds the outputs up to that moment.
     events : tuple of Event
@@ -98,12 +102,14 @@ class Result(Mapping[str, Array]):
     state: State | None = None
     kept_scene: KeptScene | None = None
     about: About = field(default_factory=About)
+    extremes: Extremes = field(default_factory=dict)
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
         object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
+        object.__setattr__(self, "extremes", MappingProxyType(dict(self.extremes)))
         object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
 
     def __repr__(self) -> str:
@@ -114,7 +120,7 @@ class Result(Mapping[str, Array]):
         )
 
     def __str__(self) -> str:
-        return as_text(repr(self)[1:-1], self.channels, self.dims)
+        return as_text(repr(self)[1:-1], self.channels, self.extremes, self.dims)
 
     def _repr_html_(self) -> str:
         method = f"{self.stats['formulation']}, {self.stats['integrator']}"
@@ -130,6 +136,7 @@ class Result(Mapping[str, Array]):
             self.events,
             self.state,
             self.about,
+            dict(self.extremes),
         )
         return _rebuild, parts
 
@@ -163,7 +170,8 @@ class Result(Mapping[str, Array]):
         time : array_like, shape (n,)
             Output times, s, strictly increasing.
         arrays : mapping of str to array_like
-            Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
+            Channels by the names of `CHANNELS`, and their `extremes` as "hook_load_least" and
+            "hook_load_largest". Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
         coords : mapping of str to sequence of str
             Names along the dimensions that a scene names, such as `body` and `joint`, in the order of the
@@ -193,20 +201,23 @@ class Result(Mapping[str, Array]):
         gaps = interrupted or bool(about.stages)  # where elements come and go
         gappy = str(stats.get("not_finite", "")).split(", ")
         for name in arrays:
-            if name not in CHANNELS:
+            if channel_of(name) not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-        all_dims = {name: CHANNELS[name].dims_of(np.ndim(values)) for name, values in arrays.items()}
+        all_dims = {name: CHANNELS[channel_of(name)].dims_of(np.ndim(values))
+                    for name, values in arrays.items()}  # fmt: skip
         used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
         given = {dim: checked_names(dim, coords[dim]) for dim in used if dim in coords}
         names = given | dict(FIXED)
-        channels = {}
+        checked = {}
         for name, values in arrays.items():
             dims = all_dims[name]
             shape = (times.size, *(len(names.get(dim, ())) for dim in dims[1:]))
-            channels[name] = checked_array(name, values, shape, gaps or name in gappy)
+            checked[name] = checked_array(name, values, shape, gaps or channel_of(name) in gappy)
+        channels, extremes = parted(checked)
         return cls(
             time=times,
             channels=channels,
+            extremes=extremes,
             coords={dim: names[dim] for dim in used},
             stats=checked_stats(stats),
             about=about,
@@ -237,6 +248,11 @@ class Result(Mapping[str, Array]):
     def __bool__(self) -> bool:
         """True also without channels: a result is there."""
         return True
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """Channels and `extremes` by the names that files give them."""
+        return {**self.channels, **as_arrays(self.extremes)}
 
     @property
     def settings(self) -> Mapping[str, Any]:
@@ -308,6 +324,39 @@ class Result(Mapping[str, Array]):
             index[dims.index(dim)] = self.coords[dim].index(name)
         picked: Array = array[tuple(index)]
         return picked
+
+    def reached(
+        self, channel: str | Pick, /, *, part: slice | None = None, **names: str
+    ) -> tuple[Array, Array]:
+        """Least and largest values of a channel at named coordinates since the output before.
+
+        They come from the steps of the run, also between outputs, where it kept them: of what
+        docs/channels.md lists, of others they are the values of the outputs.
+
+        Parameters
+        ----------
+        channel, **names
+            As of `select`.
+        part : slice, optional
+            Of the outputs, as `part` and `stage` give it; default: all.
+
+        Raises
+        ------
+        KeyError, ValueError
+            As `select`.
+        """
+        pick = self._picked(channel, names)
+        values = self.select(pick.channel, **pick.names)
+        whole = slice(0, self.time.size) if part is None else part
+        if pick.channel not in self.extremes:
+            return values[whole], values[whole]
+        at = [pick.names.get(dim) for dim in self.dims[pick.channel]]
+        index = tuple(
+            slice(None) if name is None else self.coords[dim].index(name)
+            for dim, name in zip(self.dims[pick.channel], at, strict=True)
+        )
+        least, largest = (inside(self, whole, values, one[index]) for one in self.extremes[pick.channel])
+        return least, largest
 
     def curve(self, channel: str | Pick, /, **names: str) -> Array:
         """One curve, shape (n,): as `select`, where dimensions with a single name need none.
@@ -447,14 +496,17 @@ class Result(Mapping[str, Array]):
     @property
     def utilisation(self) -> Utilisation:
         """How far every limit state of the scene was used, 1 at the limit; see `Scene.add_limit_state`."""
-        return utilisation_of(self.about.limit_states, self.time, self.channels, self.dims, self.coords)
+        return utilisation_of(
+            self.about.limit_states, self.time, self.channels, self.extremes, self.dims, self.coords
+        )
 
     def to_xarray(self) -> xarray.Dataset:
         """The result as a dataset with named coordinates, units and descriptions (copies the arrays)."""
         import xarray
 
         variables = {
-            name: (self.dims[name], array.copy(), attributes(name)) for name, array in self.channels.items()
+            name: (self.dims[channel_of(name)], array.copy(), attributes(name))
+            for name, array in self.arrays.items()
         }
         if self.events:
             for name, array in event_arrays(self.events).items():
@@ -496,7 +548,7 @@ class Result(Mapping[str, Array]):
         path = Path(path)
         with atomic_write(path) as draft:
             try:
-                write_netcdf(draft, self._contents(), [{"time": self.time, **self.channels}])
+                write_netcdf(draft, self._contents(), [{"time": self.time, **self.arrays}])
             except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
                 raise OSError(f"the NetCDF library reports: {error}") from error
         return path
@@ -504,7 +556,7 @@ class Result(Mapping[str, Array]):
     def _contents(self) -> Contents:
         scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
         return Contents(
-            outputs=self.time.size, dims=self.dims, coords=self.coords, events=self.events,
+            outputs=self.time.size, dims=_dims(self.arrays), coords=self.coords, events=self.events,
             stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, about=self.about,
             interrupted=self.interrupted,
             state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
@@ -567,10 +619,11 @@ def _rebuild(
     events: tuple[Event, ...],
     state: State | None,
     about: About,
+    extremes: Extremes,
 ) -> Result:
-    for array in (time, *channels.values()):
+    for array in (time, *channels.values(), *(array for both in extremes.values() for array in both)):
         array.setflags(write=False)
     return Result(
         time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events,
-        state=state, about=about,
+        state=state, about=about, extremes=extremes,
     )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.channels import NAMED, attributes
+from seacrane.description.channels import NAMED, attributes, channel_of
 from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.inputs.netcdf_limits import open_netcdf
@@ -131,7 +131,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
                 if name not in ("time", STATE, SCENE)
                 and name not in file.dimensions
                 and "event" not in variable.dimensions
-                and (channels is None or name in channels)
+                and (channels is None or channel_of(name) in channels)
             },
             "coords": {dim: [str(name) for name in file[dim][:]] for dim in NAMED if dim in file.variables},
             "events": events_from_arrays(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.result.extremes import Extremes
 
 
 def as_html(caption: str, dims: Mapping[str, Sequence[str]], coords: Mapping[str, Sequence[str]]) -> str:
@@ -27,11 +28,19 @@ def as_html(caption: str, dims: Mapping[str, Sequence[str]], coords: Mapping[str
 
 
 def as_text(
-    caption: str, channels: Mapping[str, NDArray[np.float64]], dims: Mapping[str, Sequence[str]]
+    caption: str,
+    channels: Mapping[str, NDArray[np.float64]],
+    extremes: Extremes,
+    dims: Mapping[str, Sequence[str]],
 ) -> str:
     """The channels that were recorded, with the smallest and the largest value of each."""
     rows = [
-        (name, ", ".join(dims[name][1:]), *_extremes(values), CHANNELS[name].unit)
+        (
+            name,
+            ", ".join(dims[name][1:]),
+            *_extremes(np.stack(extremes.get(name, (values, values)))),
+            CHANNELS[name].unit,
+        )
         for name, values in channels.items()
     ]
     head = ("channel", "along", "smallest", "largest", "unit")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS
+from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write, require_replaceable, space_left
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -237,7 +237,7 @@ class ResultFile:
         """
         if result is not None:
             new = slice(int(np.searchsorted(result.time, self._last_time, "right")), None)
-            arrays = {name: array[new] for name, array in {"time": result.time, **result.channels}.items()}
+            arrays = {name: array[new] for name, array in {"time": result.time, **result.arrays}.items()}
             self._coords = result.coords
         else:
             arrays = dict(self._nothing)
@@ -348,7 +348,8 @@ def difference(old: Told, new: Told) -> str:
     settings = [some.about.settings for some in (old, new)]
     pairs = {name: (old.stats.get(name), new.stats.get(name)) for name in METHOD}
     pairs |= {name: (settings[0].get(name), settings[1].get(name)) for name in SETTINGS}
-    pairs["channels"] = (", ".join(sorted(old.channels)), ", ".join(sorted(new.channels)))
+    held = [sorted({channel_of(name) for name in some.channels}) for some in (old, new)]
+    pairs["channels"] = (", ".join(held[0]), ", ".join(held[1]))
     for name, (there, here) in pairs.items():
         if there != here:
             return f"has {name} {there!r}, this run {here!r}"

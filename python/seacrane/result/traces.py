@@ -13,6 +13,7 @@ from seacrane.description.channels import CHANNELS, unit_of
 from seacrane.description.pick import Pick
 from seacrane.result.about import About
 from seacrane.result.events import Event
+from seacrane.result.extremes import Extremes
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
@@ -43,6 +44,8 @@ class Record(Protocol):
     def interrupted(self) -> bool: ...
     @property
     def stats(self) -> Mapping[str, Any]: ...
+    @property
+    def extremes(self) -> Extremes: ...
 
     def select(self, channel: str | Pick, /, **names: str) -> Array: ...
 
@@ -56,12 +59,24 @@ class Trace:
     names : Along the channel's dimensions but time.
     unit : Of the values: degrees for radians, kN for newtons where they are large.
     values : (n,)
+    bounds : Least and largest values since the output before, (n,) each; None: the run keeps none.
     """
 
     channel: str
     names: tuple[str, ...]
     unit: str
     values: Array
+    bounds: tuple[Array, Array] | None = None
+
+    @property
+    def least(self) -> Array:
+        """Least values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[0]
+
+    @property
+    def largest(self) -> Array:
+        """Largest values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[1]
 
     @property
     def label(self) -> str:
@@ -85,18 +100,33 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
     Raises KeyError or ValueError as `Result.select`.
     """
     result.select(channel, **names)  # which refuses what is not there
+    pick, array = Pick(channel=channel, names=names), result.channels[channel]
+    has_bounds = channel in result.extremes
+    every = (array, *result.extremes.get(channel, (array, array)))
     curves = [
-        ((*names.values(), *(name for dim, name in named.items() if dim not in names)), values)
-        for named, values in Pick(channel=channel, names=names).curves(
-            result.channels[channel], result.dims[channel], result.coords
+        (
+            (*names.values(), *(name for dim, name in named.items() if dim not in names)),
+            (values, least, largest),
+        )
+        for (named, values), (_, least), (_, largest) in zip(
+            *(pick.curves(one, result.dims[channel], result.coords) for one in every), strict=True
         )
     ]
     units = [_unit(result, channel, named) for named, _ in curves]
     found: list[Trace] = []
-    for (named, values), unit in zip(curves, units, strict=True):
-        same = [other for (_, other), one in zip(curves, units, strict=True) if one == unit]
+    for (named, own), unit in zip(curves, units, strict=True):
+        same = [values for (_, (values, _, _)), one in zip(curves, units, strict=True) if one == unit]
         factor, shown = shown_unit(unit, same)
-        found.append(Trace(channel=channel, names=named, unit=shown, values=np.asarray(factor * values)))
+        values, least, largest = (np.asarray(factor * one) for one in own)
+        found.append(
+            Trace(
+                channel=channel,
+                names=named,
+                unit=shown,
+                values=values,
+                bounds=(least, largest) if has_bounds else None,
+            )
+        )
     return found
 
 
@@ -140,4 +170,4 @@ def beyond_rounding(found: Iterable[Trace]) -> list[Trace]:
 
 
 def _size(one: Trace) -> float:
-    return float(np.nanmax(np.abs(one.values), initial=0.0))
+    return max(float(np.nanmax(np.abs(bound), initial=0.0)) for bound in (one.least, one.largest))

@@ -16,6 +16,7 @@ from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.result.extremes import Extremes
 from seacrane.result.units import read_as
 
 Array = NDArray[np.float64]
@@ -110,12 +111,15 @@ def utilisation_of(
     limit_states: Sequence[LimitState],
     time: Array,
     channels: Mapping[str, Array],
+    extremes: Extremes,
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilisation:
     """Utilisation of the limit states that a run noted; FileFormatError for notes that no run writes."""
     try:
-        return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in limit_states))
+        return Utilisation(
+            tuple(_utilised(state, time, channels, extremes, dims, coords) for state in limit_states)
+        )
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise FileFormatError(f"the result's limit states are none that a run writes: {error}") from error
 
@@ -124,6 +128,7 @@ def _utilised(
     state: LimitState,
     time: Array,
     channels: Mapping[str, Array],
+    extremes: Extremes,
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilised:
@@ -136,11 +141,12 @@ def _utilised(
             limit=bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
-    curves = Pick(channel=channel, names=where).curves(channels[channel], dims[channel], coords)
+    least, largest = extremes.get(channel, (channels[channel], channels[channel]))
+    pick = Pick(channel=channel, names=where)
     found = [
         (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
-        for names, values in curves
         for kind, bound in bounds
+        for names, values in pick.curves(largest if kind == "maximum" else least, dims[channel], coords)
     ]
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
     return Utilised(

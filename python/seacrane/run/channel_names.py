@@ -34,7 +34,7 @@ from seacrane.run.hanging import (
     tip_velocities,
     utilisations,
 )
-from seacrane.run.hook_loads import hook_loads, link_tensions, slack_margins
+from seacrane.run.hook_loads import hook_loads, link_tensions, lowest_segments, slack_margins
 from seacrane.run.motions import motions
 from seacrane.run.own import require_own, with_sources
 
@@ -91,11 +91,13 @@ def all_names(scene: Description, model: _core.Model) -> Mapping[str, list[str]]
 @once
 def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, ...] | None) -> Set[str]:
     """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
-    usual = [*model.channel_names(), *(state.channel for state in scene.limit_states.values()), OWN]
+    ends = ["end_tension"] if lowest_segments(scene) else []
+    usual = [*model.channel_names(), *ends, *(state.channel for state in scene.limit_states.values()), OWN]
     wanted = with_sources(scene, usual if asked is None else asked)
     if "slack_margin" in wanted:
         least_pulls(scene)  # before the run: what comes to no rest is refused
-    return core_channels(scene, wanted, model.channel_names(defaults_only=False))
+    made_of = core_channels(scene, wanted, model.channel_names(defaults_only=False))
+    return made_of if ends or "end_tension" in wanted else made_of - {"end_tension"}
 
 
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension

@@ -10,11 +10,21 @@ from seacrane.run.method import Method
 
 
 def core_options(
-    method: Method, formulation: str, *, channels: Set[str], times: Any, capacity: int | None = None
+    method: Method,
+    formulation: str,
+    *,
+    channels: Set[str],
+    times: Any,
+    capacity: int | None = None,
+    extremes: Set[str] = frozenset(),
 ) -> _core.RunOptions:
-    """The options of the core for a method, with the channels that it records and when (s)."""
+    """The options of the core for a method, with the channels that it records and when (s).
+
+    `extremes`: those of the channels of which it keeps least and largest values between outputs.
+    """
     return _core.RunOptions(
         formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
         fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
-        energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
+        energy_limit=method.energy_limit, output_times=times, channels=channels,
+        extremes=extremes, capacity=capacity,
     )  # fmt: skip

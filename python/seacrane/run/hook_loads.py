@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from seacrane.analysis.least_pulls import least_pulls
 from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.crane_parts import hooks
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import lines_of, path_of, whole_of
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.suspension import (
     hooked_body,
     hung_loads,
@@ -29,16 +30,29 @@ def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
     """Loads (time, suspension), N; None where there is none, or the core recorded too little.
 
     Of a rod or wire its tension. Of a line the resultant of all its sections on the body that it reaches
-    last, from its first point on: of n falls n times the tension where they are parallel.
+    last, from its first point on: of n falls n times the tension where they are parallel. Of the lowest
+    segment of a line with mass, with the tension at the line's end.
     """
     lines = list(lines_of(scene.loads).values())
+    lowest = lowest_segments(scene)
     parts = [arrays["tension"]] if "tension" in arrays else []
     if lines:
-        if not all(name in arrays for name in ("line_tension", *POSE)):
+        needed = ("line_tension", *POSE, *(["end_tension"] if lowest else []))
+        if not all(name in arrays for name in needed):
             return None
-        parts += [(arrays["line_tension"][:, i] * _falls(scene, arrays, line))[:, None]
-                  for i, line in enumerate(lines)]  # fmt: skip
+        for i, line in enumerate(lines):
+            whole = lowest.get(line.name)
+            pull = arrays["line_tension"][:, i] if whole is None else arrays["end_tension"][:, whole, 1]
+            parts.append((pull * _falls(scene, arrays, line))[:, None])
     return np.concatenate(parts, axis=1) if parts else None
+
+
+@once_in_any_sea
+def lowest_segments(scene: Description) -> Mapping[str, int]:
+    """The last segment of each line with mass: the place of the line along `whole_line`."""
+    wholes = list(dict.fromkeys(whole_of(name, line) for name, line in lines_of(scene.loads).items()))
+    last = {whole_of(name, line): name for name, line in lines_of(scene.loads).items()}
+    return {name: wholes.index(whole) for whole, name in last.items() if name != whole}
 
 
 def link_tensions(scene: Description, arrays: Mapping[str, Array], loads: Array | None) -> Array | None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED
+from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED, channel_of
 from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -67,7 +67,7 @@ class Piece:
         added = self.added
         record = _core.RecordHistory(
             start_energy=record.start_energy - float(added["energy_balance"]), start_work=record.start_work,
-            residual=record.residual, quaternions=record.quaternions,
+            residual=record.residual, quaternions=record.quaternions, extremes=record.extremes,
             impact_loss=float(self.end.get("impact_loss", 0.0) + added["impact_loss"]),
         )  # fmt: skip
         return _core.State(
@@ -106,9 +106,9 @@ def joined(
     offsets = _offsets(pieces)
     kept = _kept(pieces)
     names = _all_names(pieces)
-    channels = list(dict.fromkeys(name for piece in pieces for name in piece.result.channels))
+    every = list(dict.fromkeys(name for piece in pieces for name in piece.result.arrays))
     arrays = {}
-    for channel in channels:
+    for channel in every:
         parts = [
             _whole(channel, piece, names) + offsets[i].get(channel, 0.0) for i, piece in enumerate(pieces)
         ]
@@ -158,8 +158,9 @@ def _all_names(pieces: Sequence[Piece]) -> dict[str, list[str]]:
     return out
 
 
-def _whole(channel: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Array:
-    """A channel of a piece with all names along its dimensions."""
+def _whole(name: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Array:
+    """A channel of a piece, or its least or largest values, with all names along its dimensions."""
+    channel = channel_of(name)
     dims = CHANNELS[channel].dims_of_several
     sizes = [len(names[dim]) for dim in dims[1:] if dim in NAMED]
     fixed = [len(piece.names[dim]) for dim in dims[1:] if dim not in NAMED]
@@ -169,7 +170,7 @@ def _whole(channel: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Ar
     out = np.full((count, *sizes, *fixed), nothing)
     if channel not in piece.result:
         return out
-    array = piece.result[channel]
+    array = piece.result.arrays.get(name, piece.result[channel])
     own = [piece.names[dim] for dim in dims[1:] if dim in NAMED]
     array = array.reshape(count, *(len(part) for part in own), *fixed)
     place = [[names[dim].index(name) for name in part] for dim, part in zip(dims[1:], own, strict=False)]
@@ -179,7 +180,7 @@ def _whole(channel: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Ar
 
 def _squeezed(channel: str, array: Array) -> Array:
     """Without the axis that only several vessels, slews or hooks have, where there is one of them."""
-    kind = CHANNELS[channel]
+    kind = CHANNELS[channel_of(channel)]
     several = len(kind.dims_of_several) > len(kind.dims)
     return (
         array[:, 0] if several and array.ndim == len(kind.dims_of_several) and array.shape[1] == 1 else array

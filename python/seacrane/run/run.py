@@ -29,6 +29,7 @@ from seacrane.inputs.keywords import named
 from seacrane.result.about import About
 from seacrane.result.checked_parts import plain_stats
 from seacrane.result.events import Event
+from seacrane.result.extremes import Extremes, as_arrays
 from seacrane.result.result import Result
 from seacrane.run.boiling import boiled
 from seacrane.run.carried_state import carried
@@ -40,6 +41,7 @@ from seacrane.run.channel_names import (
     require_names,
 )
 from seacrane.run.core_options import core_options
+from seacrane.run.extremes import derived_extremes, wanted_extremes
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
@@ -407,7 +409,8 @@ class Run:
             No more than the first outputs, and no state.
         """
         with self.core:
-            arrays = self.core.channels() if most is None else self.core.channels(most)
+            every = () if most is None else (most,)
+            arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
             scene, met, stats = self.scene, self.events(), self.stats()
             found: list[Finding] = []
             channels = tried(
@@ -429,7 +432,7 @@ class Run:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
                 time=arrays["time"],
-                arrays=channels,
+                arrays={**channels, **as_arrays(self._reached(arrays, extremes, channels))},
                 coords=self._lasting.coords,
                 events=met,
                 stats=stats,
@@ -439,6 +442,13 @@ class Run:
                 scene=forgetting(scene.copy(notes={})),
             )
         return result, found
+
+    def _reached(
+        self, arrays: Mapping[str, Array], extremes: Extremes, channels: Mapping[str, Array]
+    ) -> dict[str, tuple[Array, Array]]:
+        """Least and largest values of the channels, as far as the core has kept them."""
+        derived = derived_extremes(self.scene, arrays, extremes, channels)
+        return {name: both for name, both in {**extremes, **derived}.items() if name in channels}
 
     def _recorded(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """Channels as the core recorded them, those that a result knows."""
@@ -494,7 +504,10 @@ def _options(run: Run) -> _core.RunOptions:
         run.start.time, run.t_end, outputs.dt_out, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
-    return core_options(method, run.formulation, channels=channels, times=times, capacity=capacity)
+    return core_options(
+        method, run.formulation, channels=channels, times=times, capacity=capacity,
+        extremes=wanted_extremes(run.scene, channels, asked),
+    )  # fmt: skip
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:

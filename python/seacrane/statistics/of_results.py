@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.channels import unit_of
-from seacrane.description.pick import pick_of
+from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
@@ -82,7 +82,8 @@ def extremes(
     pick = pick_of("extremes", channel, names, held=results[0].channels)
     begin = number_of("after", after) if pick.after is None else pick.after
     channel, names = pick.channel, dict(pick.names)
-    records = [_record(one, channel, one.part(after=begin, stage=pick.stage), sign, names) for one in results]
+    parts = [one.part(after=begin, stage=pick.stage) for one in results]
+    records = [_record(one, channel, part, sign, names) for one, part in zip(results, parts, strict=True)]
     words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
     if isinstance(result, Result):
         (values, step), repeat = records[0], _repeat(result)
@@ -106,9 +107,13 @@ def extremes(
         warn_of_start(values, up_crossings(values, float(values.mean())).size)
         warn_of_repeat(_repeat(one), durations[0])
     rest = float(np.mean([values.mean() for values, _ in records]))
+    picked = Pick(channel=channel, names=names)
+    bounds = [one.reached(picked, part=part) for one, part in zip(results, parts, strict=True)]
     return seed_extremes(
-        [values.max() for values, _ in records], duration=durations[0], exposure=exposure,
-        static=rest if static is None else static, half_width=half_width, **words,
+        [float((largest if sign > 0.0 else -least).max()) for least, largest in bounds],
+        duration=durations[0], exposure=exposure, static=rest if static is None else static,
+        half_width=half_width,
+        **words,
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ const COLOURS = ['#0b5a8a', '#c2581a', '#2f7d3a', '#8a2f6b', '#6b6b1a', '#333f4a
 export class Strip {
   constructor(canvas, panels, stages, buffer, motion, seek) {
     Object.assign(this, { canvas, motion, stages, head: stages.length ? HEAD : 0 });
-    this.panels = panels.map((panel) => ({ ...panel, series: new Series(buffer, panel.values) }));
+    this.panels = panels.map((panel) => ({ ...panel, series: new Series(buffer, panel.values), bounds: new Series(buffer, panel.bounds) }));
     canvas.hidden = !this.panels.length && !stages.length;
     const move = (event) => {
       const box = canvas.getBoundingClientRect();
@@ -105,8 +105,8 @@ export class Strip {
       for (let i = 0; i < frames; i += each) {
         let [low, high] = [Infinity, -Infinity];
         for (let k = i; k < Math.min(i + each, frames); k++) {
-          const value = panel.series.get(line, k);
-          [low, high] = [Math.min(low, value), Math.max(high, value)];
+          low = Math.min(low, panel.bounds.get(line, k));
+          high = Math.max(high, panel.bounds.get(panel.labels.length + line, k));
         }
         const x = this.x(this.motion.start + i * this.motion.interval);
         pen.lineTo(x, this.y(panel, row, low));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -79,6 +80,25 @@ void DrivenSpeeds::follow(double t, double curve_limit, double* q, double* u, do
     view<6>(u_rate + c.u) = now.acceleration.vector();
     std::ranges::copy(now.parts, one.parts.begin());
   }
+}
+
+void DrivenSpeeds::read(const ArticulatedTree<double>& tree, std::vector<double>& drives) const {
+  drives.clear();
+  for (const Coordinate& one : coordinates_) drives.push_back(tree.drive(one.place));
+}
+
+double DrivenSpeeds::force(int element, const std::vector<double>& drives, double t, double curve_limit,
+                           const double* q) const {
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    const Coordinate& one = coordinates_[i];
+    if (one.driver->element != element) continue;
+    const double sign = one.cluster->drive.sign;
+    if (!one.stroke) return sign * drives[i];
+    const double stroke = sign * one.driver->curve.at(t, curve_limit).value;
+    const auto unit = one.stroke->motion({stroke, sign, 0.0}, q[one.cluster->q]);
+    if (unit) return unit->u * drives[i];
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 bool DrivenSpeeds::jump(double t, double curve_limit, const double* q, const double* u, double* jump) {

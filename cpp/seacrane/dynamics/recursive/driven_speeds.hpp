@@ -26,6 +26,12 @@ class DrivenSpeeds {
   /// How speeds jump at t, from the left limit to that of `curve_limit`, where u are those before; elsewhere
   /// zero. Whether any does.
   bool jump(double t, double curve_limit, const double* q, const double* u, double* jump);
+  /// What drives each coordinate by the tree's last solve(), along the tree's own.
+  void read(const ArticulatedTree<double>& tree, std::vector<double>& drives) const;
+  /// From these the load of a driver along its own coordinate, near positions q; not a number: of a driver of
+  /// none of them.
+  double force(int element, const std::vector<double>& drives, double t, double curve_limit,
+               const double* q) const;
   /// Calls f(power) for every driver, by the tree's last solve() at the last follow().
   template <class T, class F>
   void for_each_power(const ArticulatedTree<T>& tree, F&& f) const;

@@ -49,6 +49,11 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
   for (VecXd* vector : {&free_, &scale_, &combined_, &multipliers_}) *vector = VecXd::Zero(n);
 }
 
+int LoopClosure::row_of(int element) const {
+  const auto found = std::ranges::find(rows_, element, &Row::element);
+  return found == rows_.end() ? -1 : static_cast<int>(found - rows_.begin());
+}
+
 /// g := D M^-1 D^T for the inertias that the tree holds factored.
 void LoopClosure::gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, MatXd& g) {
   const Eigen::Index n = g.rows();

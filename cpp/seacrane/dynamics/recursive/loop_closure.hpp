@@ -52,6 +52,8 @@ class LoopClosure {
   Dependence take_dependence();
   /// False where rows depend on each other at the last factor().
   bool regular() const { return !dependent_; }
+  /// The place of the first row of an element; -1: it has none here.
+  int row_of(int element) const;
   /// The multipliers of the last solve().
   const VecXd& multipliers() const { return multipliers_; }
 

@@ -9,6 +9,7 @@
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/projection.hpp"
 #include "seacrane/dynamics/state_names.hpp"
+#include "seacrane/elements/joints/distance.hpp"
 
 namespace seacrane {
 namespace {
@@ -49,6 +50,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
     throw std::invalid_argument("formulation 'recursive': " + tree_.refused +
                                 "; choose formulation 'redundant'");
   }
+  find_hung();
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
@@ -170,6 +172,7 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) { eval
 /// Within a step what drivers prescribe is integrated, as what hangs on it is: at a stage both are off alike,
 /// where their difference would be of a stiff line's. The rates are exact, and project() sets the values.
 void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
+  evaluated_at_ = t;
   followed(t, y);
   place_as_given(y);
   terms_->follow_yaw();
@@ -180,6 +183,7 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
   for (const double power : drive_power_) terms_->add_driver_power(power);
+  keep_solution();
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
@@ -277,6 +281,54 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
       sum.segment(first, count) += tension[i] * inertial_speed_rates_.col(i).segment(first, count);
     });
   }
+}
+
+void RecursiveSystem::find_hung() {
+  hung_.resize(model_.elements.size());
+  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
+    const Cluster& link = tree_.clusters[i];
+    if (link.element < 0 || model_.elements[idx(link.element)].kind != Distance::kind) continue;
+    std::vector<int>& hung = hung_[idx(link.element)];
+    hung.push_back(link.body);
+    for (std::size_t k = i + 1; k < tree_.clusters.size(); ++k) {  // parents first
+      const Cluster& c = tree_.clusters[k];
+      if (std::ranges::find(hung, c.parent) == hung.end()) continue;
+      for (const Member& m : c.members) hung.push_back(m.body);
+    }
+  }
+}
+
+void RecursiveSystem::keep_solution() {
+  if (driven_.any() && !tensions_.any()) driven_.read(articulated_, drives_);
+  if (loops_.rows() == 0) return;
+  kept_load_ = load_;
+  kept_acceleration_ = acceleration_;
+  kept_multipliers_ = loops_.multipliers();
+}
+
+/// Of a branch by what it must add to the loads of all that hangs on it, for these to move as they do; of a
+/// cut joint and of a driver in rows by its multiplier.
+double RecursiveSystem::tension(int element) const {
+  const ElementModel& e = model_.elements[idx(element)];
+  const std::vector<int>& hung = hung_[idx(element)];
+  const int row = hung.empty() ? loops_.row_of(element) : -1;
+  if (row >= 0 && (e.driver || e.unique_reaction)) return (e.driver ? 1.0 : -1.0) * kept_multipliers_[row];
+  if (e.driver && !drives_.empty()) {
+    return driven_.force(element, drives_, evaluated_at_, terms_->curve_limit(), followed_.data());
+  }
+  if (hung.empty() || !e.unique_reaction) return std::numeric_limits<double>::quiet_NaN();
+  const bool has_loops = loops_.rows() > 0;
+  const std::vector<Vec6d>&acceleration = has_loops ? kept_acceleration_ : acceleration_,
+        &load = has_loops ? kept_load_ : load_;
+  Vec3d force = Vec3d::Zero();
+  for (const int b : hung) {
+    force += mass_[idx(b)].topRows<3>() * acceleration[idx(b)] - load[idx(b)].head<3>();
+  }
+  const auto& bodies = terms_->bodies();
+  const BodyKinematics<double>&first = bodies[idx(e.first)], &second = bodies[idx(e.second)];
+  const Vec3d along =
+      second.position + second.rotation * e.second_point - first.position - first.rotation * e.first_point;
+  return (hung.front() == e.second ? -1.0 : 1.0) * force.dot(along) / along.norm();
 }
 
 /// The powers of the drives at the tree's last solution.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,11 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void write_bodies(double t, const double* y, double* bodies) override;
   void place_bodies(double t, const double* y) override { place(t, y); }
   bool closes_joints() const override { return loops_.rows() == 0; }
-  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  const std::vector<Vec6d>& accelerations() const override {
+    return kept_acceleration_.empty() ? acceleration_ : kept_acceleration_;
+  }
+  double evaluated_at() const override { return evaluated_at_; }
+  double tension(int element) const override;
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
   Terms& terms() override { return *terms_; }
@@ -83,6 +88,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
+  void find_hung();
+  void keep_solution();
 
   std::shared_ptr<Terms> terms_;
   const Model& model_;
@@ -93,6 +100,11 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   TreeActuators actuators_;
   DrivenSpeeds driven_;
   std::vector<TurningInertia> turning_;  // by body
+  std::vector<std::vector<int>> hung_;   // by element: of a link that is a branch, all bodies that hang on it
+  // Of the last derivative(), where projections overwrite it.
+  std::vector<Vec6d> kept_load_, kept_acceleration_;
+  VecXd kept_multipliers_;
+  std::vector<double> drives_;
   Layout layout_;
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> bias_, load_, acceleration_, twist_, direction_;
@@ -112,6 +124,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;
+  double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace seacrane

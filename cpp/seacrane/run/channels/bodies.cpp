@@ -47,7 +47,7 @@ void write_euler_xyz(const Output& o, double* out) {
 
 void write_acceleration(const Output& o, double* out) {
   write_each<3>(o, out, [&](int b) -> Vec3d {
-    const Vec6d& a = o.system.accelerations()[idx(b)];
+    const Vec6d& a = o.accelerations[idx(b)];
     const Vec3d &w = o.terms.bodies()[idx(b)].angular_velocity, lever = lever_of(o.terms, b),
                 turning = w.cross(lever);
     return a.head<3>() + Vec3d(a.tail<3>()).cross(lever) + w.cross(turning);
@@ -55,7 +55,7 @@ void write_acceleration(const Output& o, double* out) {
 }
 
 void write_angular_acceleration(const Output& o, double* out) {
-  write_each<3>(o, out, [&](int b) -> Vec3d { return o.system.accelerations()[idx(b)].tail<3>(); });
+  write_each<3>(o, out, [&](int b) -> Vec3d { return o.accelerations[idx(b)].tail<3>(); });
 }
 
 }  // namespace
@@ -66,16 +66,19 @@ std::vector<Channel> body_channels() {
        .axes = {&axes::body, &axes::xyz},
        .unit = "m",
        .text = "centre of mass, inertial frame",
+       .peaks = Peaks::of_states,
        .write = write_position},
       {.name = "velocity",
        .axes = {&axes::body, &axes::xyz},
        .unit = "m/s",
        .text = "velocity of the centre of mass, inertial frame",
+       .peaks = Peaks::of_states,
        .write = write_velocity},
       {.name = "angular_velocity",
        .axes = {&axes::body, &axes::xyz},
        .unit = "rad/s",
        .text = "angular velocity, inertial frame",
+       .peaks = Peaks::of_states,
        .write = write_angular_velocity},
       {.name = "quaternion",
        .axes = {&axes::body, &axes::wxyz},
@@ -92,6 +95,7 @@ std::vector<Channel> body_channels() {
        .unit = "m/s2",
        .text = "acceleration of the centre of mass, inertial frame",
        .needs = {.solution = true},
+       .peaks = Peaks::of_accelerations,
        .by_default = false,
        .write = write_acceleration},
       {.name = "angular_acceleration",
@@ -99,6 +103,7 @@ std::vector<Channel> body_channels() {
        .unit = "rad/s2",
        .text = "angular acceleration, inertial frame",
        .needs = {.solution = true},
+       .peaks = Peaks::of_accelerations,
        .by_default = false,
        .write = write_angular_acceleration},
   };

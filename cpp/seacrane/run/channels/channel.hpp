@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/math/types.hpp"
+
 namespace seacrane {
 
 template <class T>
@@ -42,6 +44,7 @@ struct Output {
   const double* state = nullptr;
   const MaximalSystem& system;
   const Terms& terms;
+  const std::vector<Vec6d>& accelerations;  // of the described bodies' state points
   const std::vector<CoordinateRow<double>>& coordinates;
   const std::span<BodyLoad<double>> one_load;  // zeros, for all bodies and the ground; left as zeros
   double* const load_rates;                    // room for the rates of all states of loads
@@ -51,12 +54,24 @@ struct Output {
   double impact_loss = 0.0;                    // J, since the start
 };
 
+/// Where least and largest values of a channel between outputs come from.
+enum class Peaks {
+  of_none,           // none are kept
+  of_states,         // the states at the ends and in the middle of every step: it follows from these
+  of_lines,          // likewise; where lines are quasi-static the last evaluation of every step
+  of_links,          // the last evaluation of every step, see Formulation::tension()
+  of_drivers,        // likewise
+  of_accelerations,  // likewise, with the kinematics of its state
+  of_limits,         // what the search for events has evaluated there
+};
+
 /// A quantity that can be recorded.
 struct Channel {
   std::string name;
   std::vector<const Axis*> axes;
   std::string unit, text;
   Needs needs = {};
+  Peaks peaks = Peaks::of_none;
   bool by_default = true;
   bool (*offered)(const Model& model) = nullptr;  // whether a scene has it; null: where no axis is empty
   /// Writes the values, the last axis fastest, over those of the output before (zeros at the first).

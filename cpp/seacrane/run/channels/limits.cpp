@@ -25,6 +25,7 @@ std::vector<Channel> limit_channels() {
        .unit = "N or N m",
        .text = "tension of a wire, push of a stop, pressure on a seat",
        .needs = {.solution = true},
+       .peaks = Peaks::of_limits,
        .write = write_limit_force},
       {.name = "impact_loss",
        .axes = {},

@@ -27,7 +27,7 @@ void write_point_velocity(const Output& o, double* out) {
 
 void write_point_acceleration(const Output& o, double* out) {
   write_points(o, out, [&](const auto& k, const Vec3d& lever, int body) -> Vec3d {
-    const Vec6d& a = o.system.accelerations()[idx(body)];
+    const Vec6d& a = o.accelerations[idx(body)];
     const Vec3d turning = k.angular_velocity.cross(lever);
     return a.head<3>() + Vec3d(a.tail<3>()).cross(lever) + k.angular_velocity.cross(turning);
   });
@@ -41,17 +41,20 @@ std::vector<Channel> point_channels() {
        .axes = {&axes::point, &axes::xyz},
        .unit = "m",
        .text = "named point, inertial frame",
+       .peaks = Peaks::of_states,
        .write = write_point_position},
       {.name = "point_velocity",
        .axes = {&axes::point, &axes::xyz},
        .unit = "m/s",
        .text = "velocity of the named point, inertial frame",
+       .peaks = Peaks::of_states,
        .write = write_point_velocity},
       {.name = "point_acceleration",
        .axes = {&axes::point, &axes::xyz},
        .unit = "m/s2",
        .text = "acceleration of the named point, inertial frame",
        .needs = {.solution = true},
+       .peaks = Peaks::of_accelerations,
        .by_default = false,
        .write = write_point_acceleration},
   };

@@ -21,6 +21,7 @@ std::vector<Channel> vessel_channels() {
        .axes = {&axes::vessel, &axes::motion},
        .unit = "m (surge, sway, heave), rad (roll, pitch, yaw)",
        .text = "vessel's reference point from rest, and yaw-pitch-roll angles",
+       .peaks = Peaks::of_states,
        .write = write_vessel_motion},
   };
 }

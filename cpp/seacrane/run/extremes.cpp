@@ -1,0 +1,187 @@
+#include "seacrane/run/extremes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "seacrane/elements/joints/distance.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr int kLoose = -1, kNotKnown = -2;
+
+}  // namespace
+
+void Extremes::Group::begin() {
+  for (const RecordedChannel* c : channels) {
+    for (std::size_t i = 0; i < c->size; ++i) curves.push_back({c, i});
+  }
+  window = PeakWindow(curves.size());
+}
+
+Extremes::Extremes(const Model& model, Recording& recording)
+    : model_(model),
+      recording_(recording),
+      bodies_(idx(model.layout.size), 0.0),
+      stepped_(idx(model.stepped().layout.size), 0.0),
+      coordinates_(model.coordinates.size()),
+      one_load_(idx(model.body_count() + 1)) {
+  for (const RecordedChannel& c : recording.channels()) {
+    if (!c.least) continue;
+    const Peaks peaks = c.channel->peaks;
+    const bool of_lines = peaks == Peaks::of_lines, settles = of_lines && model.inertial_tensions > 0;
+    if (peaks == Peaks::of_states || (of_lines && !settles)) {
+      states_.channels.push_back(&c);
+      needs_coordinates_ |= c.channel->needs.coordinates;
+    } else if (peaks == Peaks::of_limits) {
+      limits_.channels.push_back(&c);
+    } else {
+      evaluations_.channels.push_back(&c);
+      has_accelerations_ |= peaks == Peaks::of_accelerations;
+    }
+  }
+  std::ranges::stable_partition(evaluations_.channels, [](const RecordedChannel* c) {
+    return c->channel->peaks != Peaks::of_accelerations;  // which place bodies anew
+  });
+  for (Group* group : {&states_, &evaluations_, &limits_}) group->begin();
+  row_.resize(states_.curves.size());
+  evaluation_.resize(evaluations_.curves.size());
+}
+
+/// The elements of the links among those that are stepped, in the order of the channel.
+void Extremes::find_links(const Stepper& at) {
+  if (links_of_ == &at) return;
+  links_of_ = &at;
+  links_.clear();
+  const std::vector<ElementModel>& elements = at.stepped_model()->elements;
+  const auto add = [&](const ElementModel& described) {
+    const auto found = std::ranges::find_if(elements, [&](const ElementModel& e) {
+      return e.name == described.name && e.driver == described.driver;
+    });
+    const bool is_there = found != elements.end();
+    const int place = is_there ? static_cast<int>(found - elements.begin()) : kNotKnown;
+    links_.push_back(is_there && found->rows == 0 ? kLoose : place);
+  };
+  for (const ElementModel& described : at.model->elements) {
+    if (described.kind == Distance::kind && !described.driver) add(described);
+  }
+  const SceneDescription& scene = at.model->description;
+  for (std::size_t d = 0; d < scene.drivers.size(); ++d) add(at.model->elements[scene.joints.size() + d]);
+}
+
+/// Of links, and behind these of drivers.
+double Extremes::held_force(const Stepper& at, std::size_t i) const {
+  const int element = links_[i];
+  if (element == kLoose) return 0.0;
+  return element == kNotKnown ? std::numeric_limits<double>::quiet_NaN() : at.stepped.tension(element);
+}
+
+Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
+  return {t, state, at.system, terms, accelerations_, coordinates_, one_load_, rate_.data()};
+}
+
+void Extremes::read_evaluation(Stepper& at, double from, double t, const double* y) {
+  if (evaluations_.curves.empty() || !(t > from)) return;
+  if (at.stepped.evaluated_at() != t) {
+    rate_.resize(at.stepped.size());
+    at.stepped.derivative(t, y, rate_.data());
+  }
+  find_links(at);
+  const Terms& terms = at.loads;
+  stepped_.resize(idx(terms.model().layout.size));
+  const std::size_t memory = idx(terms.model().layout.size - terms.model().layout.memory);
+  std::copy_n(y + at.stepped.size() - memory, memory, stepped_.end() - static_cast<std::ptrdiff_t>(memory));
+  if (has_accelerations_) accelerations_ = at.bodies.accelerations();
+  double* out = evaluation_.data();
+  for (const RecordedChannel* c : evaluations_.channels) {
+    if (c->channel->peaks == Peaks::of_accelerations) {
+      place(at, t, y);  // the last of them
+      c->channel->write(output(at, t, bodies_.data(), at.system.terms()), out);
+    } else if (c->channel->peaks == Peaks::of_links) {
+      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, i);
+    } else if (c->channel->peaks == Peaks::of_drivers) {
+      const std::size_t first = links_.size() - c->size;
+      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, first + i);
+    } else {
+      c->channel->write(output(at, t, stepped_.data(), terms), out);
+    }
+    out += c->size;
+  }
+  evaluated_ = t;
+}
+
+void Extremes::take_end(Stepper& at, double from, double to, const StateAt& state_at) {
+  if (!(to > from) || states_.curves.empty()) return;
+  if (states_.window.empty()) take_state(at, from, state_at);
+  take_state(at, to, state_at);
+}
+
+void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces) {
+  if (!(to > from)) return;
+  if (!states_.curves.empty() && states_.window.empty()) take_state(at, from, state_at);
+  if (!states_.curves.empty()) take_state(at, 0.5 * (from + to), state_at);
+  take_end(at, from, to, state_at);
+  if (!evaluations_.curves.empty() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
+  if (!limits_.curves.empty() && forces != nullptr) {
+    add(limits_, 0.5 * (from + to), forces);
+    add(limits_, to, forces + limits_.curves.size());
+  }
+}
+
+void Extremes::take_state(Stepper& at, double t, const StateAt& state_at) {
+  state_.resize(at.stepped.size());
+  state_at(t, state_.data());
+  place(at, t, state_.data());
+  double* out = row_.data();
+  for (const RecordedChannel* c : states_.channels) {
+    c->channel->write(output(at, t, bodies_.data(), at.system.terms()), out);
+    out += c->size;
+  }
+  add(states_, t, row_.data());
+}
+
+/// The kinematics of the described bodies at a state that is stepped, and its part behind these.
+void Extremes::place(Stepper& at, double t, const double* y) {
+  Terms& terms = at.system.terms();
+  if (at.stepped.closes_joints()) {
+    at.bodies.place(t, y);
+    const std::size_t memory = idx(model_.layout.size - model_.layout.memory);
+    std::copy_n(y + at.stepped.size() - memory, memory, bodies_.end() - static_cast<std::ptrdiff_t>(memory));
+  } else {
+    at.write_bodies(t, y, bodies_.data());
+    terms.read(t, bodies_.data());
+  }
+  if (!needs_coordinates_) return;
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    const CoordinateData& c = model_.coordinates[i];
+    coordinates_[i] =
+        evaluate_coordinate(c, terms.bodies()[idx(c.joint.first)], terms.bodies()[idx(c.joint.second)]);
+  }
+}
+
+void Extremes::add(Group& group, double t, const double* values) {
+  group.window.add(t, values, seeing(group));
+}
+
+std::vector<double> Extremes::save() const {
+  std::vector<double> out;
+  recording_.save_pending(out);
+  for (const Group* group : {&states_, &evaluations_, &limits_}) group->window.save(out);
+  return out;
+}
+
+void Extremes::load(const std::vector<double>& saved) {
+  if (saved.size() != save().size()) return;  // of other channels
+  const double* next = recording_.load_pending(saved.data());
+  for (Group* group : {&states_, &evaluations_, &limits_}) next = group->window.load(next);
+}
+
+void Extremes::forget_stretch() {
+  for (Group* group : {&states_, &evaluations_, &limits_}) group->window.forget();
+}
+
+void Extremes::end_stretch() {
+  for (Group* group : {&states_, &evaluations_, &limits_}) group->window.end(seeing(*group));
+}
+
+}  // namespace seacrane

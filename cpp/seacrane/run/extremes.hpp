@@ -1,0 +1,79 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "seacrane/run/peak_window.hpp"
+#include "seacrane/run/recording.hpp"
+#include "seacrane/run/stepper.hpp"
+
+namespace seacrane {
+
+/// Least and largest values of recorded channels between outputs, from the steps of a run. What follows from
+/// a state is taken at the middle and the end of every step; what needs a solution, from the last evaluation
+/// of the step, which the integrator has made. Peaks between these are those of the polynomial through five
+/// of them, see PeakWindow. Nothing is allocated while the run goes on.
+class Extremes {
+ public:
+  using StateAt = std::function<void(double t, double* y)>;
+
+  /// Of the channels of a recording that have least and largest values, which outlives this.
+  Extremes(const Model& model, Recording& recording);
+
+  /// Takes what the last evaluation tells right after a step, before anything else is evaluated.
+  void read_evaluation(Stepper& at, double from, double t, const double* y);
+  /// Takes a step, or its part, from a time to another. `forces`: of limits in its
+  /// middle, then at its end; null: not known.
+  void take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces);
+  /// What a run that continues needs, of the same channels: values since the last output, and of the stretch.
+  std::vector<double> save() const;
+  void load(const std::vector<double>& saved);
+  /// Takes the end of a step alone: of a run that is stepped beside others.
+  void take_end(Stepper& at, double from, double to, const StateAt& state_at);
+  /// The next step begins on the other side of a kink, or the run ends.
+  void end_stretch();
+  /// The step has kinks inside: no curve goes through its values.
+  void forget_stretch();
+
+ private:
+  struct Curve {
+    const RecordedChannel* channel;
+    std::size_t at;
+  };
+  /// Curves that are known at the same times.
+  struct Group {
+    std::vector<const RecordedChannel*> channels;
+    std::vector<Curve> curves;
+    PeakWindow window{0};
+
+    void begin();
+  };
+
+  void take_state(Stepper& at, double t, const StateAt& state_at);
+  void place(Stepper& at, double t, const double* y);
+  Output output(Stepper& at, double t, const double* state, const Terms& terms);
+  void find_links(const Stepper& at);
+  double held_force(const Stepper& at, std::size_t i) const;
+  void add(Group& group, double t, const double* values);
+  auto seeing(const Group& group) {
+    return [this, &group](std::size_t k, double t, double value) {
+      const Curve& curve = group.curves[k];
+      recording_.see(*curve.channel, curve.at, t, value);
+    };
+  }
+
+  const Model& model_;
+  Recording& recording_;
+  Group states_, evaluations_, limits_;
+  bool needs_coordinates_ = false, has_accelerations_ = false;
+  std::vector<Vec6d> accelerations_;  // of the described bodies, at the last evaluation
+  double evaluated_ = 0.0;            // time of evaluation_
+  std::vector<double> evaluation_;    // of the last step
+  const Stepper* links_of_ = nullptr;
+  std::vector<int> links_;  // elements of what is stepped, of links, then of drivers
+  std::vector<double> row_, state_, bodies_, stepped_, rate_;
+  std::vector<CoordinateRow<double>> coordinates_;
+  std::vector<BodyLoad<double>> one_load_;
+};
+
+}  // namespace seacrane
