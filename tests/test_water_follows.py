@@ -432,7 +432,7 @@ def test_a_stage_ends_at_the_depth_of_a_lowest_point(name: str) -> None:
 
 
 def test_a_depth_of_nothing_wet_is_refused_by_name() -> None:
-    with pytest.raises(SceneError, match=r"immersed is 'hook'; this stage has load, load\.1, load\.2"):
+    with pytest.raises(SceneError, match=r"waits for immersed 'hook', .* there are load, load\.1, load\.2"):
         lowered(Until.depth("hook", minimum=3.0))
 
 

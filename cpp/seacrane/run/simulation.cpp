@@ -228,7 +228,8 @@ void Simulation::finish_step(double now, double stop) {
   }
   record_until(now);
   take_step(now);
-  const double strike = switches_ ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
+  const double strike =
+      switches_ && is_adaptive() ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
   if (now < stop && strike == kNever && !(switches_ && switches_->has_jumped())) return;
   // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
   switch_at_ = strike;

@@ -339,6 +339,7 @@ std::optional<double> Switches::find_between(Stepper& at, LastStep& step) {
 /// there. A method whose dense output takes evaluations of its own may have lost its way there by what they
 /// met: steps that lead far are looked at on the cubic of their ends too.
 std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
+  if (!at.integrator->is_adaptive()) return std::nullopt;  // its steps are as long as was asked for
   std::optional<double> first;
   std::size_t k = 0;
   bool has_slopes = false;

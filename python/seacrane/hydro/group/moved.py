@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import block_diag
 
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import full_circle
@@ -29,6 +28,8 @@ def moved_group(group: Group, points: Mapping[str, ArrayLike]) -> Group:
     unknown = [name for name in points if name not in group.names]
     if unknown:
         raise SceneError(f"group {group.name!r}: has no body {unknown[0]!r}; it has {', '.join(group.names)}")
+    from scipy.linalg import block_diag
+
     levers = [_lever(group, body, points.get(body.name)) for body in group.bodies]
     if not np.any(levers):
         return group
