@@ -124,6 +124,7 @@ def test_no_number_is_made_of_a_run_that_is_not_finite(monkeypatch: pytest.Monke
             simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_a_member_that_is_not_finite_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
     from seacrane import Kept
 

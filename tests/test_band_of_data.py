@@ -152,6 +152,7 @@ def bare_barge() -> Any:
     return capytaine.BEMSolver().fill_dataset(wanted, body, progress_bar=False)
 
 
+@pytest.mark.warns(sometimes=["AsymmetryWarning"])
 def test_the_first_irregular_frequency_of_a_barge_ends_its_band(tmp_path: Path) -> None:
     """Panels without a lid fail at the eigenfrequencies of the water inside the box, known in closed form.
 

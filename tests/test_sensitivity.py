@@ -87,6 +87,7 @@ def test_a_seed_with_a_failure_is_left_out() -> None:
     assert found.failures == ("ValueError: too stiff",)
 
 
+@pytest.mark.warns(sometimes=["FailedMembersWarning"])
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -414,7 +414,7 @@ def pendulum() -> Result:
     full = simulate(scene, t_end=1.0, dt_out=0.5)
     channels = {name: full[name] for name in ("position", "energy_balance")}
     coords = {dim: full.coords[dim] for dim in ("body", "axis")}
-    return dataclasses.replace(full, channels=channels, coords=coords)
+    return dataclasses.replace(full, channels=channels, extremes={}, coords=coords)
 
 
 def small_memory() -> Any:

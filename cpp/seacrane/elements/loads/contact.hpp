@@ -76,7 +76,7 @@ struct Contact {
     d.points = {{0.3, -0.2, 0.4}, {0.5, 0.1, 9.0}};
     d.axes = Eigen::AngleAxisd(0.4, Vec3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
     d.surface = "box";
-    d.place = {0.5, 0.2, -0.3};
+    d.place = {7.0, -0.7, -2.6};
     d.size = {30.0, 29.0, 28.0};
     d.edge = 13.9;
     d.stiffness = 0.2;
