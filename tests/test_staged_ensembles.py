@@ -30,7 +30,6 @@ from seacrane.ensembles.other_sea import with_sea
 from seacrane.lift.shown_study import shown_study
 from seacrane.lift.study_run import run_study
 from seacrane.operability import Criterion, allowable_hs
-from seacrane.operability.levels import record_numbers
 from seacrane.statistics import seed_extremes
 
 G = 9.80665
@@ -80,10 +79,11 @@ def lifts() -> Ensemble:
 def test_members_are_their_staged_runs_to_the_bit(lifts: Ensemble) -> None:
     for place, seed in enumerate((1, 2, 3)):
         run = simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
-        hook, lift = run.select("hook_load", suspension="hoist"), run.stages[1]
+        lift = run.stages[1]
         member = lifts.dataset.isel(seed=place)
-        assert float(member.whole.squeeze()) == hook.max()
-        assert float(member.peak.squeeze()) == hook[run.stage("up")].max()
+        up = run.reached("hook_load", suspension="hoist", part=run.stage("up"))[1]
+        assert float(member.whole.squeeze()) == run.reached("hook_load", suspension="hoist")[1].max()
+        assert float(member.peak.squeeze()) == up.max()
         assert (float(member.lifted), float(member.took)) == (lift.end, lift.end - lift.start)
     assert not lifts.failures and len(set(lifts.dataset.lifted.to_numpy().tolist())) == 3
 
@@ -257,7 +257,7 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
     )
     start = equilibrium(scene)
     calm = simulate_stages(scene.copy(waves=None), STAGES, start=start, **how)
-    rest = calm.curve("hook_load[hoist]")[calm.stage("up")].max()
+    rest = calm.reached("hook_load", suspension="hoist", part=calm.stage("up"))[1].max()
     assert MASS * G < rest < bound
     peaks = np.array([
         [_peak(with_sea(scene, {"hs": hs, "seed": seed}), start, how) for seed in seeds] for hs in heights
@@ -274,7 +274,11 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
 
 def _peak(scene: Scene, start: Any, how: dict[str, Any]) -> float:
     run = simulate_stages(scene, STAGES, start=start, **how)
-    return float(record_numbers(run.curve("hook_load[hoist]")[run.stage("up")])[0])
+    return _reached(run, "up")
+
+
+def _reached(run: Any, stage: str) -> float:
+    return float(run.reached("hook_load", suspension="hoist", part=run.stage(stage))[1].max())
 
 
 def _gumbel_p90(values: Any) -> float:
@@ -341,7 +345,7 @@ def test_a_study_file_of_a_lift_in_stages(tmp_path: Path, capsys: pytest.Capture
         (tmp_path / "other.toml").write_text(text, encoding="utf-8")
         run = Lift.load(tmp_path / "other.toml").simulate()
         told = done.sel({"line.EA_N": EA, "stages.lift off.commands.hoist.rate": -0.1})
-        assert float(told.peak.squeeze()) == run.curve("hook_load[hoist]")[run.stage("raise")].max()
+        assert float(told.peak.squeeze()) == _reached(run, "raise")
         assert float(told.lifted) == run.stages[1].end
     assert "end of stage lift off" in str(shown_study(tmp_path / "out"))
 

@@ -119,7 +119,8 @@ void Extremes::take_end(Stepper& at, double from, double to, const StateAt& stat
 void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces) {
   if (!(to > from)) return;
   if (!states_.curves.empty() && states_.window.empty()) take_state(at, from, state_at);
-  if (!states_.curves.empty()) take_state(at, 0.5 * (from + to), state_at);
+  // What lies within a step of a given length costs an evaluation.
+  if (!states_.curves.empty() && at.integrator->is_adaptive()) take_state(at, 0.5 * (from + to), state_at);
   take_end(at, from, to, state_at);
   if (!evaluations_.curves.empty() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
   if (!limits_.curves.empty() && forces != nullptr) {

@@ -26,13 +26,13 @@ from seacrane.description.rungs import RIGID
 from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, heel_and_trim
 from seacrane.one_thread import one_thread
-from seacrane.run.hook_loads import hook_loads
+from seacrane.run.hook_loads import hook_loads, lowest_segments
 
 Array = NDArray[np.float64]
 LINES = {"line_tension": ("tension", "N"), "line_length": ("length", "m"),
          "line_unstretched_length": ("unstretched length", "m")}  # fmt: skip
 HOOK_STIFFNESS = "hook stiffness"
-CHANNELS = {"driver_force", "tension", "position", "quaternion", *LINES}
+CHANNELS = {"driver_force", "tension", "end_tension", "position", "quaternion", *LINES}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -164,13 +164,16 @@ def _lines(at_rest: AtRest) -> dict[str, tuple[str, float]]:
 def _hoists(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Load on each hook, and tension of what it hangs on, at the upper end: of a line in one of its falls."""
     every, carried, found = hung_loads(at_rest.scene), _hook_loads(at_rest), {}
-    lines = list(lines_of(at_rest.scene.loads))
+    lines, heavy = list(lines_of(at_rest.scene.loads)), lowest_segments(at_rest.scene)
     several = sum(one.crane is not None for one in every) > 1
     for one in every:
         label = "" if one.crane is not None and not several else f" {one.label}"
         found[f"hook load{label}"] = ("N", carried[one.suspension.channel])
         top = one.suspension.top.removesuffix(" line")
-        pull = at_rest.channels["line_tension"][lines.index(top)] if top in lines else carried[top]
+        if one.suspension.channel in heavy:
+            pull = at_rest.channels["end_tension"][heavy[one.suspension.channel], 0]
+        else:
+            pull = at_rest.channels["line_tension"][lines.index(top)] if top in lines else carried[top]
         found[f"hoist tension{label}"] = ("N", float(pull))
         if one.crane is not None:
             found[f"{HOOK_STIFFNESS}{label}"] = ("N/m", at_rest.stiffness(one.suspension))

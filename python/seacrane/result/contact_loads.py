@@ -29,7 +29,7 @@ class ContactLoad:
     speed : float
         The fastest at which a point came, m/s; 0 where all touched from the start.
     peak, peak_at : float
-        Largest force of a point away from the surface in the outputs, N, and when, s; 0 and NaN without any.
+        Largest force of a point away from the surface, N, and by which output, s; 0 and NaN without any.
     point : str
         Which point that was, such as "feet.1".
     rehits : int
@@ -104,7 +104,7 @@ def _load(result: Result, name: str) -> ContactLoad:
     contact = result.scene.loads[name]
     points = [f"{name}.{i + 1}" for i in range(len(contact.points))]
     came = [event for event in result.events if event.kind == "contact" and event.name in points]
-    press = np.stack([np.asarray(result.select("contact_press", contact_point=one)) for one in points])
+    press = np.stack([result.reached("contact_press", contact_point=one)[1] for one in points])
     press = np.where(np.isfinite(press), press, 0.0)
     point, at = np.unravel_index(int(np.argmax(press)), press.shape)
     peak = max(float(press[point, at]), 0.0)
