@@ -12,7 +12,6 @@ from seacrane import FileFormatError, Lift, SceneError, simulate
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
 from seacrane.lift.lift import LIFTS
-from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
 
@@ -185,7 +184,5 @@ def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFi
     assert "by accuracy: " in capsys.readouterr().out
     found = Ensemble.load(tmp_path / "out" / MEMBERS).dataset.lowest
     for start in (1.0, 1.5):
-        lift = StudyFile.load(path).lift()
-        scene = Lift(with_keys(lift.tables, keys_in(lift.tables), {"body.position_m.1": start})).scene()
-        fine = simulate(scene, 2.0, rtol=1e-10).reached("position", body="bob", axis="z")[0].min()
-        assert float(found.sel({"body.position_m.1": start})) == pytest.approx(fine, abs=1e-3)
+        lowest = float(found.sel({"body.position_m.1": start}))
+        assert lowest == pytest.approx(-start, abs=1e-3), "at the bottom"
