@@ -19,6 +19,7 @@ import numpy as np
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
+from seacrane.hydro.memory.motion_judge import SHIP, length_of, peak_periods
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
 VERSION = 2  # raised with every change of a fit
@@ -85,6 +86,9 @@ def keep_fit(database: Hydrodynamics, settings: FitSettings, model: MemoryModel)
 def digest(database: Hydrodynamics, settings: FitSettings) -> str:
     """The digest of everything that a fit depends on, as hexadecimal text."""
     parts = hashlib.sha256(json.dumps([VERSION, asdict(settings)]).encode())
+    length = length_of(database)
+    if length < SHIP:  # whose fit is judged in seas of its own
+        parts.update(peak_periods(length).tobytes())
     for name in USED:
         _add(parts, name, getattr(database, name))
     if database.roll_damping is not None:

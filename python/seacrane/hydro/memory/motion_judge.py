@@ -49,7 +49,7 @@ class MotionJudge:
         self.omega = np.unique(np.clip(every, *band))
         solved = self.solved = _Solved(self.table, self.omega)
         self.added_mass, self.damping, self.motion = solved.added_mass, solved.damping, solved.motion
-        self.periods = peak_periods(_length(database))
+        self.periods = peak_periods(length_of(database))
         self.weights = _sea_energies(self.omega, self.periods)
         variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
         size = np.abs(self.motion).max(axis=(0, 1))
@@ -203,7 +203,7 @@ def peak_periods(length: float) -> FloatArray:
     return np.geomspace(low, high, 1 + int(np.ceil(np.log(high / low) / step)))
 
 
-def _length(database: Hydrodynamics) -> float:
+def length_of(database: Hydrodynamics) -> float:
     """Of the hull, or of the longest of a group, m."""
     if isinstance(database, HydroGroupData):
         return max(body.length for body in database.bodies)
