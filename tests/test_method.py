@@ -93,7 +93,7 @@ def test_what_is_no_method_and_no_outputs_is_refused(given: dict[str, Any], says
 
 def test_a_word_that_is_none_is_a_type_error_that_lists_them() -> None:
     with pytest.raises(
-        TypeError, match=r"there is no 'tolerence', which is given as 0\.001; It takes scene, t_end, method"
+        TypeError, match=r"there is no 'tolerence', which is given as 0\.001; it takes scene, t_end, method"
     ):
         simulate(pendulum(), 1.0, tolerence=1e-3)  # type: ignore[call-arg]
 

@@ -101,9 +101,9 @@ def no_keyword(key: str, value: Any, known: Iterable[str]) -> str:
     """That there is no such keyword, and the nearest there is."""
     names = list(known)
     near = nearest(key, names)
-    fix = f"did you mean {near!r}? " if near else ""
+    fix = f"did you mean {near!r}? It" if near else "it"
     takes = ", ".join(names) or "nothing"
-    return f"there is no {key!r}, which is given as {shown(value)}; {fix}It takes {takes}"
+    return f"there is no {key!r}, which is given as {shown(value)}; {fix} takes {takes}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str | None:
