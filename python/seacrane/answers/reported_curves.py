@@ -13,7 +13,7 @@ from seacrane.description.wet_parts import immersed_depths, immersed_parts, wet_
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import Result
-from seacrane.result.traces import NO_ENERGY, NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.result.traces import NO_ENERGY, NO_MOTION, Bounded, Trace, beyond_rounding, traces
 from seacrane.run.hanging import swing_of
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.de
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Curve:
+class Curve(Bounded):
     """One curve of a summary.
 
     Attributes
@@ -78,16 +78,6 @@ class Curve:
     def name(self) -> str:
         """Kind and label."""
         return f"{self.kind} {self.label}".rstrip()
-
-    @property
-    def least(self) -> Array:
-        """Least values since the output before, (n,)."""
-        return self.values if self.bounds is None else self.bounds[0]
-
-    @property
-    def largest(self) -> Array:
-        """Largest values since the output before, (n,)."""
-        return self.values if self.bounds is None else self.bounds[1]
 
 
 def _scaled(factor: float, one: Trace) -> dict[str, Any]:

@@ -50,8 +50,25 @@ class Record(Protocol):
     def select(self, channel: str | Pick, /, **names: str) -> Array: ...
 
 
+class Bounded:
+    """What a curve reached between its outputs, where the run kept that."""
+
+    values: Array
+    bounds: tuple[Array, Array] | None
+
+    @property
+    def least(self) -> Array:
+        """Least values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[0]
+
+    @property
+    def largest(self) -> Array:
+        """Largest values since the output before, (n,)."""
+        return self.values if self.bounds is None else self.bounds[1]
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Trace:
+class Trace(Bounded):
     """One curve of a channel.
 
     Attributes
@@ -67,16 +84,6 @@ class Trace:
     unit: str
     values: Array
     bounds: tuple[Array, Array] | None = None
-
-    @property
-    def least(self) -> Array:
-        """Least values since the output before, (n,)."""
-        return self.values if self.bounds is None else self.bounds[0]
-
-    @property
-    def largest(self) -> Array:
-        """Largest values since the output before, (n,)."""
-        return self.values if self.bounds is None else self.bounds[1]
 
     @property
     def label(self) -> str:
