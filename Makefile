@@ -146,13 +146,14 @@ nightly: build .venv/.installed-dev bundle-packages
 	$(BIN)/python tools/nightly.py $(NIGHTLY_ROWS)
 
 campaign_atlas := extremes
+campaign_faults := seeded-faults
 campaign_fuzz := fuzz
 campaign_peers := bench-peers
 campaign_lifts := random-lifts
 campaign_tables := bench
 campaign: $(or $(campaign_$(NAME)),no-such-campaign)
 no-such-campaign:
-	@echo "make campaign NAME=atlas|fuzz|lifts|peers|tables; there is none called '$(NAME)'" >&2; exit 1
+	@echo "make campaign NAME=atlas|faults|fuzz|lifts|peers|tables; there is none called '$(NAME)'" >&2; exit 1
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
@@ -176,6 +177,10 @@ docs: build .venv/.installed-dev
 	$(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet -c docs -d build/doctrees . out/site
 	$(BIN)/python docs/site/offline.py out/site
 	@echo "the site: $(CURDIR)/out/site/index.html"
+
+# Which test finds what is put wrong; what is in out/faults/found.csv already is not tried again.
+seeded-faults: build .venv/.installed-dev
+	PYTHONPATH=tools $(BIN)/python -m seeded_faults $(FAULTS_ARGS)
 
 LIFTS ?= 1000
 random-lifts: build .venv/.installed-dev

@@ -1,0 +1,75 @@
+"""``python -m seeded_faults`` (``make campaign NAME=faults``): seed each fault, tell who finds it.
+
+What was found stands in ``out/faults/found.csv``; what is there already is not tried again. ``--check`` only
+looks whether each fault still has its place, and fails where one has not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import resource
+import sys
+from pathlib import Path
+
+from seeded_faults.fault import faults
+from seeded_faults.hunt import Hunt
+
+ROOT = Path(__file__).resolve().parents[2]
+HOME = ROOT / "out" / "faults"
+COLUMNS = ("fault", "file", "found_by", "test", "cpu_s")
+
+
+def main() -> int:
+    """Run; 1 where a fault has lost its place, or nobody finds one."""
+    parser = argparse.ArgumentParser(prog="python -m seeded_faults", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="FAULT", help="all when left out")
+    parser.add_argument("--check", action="store_true", help="only whether each fault has its place")
+    parser.add_argument("--night", action="store_true", help="slow tests look for what others do not find")
+    args = parser.parse_args()
+    wanted = [fault for fault in faults() if not args.names or fault.name in args.names]
+    unknown = {*args.names} - {fault.name for fault in wanted}
+    if unknown:
+        parser.error(f"there is no fault {sorted(unknown)[0]!r}")
+    for fault in wanted:
+        fault.seeded((ROOT / fault.file).read_text(encoding="utf-8"))
+    if args.check:
+        print(f"{len(wanted)} faults have their places")
+        return 0
+    table = HOME / "found.csv"
+    known = _known(table)
+    hunt = Hunt(ROOT, HOME)
+    with table.open("a", newline="", encoding="utf-8") as out:
+        rows = csv.writer(out, lineterminator="\n")
+        if not known:
+            rows.writerow(COLUMNS)
+        for fault in wanted:
+            if fault.name in known:
+                continue
+            before = _seconds()
+            who, test = hunt.finder(fault, by_night=args.night)
+            rows.writerow((fault.name, fault.file, who, test, f"{_seconds() - before:.0f}"))
+            out.flush()
+            print(f"{fault.name}: {who} {test}", flush=True)
+    found = _known(table)
+    missed = [fault.name for fault in wanted if found[fault.name] == "nobody"]
+    print(
+        f"{len(wanted) - len(missed)} of {len(wanted)} found" + "".join(f"\n  not {name}" for name in missed)
+    )
+    return int(bool(missed))
+
+
+def _known(table: Path) -> dict[str, str]:
+    if not table.exists():
+        return {}
+    with table.open(encoding="utf-8") as rows:
+        return {row["fault"]: row["found_by"] for row in csv.DictReader(rows)}
+
+
+def _seconds() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,95 @@
+"""A tree of its own in which one fault after the other is built and looked for."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+from seeded_faults.fault import Fault
+
+PYTEST = ".venv/bin/python -m pytest -q -x -p no:cacheprovider -n 2 --dist loadfile --no-header"
+FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
+PROGRAM = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
+LONGEST = 3600.0  # s: a test that does not end has found it too
+NEAREST = 12  # test files
+
+
+class Hunt:
+    """A clone of the repository, built.
+
+    Parameters
+    ----------
+    root : the tree whose last commit is cloned.
+    home : folder of the clone, kept for the next time.
+    """
+
+    def __init__(self, root: Path, home: Path) -> None:
+        self.tree = home / "tree"
+        self.log, self._said = home / "log", ""
+        if not self.tree.exists():
+            home.mkdir(parents=True, exist_ok=True)
+            subprocess.run(["git", "clone", "-q", root, self.tree], check=True)
+            (home / "shared").symlink_to((root.parent / "shared").resolve())
+        for command in (
+            "git fetch -q origin", "git reset -q --hard origin/HEAD", "make build",
+            "make .venv/.installed-dev", "cmake --build build/package --target seacrane_tests",
+        ):  # fmt: skip
+            if not self._succeeds(command):
+                raise RuntimeError(f"{command} fails without a fault; see {self.log}")
+
+    def finder(self, fault: Fault, *, by_night: bool = False) -> tuple[str, str]:
+        """Who finds a fault first, and the name of a test; ("nobody", "").
+
+        The compiler, the engine's own tests, the tests that name the file, the rest of the day; by night the
+        slow ones too.
+        """
+        file = self.tree / fault.file
+        sound = file.read_text(encoding="utf-8")
+        file.write_text(fault.seeded(sound), encoding="utf-8")
+        try:
+            for who, command in self._ways(fault, by_night=by_night):
+                if not self._succeeds(command):
+                    names = FAILED.findall(self._said) or PROGRAM.findall(self._said)
+                    return who, names[0] if names else ""
+            return "nobody", ""
+        finally:
+            file.write_text(sound, encoding="utf-8")
+
+    def _ways(self, fault: Fault, *, by_night: bool) -> Iterator[tuple[str, str]]:
+        if fault.in_engine:
+            yield "compiler", "cmake --build build/package --target seacrane_tests"
+            yield "engine's tests", "ctest --test-dir build/package --stop-on-failure -j 2"
+        yield "compiler", "make build"
+        near = self._near(Path(fault.file).stem)
+        if near:
+            yield "near tests", f"{PYTEST} {shlex.join(near)}"
+        yield "other tests", PYTEST
+        if by_night:
+            yield "slow tests", f"{PYTEST} -m slow"
+
+    def _near(self, stem: str) -> list[str]:
+        """Test files named after a file, then those whose text has its name most often."""
+        words = [word for word in re.split("_", stem) if len(word) > 3] or [stem]
+        scores = {}
+        for test in sorted((self.tree / "tests").rglob("test_*.py")):
+            text, name = test.read_text(encoding="utf-8"), test.stem
+            count = 100 * sum(word.rstrip("s") in name for word in words) + text.count(stem)
+            if count:
+                scores[str(test.relative_to(self.tree))] = count
+        return sorted(scores, key=lambda name: -scores[name])[:NEAREST]
+
+    def _succeeds(self, command: str) -> bool:
+        try:
+            done = subprocess.run(
+                shlex.split(command), cwd=self.tree, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT, text=True, errors="replace", timeout=LONGEST, check=False,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            self._said = f"it did not end in {LONGEST:g} s"
+            return False
+        self._said = done.stdout
+        self.log.write_text(f"$ {command}\n{done.stdout}", encoding="utf-8")
+        return done.returncode == 0
