@@ -1,12 +1,12 @@
 #include "seacrane/compile/groups.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 namespace {

@@ -1,6 +1,5 @@
 #include "seacrane/compile/line_bounces.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,6 +7,7 @@
 
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/line.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 namespace {

@@ -1,12 +1,12 @@
 #include "seacrane/compile/locked_loops.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "seacrane/dynamics/dependence.hpp"
 #include "seacrane/dynamics/terms.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 namespace {
@@ -121,10 +121,7 @@ class Motions {
       }
       row += count;
     }
-    Eigen::ColPivHouseholderQR<MatXd> qr(transposed);
-    qr.setThreshold(kRedundantSingularValue);
-    const MatXd q = qr.householderQ();
-    basis_ = q.rightCols(q.cols() - qr.rank());
+    basis_ = perpendicular(transposed, kRedundantSingularValue);
   }
 
   /// Whether every motion moves both bodies as one.

@@ -1,11 +1,11 @@
 #include "seacrane/dynamics/constraint_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 namespace {
@@ -234,7 +234,8 @@ void ConstraintSolver::shorten(std::vector<double>& lambda) {
   if (!regular_ || left_out_ == 0) return;
   const MatXd& n = null_space(values_.data(), here_.empty() ? model_.left_out : here_);
   Eigen::Map<VecXd> multipliers(lambda.data(), model_.rows());
-  multipliers -= n * Eigen::LDLT<MatXd>(n.transpose() * n).solve(n.transpose() * multipliers);
+  const MatXd gram = n.transpose() * n;
+  multipliers -= n * Eigen::LDLT<MatXd>(gram).solve(n.transpose() * multipliers);
 }
 
 /// The element with the largest part in a combination of rows.

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "seacrane/dynamics/row_space.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 

@@ -1,10 +1,9 @@
 #include "seacrane/dynamics/row_space.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/math/dense.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -24,7 +23,8 @@ int RowSpace::factor(const std::vector<ElementModel>& elements, const RowBlock<d
   });
   const MatXd g = over_shape_ * d_.transpose();
   const VecXd scale = g.diagonal().array().max(1e-300).sqrt().inverse();
-  const Eigen::SelfAdjointEigenSolver<MatXd> eigen(scale.asDiagonal() * g * scale.asDiagonal());
+  const MatXd scaled = scale.asDiagonal() * g * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatXd> eigen(scaled);
   const double limit = cut * cut * eigen.eigenvalues()[rows_ - 1];
   singular_values_ = (eigen.eigenvalues() / eigen.eigenvalues()[rows_ - 1]).cwiseMax(0.0).cwiseSqrt();
   combinations_ = eigen.eigenvectors();
@@ -32,10 +32,7 @@ int RowSpace::factor(const std::vector<ElementModel>& elements, const RowBlock<d
   while (dropped < rows_ && !(eigen.eigenvalues()[dropped] > limit)) ++dropped;
   basis_ = scale.asDiagonal() * eigen.eigenvectors().rightCols(rows_ - dropped);
   const MatXd left_out = scale.asDiagonal() * eigen.eigenvectors().leftCols(dropped);
-  null_space_.resize(rows_, dropped);
-  if (dropped > 0) {
-    null_space_ = Eigen::HouseholderQR<MatXd>(left_out).householderQ() * MatXd::Identity(rows_, dropped);
-  }
+  null_space_ = dropped > 0 ? orthonormal(left_out) : MatXd(rows_, 0);
   return rank();
 }
 

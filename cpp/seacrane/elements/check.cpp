@@ -1,7 +1,8 @@
 #include "seacrane/elements/check.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <sstream>
+
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 

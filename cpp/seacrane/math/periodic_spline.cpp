@@ -1,7 +1,8 @@
 #include "seacrane/math/periodic_spline.hpp"
 
-#include <Eigen/LU>
 #include <utility>
+
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 

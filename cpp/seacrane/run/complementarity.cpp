@@ -1,8 +1,9 @@
 #include "seacrane/run/complementarity.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
+
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 namespace {
@@ -20,11 +21,7 @@ VecXd carried(const MatXd& g, const VecXd& b, const Flags& carries) {
   }
   VecXd z = VecXd::Zero(b.size());
   if (at.empty()) return z;
-  Eigen::CompleteOrthogonalDecomposition<MatXd> part;
-  part.setThreshold(kDependent);
-  part.compute(g(at, at));
-  const VecXd right = -b(at), solved = part.solve(right);
-  z(at) = solved;
+  z(at) = shortest_solution(g(at, at), -b(at), kDependent);
   return z;
 }
 

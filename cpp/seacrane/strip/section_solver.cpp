@@ -1,10 +1,10 @@
 #include "seacrane/strip/section_solver.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "seacrane/math/dense.hpp"
 #include "seacrane/strip/complex.hpp"
 #include "seacrane/strip/exponential_integral.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <optional>
 #include <vector>
 
@@ -9,6 +7,7 @@
 #include "seacrane/dynamics/recursive/articulated.hpp"
 #include "seacrane/dynamics/recursive/sparse_loops.hpp"
 #include "seacrane/dynamics/terms.hpp"
+#include "seacrane/math/dense.hpp"
 
 namespace seacrane {
 
