@@ -14,6 +14,7 @@ from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
 from seacrane.description.rungs import compiled_loads
+from seacrane.description.water_contradicted import refuse_contradictions_in_water
 from seacrane.description.wave_grid import grid_of
 from seacrane.description.wave_selection import without_negligible
 from seacrane.description.waves import HullLoads, Waves
@@ -34,6 +35,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
 
 
 def _compiled(scene: Description, merge: bool) -> _core.Model:
+    refuse_contradictions_in_water(scene)
     scene = with_holds(scene)
     sea = None if scene.waves is None else pruned(scene.waves, prune=merge)
     for line in lines_of(scene.loads).values():
