@@ -94,8 +94,8 @@ class MonotoneSpline {
         sum += (b - a) * p.mean(a, b);
       } else {
         const double end = places_[i + 1] - places_[i];
-        sum += (T(end) - a) * p.mean(a, T(end)) + T(integral_[j][k] - integral_[i + 1][k]) +
-               b * q.mean(T(0), b);
+        sum +=
+            (T(end) - a) * p.mean(a, T(end)) + T(integral_[j][k] - integral_[i + 1][k]) + b * q.mean(T(0), b);
       }
       const T left = starts ? p.at(a) : T(0), right = q.at(b);
       out.mean[k] = sum / length;

@@ -26,10 +26,11 @@ namespace seacrane {
 ///   F = rho V (Du/Dt + g e_z) - A (a - Du/Dt) - s A' h' v - (d/dt of A by turning) v - drag,
 ///   M = -v x (A v) and the moment of buoyancy,   s = 1 on entry (h' > 0), 0 on exit.
 ///
-/// The added mass of a cylinder is the mean over its length of that of its circles, and each of them meets the
-/// surface in its own plane: at a depth of its centre of s the surface is s / cos(inclination) away. So a
+/// The added mass of a cylinder is the mean over its length of that of its circles, and each of them meets
+/// the surface in its own plane: at a depth of its centre of s the surface is s / cos(inclination) away. So a
 /// cylinder that lies has A(h) of a circle, an upright one as much as of its length is wet (Morison), and
-/// each between has what its strips have, however many. The end of a cylinder, a disc, likewise: see reach_disc.
+/// each between has what its strips have, however many. The end of a cylinder, a disc, likewise: see
+/// look_through_disc.
 ///
 /// Momentum A v is brought in on entry; half of |A' h'| v^2 goes with the jet, and as much remains in the
 /// water on exit. The moment is Munk's (Kirchhoff's equations; H. Lamb, Hydrodynamics, art. 124).
@@ -130,7 +131,7 @@ struct ImmersedPart {
     Vec3<T> half;                // of the widths along the vertical
     T below = T(0), reaches{0};  // its lowest point under its centre, and how fast that sinks
     Window<T> window;
-    FlowPlace<T> first;          // of the row, and what comes from strip to strip
+    FlowPlace<T> first;  // of the row, and what comes from strip to strip
     Vec3<T> step;
     std::span<const LocalFlow<double>> row;  // of a double, where a wave reaches it
   };
@@ -165,7 +166,7 @@ struct ImmersedPart {
   template <class T>
   void add_inertia(const LoadInput<T>& in, const Shared<T>& as, Mat6<T>* mass) const {
     const Place<T> at = place(in, as);
-    if (!(at.depth > T(0))) return;
+    if (!moves_water(as, at)) return;
     const Vec3<T> along = added_at(as, at).mass;
     const Mat3<T> weighted = as.axes * along.asDiagonal(), a = weighted * as.axes.transpose();
     add_mass_at<T>(at.lever, a, mass[body]);
@@ -188,7 +189,7 @@ struct ImmersedPart {
       force += braked;
       out.add_power(braked.dot(at.own));
     }
-    if (at.depth > T(0)) {
+    if (moves_water(as, at)) {
       const Carried<T> water = carried(as, at);
       force += water.force;
       moment = water.moment;
@@ -220,7 +221,7 @@ struct ImmersedPart {
           weight * wet.share * at.rise + add(Cause::waves, at.pulled * (d.density * volume * wet.share));
       out.power(Cause::drag) = add(Cause::drag, drag(at, wet));
     }
-    if (!(at.depth > 0.0)) return out;
+    if (!moves_water(as, at)) return out;
     const Added<double> here = added_at(as, at);
     const Carried<double> water = carried(as, at);
     const Vec3d driven = here.mass.cwiseProduct(at.pulled);
@@ -259,7 +260,7 @@ struct ImmersedPart {
  private:
   using Sides = std::array<Margin, 2>;
   static constexpr double kRound = 1e-3;      // of half a size, or of a cosine
-  static constexpr double kLeast = 1e-9;      // of a radius: an upright circle meets the surface at once
+  static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
   static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat
   static constexpr double kRoundEnds = 0.25;  // of the depth over which a disc is struck
 
@@ -308,36 +309,43 @@ struct ImmersedPart {
       as.below = T(0.5 * d.size[2]);
       return;
     }
-    const auto reach = [&](int axis, double half, const T& square, const T& square_rate, T& far, T& rate) {
+    const auto reach = [&](int axis, double half, const T& square, const T& square_rate) {
       const Rounded<T> share(square);
       as.half[axis] = width(half, square);
-      far = T(half) * share.value;
-      rate = T(half) * share.slope * square_rate;
-      as.below += far;
-      as.reaches += rate;
+      as.below += T(half) * share.value;
+      as.reaches += T(half) * share.slope * square_rate;
     };
-    Window<T>& w = as.window;
     for (int i = 0; i < (shape == Shape::box ? 3 : 1); ++i) {
       const T n = as.axes(2, i), n_rate = turning.x() * as.axes(1, i) - turning.y() * as.axes(0, i);
       const T square = n * n, square_rate = T(2) * n * n_rate;
-      const double half = 0.5 * d.size[1];
       if (shape == Shape::disc) {
         as.half[0] = T(edge);
-        reach(1, half, T(1) - square, -square_rate, w.across, w.across_rate);
-        reach_disc(n, n_rate, w);
-        continue;
+      } else {
+        reach(i, 0.5 * d.size[i], square, square_rate);
       }
-      reach(i, 0.5 * d.size[i], square, square_rate, w.along, w.along_rate);
-      if (shape != Shape::cylinder) continue;
-      reach(1, half, T(1) - square, -square_rate, w.across, w.across_rate);
-      w.across += T(kLeast * half);
+      if (!round()) continue;
+      reach(1, 0.5 * d.size[1], T(1) - square, -square_rate);
+      look_through(n, n_rate, as.window);
     }
+  }
+
+  /// With half of the length exact, so that strips add up to the whole.
+  template <class T>
+  void look_through(const T& n, const T& n_rate, Window<T>& w) const {
+    const double radius = 0.5 * d.size[1];
+    const Rounded<T> share(T(1) - n * n);
+    w.across = T(radius) * (share.value + T(kLeast));
+    w.across_rate = T(-2.0 * radius) * share.slope * n * n_rate;
+    if (shape == Shape::disc) return look_through_disc(n, n_rate, w);
+    const double half = n < T(0) ? -0.5 * d.size[0] : 0.5 * d.size[0];
+    w.along = T(half) * n;
+    w.along_rate = T(half) * n_rate;
   }
 
   /// A disc, x out of what it closes, gains its water over size[0] as it goes under facing up, by its C_S
   /// facing down, with rounded ends; one that stands on its edge gains it as it becomes wet.
   template <class T>
-  void reach_disc(const T& n, const T& n_rate, Window<T>& w) const {
+  void look_through_disc(const T& n, const T& n_rate, Window<T>& w) const {
     using std::sqrt;
     const double mean = 0.25 * (1.0 + kStruck) * d.size[0], odd = 0.25 * (1.0 - kStruck) * d.size[0];
     const double round = kRoundEnds * kStruck * d.size[0];
@@ -349,16 +357,24 @@ struct ImmersedPart {
     w.across += T(round);
   }
 
+  bool round() const { return shape == Shape::cylinder || shape == Shape::disc; }
+
+  /// Whether it has added mass.
+  template <class T>
+  bool moves_water(const Shared<T>& as, const Place<T>& at) const {
+    if (!round()) return at.depth > T(0);
+    return at.center + as.window.shift + as.window.along + as.window.across > T(0);
+  }
+
   template <class T>
   Added<T> added_at(const Shared<T>& as, const Place<T>& at) const {
-    if (shape != Shape::cylinder && shape != Shape::disc) {
+    if (!round()) {
       const auto here = added.at(at.depth);
       return {here.value, at.rate * here.slope};
     }
     const Window<T>& w = as.window;
     const T center = at.center + w.shift, radius = T(0.5 * d.size[1]), scale = radius / w.across;
-    const auto here =
-        added.over(radius + (center - w.along) * scale, radius + (center + w.along) * scale);
+    const auto here = added.over(radius + (center - w.along) * scale, radius + (center + w.along) * scale);
     const T sinks = at.rate - as.reaches + w.shift_rate, widens = w.across_rate / w.across;
     const T by_chord = scale * (sinks - center * widens);
     const T by_bend = T(2) * scale * (w.along_rate - w.along * widens);

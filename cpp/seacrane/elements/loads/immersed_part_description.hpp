@@ -36,11 +36,14 @@ struct ImmersedPartDescription {
   static constexpr auto fields() {
     using D = ImmersedPartDescription;
     return std::tuple(
-        on_body("body", &D::body), optional("shape", &D::shape, "", "'box', 'cylinder', 'disc', 'sphere' or 'table'"),
+        on_body("body", &D::body),
+        optional("shape", &D::shape, "", "'box', 'cylinder', 'disc', 'sphere' or 'table'"),
         optional("point", &D::point, "m", "its centre, body coordinates"),
         optional("axes", &D::axes, "", "columns: its axes in those of the body"),
-        required("size", &D::size, "m", "along its axes; of a cylinder, its length and twice its diameter; of a disc, an end of one that "
-                 "looks along x, first the depth over which it gains its water facing up"),
+        required(
+            "size", &D::size, "m",
+            "along its axes; of a cylinder, its length and twice its diameter; of a disc, an end of one that "
+            "looks along x, first the depth over which it gains its water facing up"),
         optional("fill", &D::fill, "", "share of its volume that keeps water out")
             .within(0.0, 1.0)
             .usually(2e-3, 1.0),
