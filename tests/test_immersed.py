@@ -298,7 +298,7 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
     else:
         length, diameter = rng.uniform(1.0, 3.0, 2)
         size = np.array([length, diameter, diameter])
-        part = CylinderPart(length=length, diameter=diameter, strips=1, drag=0.0)
+        part = CylinderPart(**SLICE | {"length": length, "diameter": diameter, "strips": 1})
         inside = lambda p: p[:, 1] ** 2 + p[:, 2] ** 2 < 0.25 * diameter**2  # noqa: E731
     center = float(rng.uniform(-0.5, 0.5))
     x, y, z, w = turn.as_quat()

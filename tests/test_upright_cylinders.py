@@ -17,7 +17,7 @@ G, RHO = 9.80665, 1025.0
 D, LENGTH = 8.0, 60.0
 R = 0.5 * D
 AREA, DISC = np.pi * R**2, 4.0 / 3.0 * R**3
-UP = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0))  # its x is the body's z: the first end is below
+UP = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # its x is up: the first end is below
 SHUT = ("closed", "closed")
 FORMS = ("recursive", "redundant")
 
@@ -104,8 +104,8 @@ def test_a_flooded_tube_carries_its_water_across_always_and_along_where_an_end_i
         assert found[0, 0] == pytest.approx((AREA + inside) * 30.0, rel=1e-6)
         end = DISC if ends[0] == "closed" else np.pi / 8.0 * wall**2 * 2.0 * np.pi * (R - 0.5 * wall)
         assert found[2, 2] == pytest.approx(along * inside * 30.0 + end, rel=1e-6)
-        lifted = simulate(scene, 0.01, dt_out=0.01, channels=["load_force"])["load_force"][0].reshape(3)
-        assert lifted[2] == pytest.approx(RHO * G * (AREA - inside) * 30.0, rel=1e-6)
+        lifted = simulate(scene, 0.01, dt_out=0.01, channels=["load_force"])["load_force"][0]
+        assert lifted.sum(axis=0)[2] == pytest.approx(RHO * G * (AREA - inside) * 30.0, rel=1e-6)
 
 
 def test_a_disc_is_struck_over_the_depth_of_its_slam_and_gains_the_rest_as_it_goes_under() -> None:
@@ -115,23 +115,28 @@ def test_a_disc_is_struck_over_the_depth_of_its_slam_and_gains_the_rest_as_it_go
     assert down == pytest.approx([0.25, 0.65, 1.0], abs=0.12)
     assert np.diff(down) == pytest.approx([0.4, 0.35], abs=0.1)
     up = [added(pile(LENGTH + x * layer, strips=1))[2, 2] / DISC - 1.0 for x in (0.0, 0.2, 0.7, 1.2)]
-    assert up == pytest.approx([0.0, 0.1, 0.6, 1.0], abs=1e-6)
+    assert up == pytest.approx([0.0, 0.1, 0.6, 1.0], abs=1e-5)
 
 
 @pytest.mark.slow("panels of three cylinders")
-@pytest.mark.parametrize(("length", "more"), [(0.5, (1.2, 1.45)), (1.0, (1.35, 1.6)), (3.0, (1.5, 1.8))])
+@pytest.mark.parametrize(
+    ("length", "ends", "circles"),
+    [(0.2, (1.05, 1.25), (0.12, 0.2)), (1.0, (1.3, 1.5), (0.4, 0.5)), (4.0, (1.5, 1.75), (0.7, 0.8))],
+)
 def test_discs_beside_the_panels_of_a_cylinder_far_below_the_surface(
-    length: float, more: tuple[float, float]
+    length: float, ends: tuple[float, float], circles: tuple[float, float]
 ) -> None:
     """Sides that are long against the radius add to the water that a face moves: 8/3 is that of a thin disc.
     Across, ends take from that of each circle."""
     pytest.importorskip("capytaine")
     angles = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
     rim = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    part = from_mesh(_shut(rim, length), draughts=(20.0,), panels=500)
+    part = from_mesh(_shut(rim, length), draughts=(20.0,), panels=300)
     deep = part.added_masses[-1] / RHO
-    assert more[0] < deep[2] / (2.0 * 4.0 / 3.0) < more[1]
-    assert 0.5 < deep[0] / (np.pi * length) < 1.0
+    own = sum(piece.added_masses[-1] for piece in CylinderPart(length=length, diameter=2.0).pieces(1.0))
+    assert own[0] == pytest.approx(8.0 / 3.0)
+    assert ends[0] < deep[2] / own[0] < ends[1]
+    assert circles[0] < deep[0] / own[1] < circles[1]
 
 
 def _shut(rim: Array, length: float) -> Array:
@@ -186,7 +191,7 @@ def test_the_ledger_closes_through_the_surface_and_both_formulations_agree(lean:
 def test_its_mirror_image_and_itself_turned_move_alike(heading: float) -> None:
     given: dict[str, Any] = {"dt_out": 0.1, "channels": ["position"], **EXACT}
     one, turned, image = (
-        np.asarray(simulate(scene, 2.0, **given).select("position", body="pile"))
+        np.array(simulate(scene, 2.0, **given).select("position", body="pile"))
         for scene in (thrown(lean=0.5), thrown(lean=0.5, heading=heading), thrown(lean=0.5, mirrored=True))
     )
     assert Rotation.from_euler("z", -heading).apply(turned) == pytest.approx(one, abs=1e-6)

@@ -68,7 +68,7 @@ def landed(*, bed: float, depth: float, tp: float = 8.0) -> Scene:
         (40.0, np.inf, 16.0, "wavenumbers differ by"),
         (14.0, 14.0, 8.0, ""),
         (60.0, np.inf, 8.0, ""),
-        (14.0, np.inf, 3.0, ""),
+        (14.0, np.inf, 5.0, ""),
     ],
 )
 def test_a_seabed_has_the_depth_of_the_sea_where_waves_feel_it(
@@ -134,36 +134,40 @@ def test_its_drag_is_that_of_the_height_that_is_wet() -> None:
         scene.add_immersed("load", parts=[frame(4.0)])
         force = simulate(scene, 0.01, dt_out=0.01, channels=["load_force"])["load_force"][0].reshape(3)
         pulls.append(-force[0] / (0.5 * 1025.0 * 9.0))
-    assert pulls == pytest.approx([0.25, 0.5, 1.0, 1.0], rel=1e-6)
+    share = np.array([0.25, 0.5, 1.0, 1.0])  # with a rounded end
+    assert pulls == pytest.approx(share + share**2 - share**3, rel=1e-6)
 
 
 # --- lines ----------------------------------------------------------------------------------------------
 
 
-def lowered(start: float, *, rate: float) -> Scene:
+def lowered(start: float, *, side: float = 9.0) -> Scene:
     mass = 30e3
     scene = Scene(name="mudmat", gravity=G)
     scene.add_body("load", mass=mass, size=(6, 4, 2), position=(0, 0, start))
+    lifted = 1025.0 * side**2 * 0.1 if start < 0.0 else 0.0
     scene.add_line(
         "w", first="ground", first_point=(0, 0, start + 31.0), second="load", EA=4e8, rung="auto",
-        tension_at_start=(mass - 1025.0 * 10.0 * 8.0 * 0.1 * (start < 0.0)) * G,
+        tension_at_start=(mass - lifted) * G,
     )  # fmt: skip
-    curve = Curve.quintic(start_time=1.0, end_time=4.0, start=0.0, end=rate)
+    curve = Curve.quintic(start_time=1.0, end_time=4.0, start=0.0, end=0.5)
     scene.add_winch("w", rate=curve, lag=0.3)
-    scene.add_immersed("load", parts=[PlatePart(size=(10, 8), thickness=0.1)])
+    scene.add_immersed("load", parts=[PlatePart(size=(side, side), thickness=0.1)])
     return scene
 
 
 def test_what_may_be_struck_by_the_water_hangs_on_elastic_lines() -> None:
-    told = simulate(lowered(2.0, rate=0.5), 3.0).stats["line_rungs"]
+    told = simulate(lowered(2.0), 3.0).stats["line_rungs"]
     assert told.startswith("w: elastic: immersed part 'load.1' is not under water, and slam is faster than")
-    assert simulate(lowered(-20.0, rate=0.5), 3.0).stats["line_rungs"].startswith("w: quasi-static")
+    assert simulate(lowered(-20.0), 3.0).stats["line_rungs"].startswith("w: quasi-static")
 
 
 def test_what_came_out_and_was_struck_again_is_run_again_with_elastic_lines() -> None:
-    scene = lowered(-1.0, rate=-0.5)
-    up_and_down = Curve.harmonic(amplitude=0.8, omega=0.6, phase=np.pi)
-    scene.replace("w", rate=up_and_down)
+    scene = lowered(-0.5, side=1.0)
+    down = Curve.quintic(start_time=5.0, end_time=8.0, start=-0.5, end=0.5)
+    up = Curve.quintic(start_time=1.0, end_time=3.0, start=0.0, end=-0.5)
+    scene.replace("w", rate=up.then(time=5.0, curve=down))
     with pytest.warns(LineRungWarning, match=r"part 'load\.1': slam is fast, and it met water at t = \d+"):
         run = simulate(scene, 12.0, dt_out=0.1)
     assert run.stats["line_rungs"].startswith("w: elastic: a first run was not")
+    assert run["position"][:, 0, 2].max() > 0.1, "it was out"

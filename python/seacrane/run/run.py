@@ -275,7 +275,7 @@ class Run:
             return ""
         struck = {f"{name}.touch": name for name in immersed_parts(self.scene)}
         for time, name, *_ in self.core.events():
-            if name in struck:
+            if name in struck and time > self.start.time:
                 return f"immersed part {struck[name]!r}: slam is fast, and it met water at t = {time:.6g} s"
         arrays = self.core.channels()
         if "line_tension" not in arrays:

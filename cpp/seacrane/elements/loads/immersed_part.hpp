@@ -334,8 +334,8 @@ struct ImmersedPart {
   void look_through(const T& n, const T& n_rate, Window<T>& w) const {
     const double radius = 0.5 * d.size[1];
     const Rounded<T> share(T(1) - n * n);
-    w.across = T(radius) * (share.value + T(kLeast));
-    w.across_rate = T(-2.0 * radius) * share.slope * n * n_rate;
+    w.across = T(radius) * (T(1.0 - kLeast) * share.value + T(kLeast));
+    w.across_rate = T(-2.0 * (1.0 - kLeast) * radius) * share.slope * n * n_rate;
     if (shape == Shape::disc) return look_through_disc(n, n_rate, w);
     const double half = n < T(0) ? -0.5 * d.size[0] : 0.5 * d.size[0];
     w.along = T(half) * n;
