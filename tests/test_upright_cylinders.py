@@ -173,10 +173,18 @@ EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-10}
 CHANNELS = ["position", "load_state", "energy_balance", "absolute_work"]
 
 
-@pytest.mark.parametrize("lean", [0.0, 0.5, np.pi / 2.0])
-def test_the_ledger_closes_through_the_surface_and_both_formulations_agree(lean: float) -> None:
+TUBE: dict[str, Any] = {"ends": ("open", "closed"), "wall": 0.05, "flooded": True}
+
+
+@pytest.mark.parametrize(
+    ("lean", "part"),
+    [(0.0, {}), (0.5, {}), (np.pi / 2.0, {}), (0.3, TUBE), (2.5, TUBE), (0.4, {"strips": 1})],
+)
+def test_the_ledger_closes_through_the_surface_and_both_formulations_agree(
+    lean: float, part: dict[str, Any]
+) -> None:
     runs = [
-        simulate(thrown(lean=lean), 3.0, dt_out=0.1, channels=CHANNELS, formulation=form, **EXACT)
+        simulate(thrown(lean=lean, **part), 3.0, dt_out=0.1, channels=CHANNELS, formulation=form, **EXACT)
         for form in FORMS
     ]
     for run in runs:

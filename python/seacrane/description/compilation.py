@@ -79,9 +79,11 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
 
     The scene belongs to the model from now on: it is not to be changed.
 
-    Raises SceneError for a sea on other vessels than the model's, or loads at another kind of position.
+    Raises SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea
+    of another depth than a seabed.
     """
     assert scene.waves is not None
+    refuse_contradictions_in_water(scene)
     _, merge = model.compiled_from
     sea = pruned(scene.waves, prune=merge)
     out = model.in_sea(compiled_waves(sea), sea=field_of(sea))
