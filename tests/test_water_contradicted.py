@@ -48,6 +48,14 @@ def test_parts_of_a_hull_without_volume_or_in_the_air_are_taken() -> None:
     assert np.abs(heave - heave[0]).max() < 1e-6
 
 
+def test_a_hull_that_is_led_takes_no_buoyancy_and_is_not_judged() -> None:
+    scene = Scene(name="led", gravity=G)
+    scene.add_given_vessel(shipped_database())
+    scene.add_sea(hs=1.0, tp=8.0, direction_deg=90.0, seed=1, gamma=3.3)
+    scene.add_immersed("vessel", parts=[BoxPart(size=(4.0, 4.0, 4.0))])
+    assert list(scene.compile().axes["load"]) == ["vessel.1"]
+
+
 # --- seabeds --------------------------------------------------------------------------------------------
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seacrane import _core
-from seacrane.description.given import floating_bodies
+from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.places import placed
 from seacrane.description.wet_parts import displaced_volume, half_height, immersed_parts
 from seacrane.errors import SceneError
@@ -36,7 +36,7 @@ def starts_wet(scene: Description, part: _core.ImmersedPart) -> tuple[float, flo
 
 
 def _refuse_parts_of_hulls(scene: Description) -> None:
-    hulls = floating_bodies(scene)
+    hulls = floating_bodies(scene) - set(given_vessels(scene))  # which go as they are given
     for part in immersed_parts(scene).values() if hulls else ():
         if part.body in hulls and displaced_volume(part) > 0.0 and starts_wet(scene, part)[1] > 0.0:
             raise SceneError(
