@@ -67,7 +67,7 @@ def test_a_leaning_pile_has_as_much_however_many_strips_and_that_of_each_circle_
     few, some, many = (added(scene) for scene in scenes)
     assert few == pytest.approx(many, rel=1e-7, abs=1e-7 * AREA * LENGTH)
     assert some == pytest.approx(many, rel=1e-7, abs=1e-7 * AREA * LENGTH)
-    along = np.linspace(-20.0, LENGTH - 20.0, 200_001)  # of its centre line from the surface on, up
+    along = np.linspace(-20.0, LENGTH - 20.0, 20_001)  # of its centre line from the surface on, up
     depth = -along * np.cos(angle)
     plane = depth / np.sin(angle) if lean else np.where(depth > 0.0, np.inf, -np.inf)
     each = np.pi * np.ones_like(plane) * (plane > 0.0)
