@@ -35,7 +35,6 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
 
 
 def _compiled(scene: Description, merge: bool) -> _core.Model:
-    refuse_contradictions_in_water(scene)
     scene = with_holds(scene)
     sea = None if scene.waves is None else pruned(scene.waves, prune=merge)
     for line in lines_of(scene.loads).values():
@@ -59,6 +58,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
         merge=merge,
         **({} if sea is None else {"sea": field_of(sea)}),
     )
+    refuse_contradictions_in_water(scene)
     warn_of_moves(scene, model)
     if model.redundant:
         warn_caller(
@@ -83,10 +83,10 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     of another depth than a seabed.
     """
     assert scene.waves is not None
-    refuse_contradictions_in_water(scene)
     _, merge = model.compiled_from
     sea = pruned(scene.waves, prune=merge)
     out = model.in_sea(compiled_waves(sea), sea=field_of(sea))
+    refuse_contradictions_in_water(scene)
     out.compiled_from = (scene, merge)
     return out
 
