@@ -29,6 +29,7 @@ Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11}
 FORMS = ("recursive", "redundant")
+SLICE: dict[str, Any] = {"length": 1.0, "diameter": 1.0, "drag": 0.0, "ends": ("joined", "joined")}
 
 
 def dropped(
@@ -102,7 +103,7 @@ def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
     [
         BoxPart(size=(3.0, 2.0, 1.5), strips=(3, 2)),
         PlatePart(size=(4.0, 2.5), thickness=0.05, perforation=0.2, strips=(2, 2)),
-        CylinderPart(length=7.0, diameter=1.2),
+        CylinderPart(length=7.0, diameter=1.2, ends=("joined", "joined")),
     ],
     ids=lambda part: part.kind,
 )
@@ -140,7 +141,7 @@ DROPS = {
 @pytest.mark.parametrize("formulation", FORMS)
 @pytest.mark.parametrize("mass", DROPS)
 def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(mass: float, formulation: str) -> None:
-    result = run(dropped(CylinderPart(length=1.0, diameter=1.0, drag=0.0), mass=mass), 0.3, 0.01, formulation)
+    result = run(dropped(CylinderPart(**SLICE), mass=mass), 0.3, 0.01, formulation)
     z, rate = heights(result)
     loss = np.asarray(result["load_state"]).reshape(-1)
     at = [int(np.argmin(np.abs(np.asarray(result.time) - t))) for t in TIMES]
@@ -153,7 +154,7 @@ def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(mass: float, form
 
 def sunk_and_risen() -> Scene:
     """A light cylinder that goes in, comes out and falls in again."""
-    return dropped(CylinderPart(length=1.0, diameter=1.0, drag=0.0), mass=150.0, depth=-0.2, speed=6.0)
+    return dropped(CylinderPart(**SLICE), mass=150.0, depth=-0.2, speed=6.0)
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -182,7 +183,7 @@ def test_momentum_closes_through_entry_exit_and_entry(formulation: str) -> None:
 @pytest.mark.parametrize("formulation", FORMS)
 def test_without_weight_momentum_is_shared_on_entry_and_taken_along_on_no_exit(formulation: str) -> None:
     """(m + A) v on the way in; on the way out v stays, and A v stays behind in the water."""
-    mass, part = 300.0, CylinderPart(length=1.0, diameter=1.0, drag=0.0, end_drag=0.0)
+    mass, part = 300.0, CylinderPart(**SLICE)
     for depth, speed, enters in ((0.0, 4.0, True), (2.5, -4.0, False)):
         scene = Scene(name="no weight", gravity=0.0)
         scene.add_body(
@@ -242,7 +243,10 @@ def test_a_slender_body_turns_broadside_by_the_moment_of_munk() -> None:
         name="load", mass=mass, inertia=(100.0, inertia, inertia), position=(0.0, 0.0, -200.0),
         velocity=(2.0, 0.3, 0.0),
     )  # fmt: skip
-    scene.add_immersed("load", parts=[CylinderPart(length=length, diameter=diameter, drag=0.0, strips=6)])
+    scene.add_immersed(
+        "load",
+        parts=[CylinderPart(length=length, diameter=diameter, drag=0.0, strips=6, ends=("joined", "joined"))],
+    )
     result = run(scene, 6.0, 0.5)
 
     def rates(_t: float, y: Array) -> list[float]:
@@ -294,7 +298,7 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
     else:
         length, diameter = rng.uniform(1.0, 3.0, 2)
         size = np.array([length, diameter, diameter])
-        part = CylinderPart(length=length, diameter=diameter, strips=1, drag=0.0)
+        part = CylinderPart(**SLICE | {"length": length, "diameter": diameter, "strips": 1})
         inside = lambda p: p[:, 1] ** 2 + p[:, 2] ** 2 < 0.25 * diameter**2  # noqa: E731
     center = float(rng.uniform(-0.5, 0.5))
     x, y, z, w = turn.as_quat()

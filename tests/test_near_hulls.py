@@ -14,7 +14,7 @@ from seacrane.description.outline import ship_size
 from seacrane.hydro import shipped_database
 from seacrane.run import Run
 from seacrane.warnings import ScatteredWavesWarning
-from seacrane.water import SpherePart
+from seacrane.water import BoxPart, SpherePart
 
 
 def lowered(
@@ -88,5 +88,7 @@ def test_a_factor_that_is_stated_is_not_told_and_multiplies_the_waves() -> None:
 
 def test_a_part_of_the_ship_herself_is_not_judged() -> None:
     scene = lowered(y=500.0)
-    scene.add_immersed("vessel", parts=[SpherePart(diameter=1.0, point=(0.0, 0.0, -4.0))], name="bulb")
+    scene.add_immersed(
+        "vessel", parts=[BoxPart(size=(4.0, 0.3, 0.3), fill=0.0, point=(0.0, 0.0, -4.0))], name="keel"
+    )
     assert told(scene) == []

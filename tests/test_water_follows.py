@@ -514,6 +514,9 @@ source = "another tank"
 kind = "cylinder"
 length_m = 3
 diameter_m = 0.5
+ends = ["open", "closed"]
+wall_m = 0.02
+flooded = true
 strips = [4]
 slam = 4
 drag = 0.9
@@ -569,7 +572,10 @@ def every_part() -> Scene:
             size=(1, 2), thickness=0.1, strips=(1, 2), slam=5.5, drag=3, perforation=0.1,
             added_mass=(0, 0, 30), source="another tank",
         ),
-        CylinderPart(length=3, diameter=0.5, strips=4, slam=4, drag=0.9, end_drag=0.8),
+        CylinderPart(
+            length=3, diameter=0.5, strips=4, slam=4, drag=0.9, end_drag=0.8, wall=0.02,
+            ends=("open", "closed"), flooded=True,
+        ),
         SpherePart(diameter=0.4, drag=0.4),
         TablePart(height=1, drag_area=(0.1, 0.2, 0.3), source="a third", **tables),
     ]  # fmt: skip

@@ -2362,12 +2362,12 @@ class ImmersedPart:
     @property
     def shape(self) -> str:
         """
-        'box', 'cylinder', 'sphere' or 'table'
+        'box', 'cylinder', 'disc', 'sphere' or 'table'
         """
     @property
     def size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m, along its axes; of a cylinder, its length and twice its diameter
+        m, along its axes; of a cylinder, its length and twice its diameter; of a disc, an end of one that looks along x, first the depth over which it gains its water facing up
         """
     @property
     def slow_added_masses(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:

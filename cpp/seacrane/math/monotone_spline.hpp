@@ -61,6 +61,50 @@ class MonotoneSpline {
     return out;
   }
 
+  /// From `from` to `to`, of which `to` is beyond the first knot, and before which all is zero: the mean, the
+  /// slope of the chord, and how far the mean of the ends is above the mean, over the length.
+  template <class T>
+  struct Over {
+    Eigen::Matrix<T, N, 1> mean, chord, bend;
+  };
+  template <class T>
+  Over<T> over(const T& from, const T& to) const {
+    Over<T> out;
+    const T first = T(places_.front()), last = T(places_.back());
+    if (from >= last) {
+      out.mean = last_.template cast<T>();
+      out.chord.setZero();
+      out.bend.setZero();
+      return out;
+    }
+    const bool starts = from >= first, ends = to <= last;
+    const T low = starts ? from : first, high = ends ? to : last;
+    const std::size_t i = piece(low), j = piece(high);
+    const T a = low - T(places_[i]), b = high - T(places_[j]), length = to - from;
+    for (int k = 0; k < N; ++k) {
+      const Cubic p = cubic(i, k), q = cubic(j, k);
+      if (starts && ends && i == j) {  // nothing is a difference of like numbers
+        out.mean[k] = p.mean(a, b);
+        out.chord[k] = p.chord(a, b);
+        out.bend[k] = p.bend(a, b);
+        continue;
+      }
+      T sum = ends ? T(0) : T((to - last) * T(last_[k]));
+      if (i == j) {
+        sum += (b - a) * p.mean(a, b);
+      } else {
+        const double end = places_[i + 1] - places_[i];
+        sum +=
+            (T(end) - a) * p.mean(a, T(end)) + T(integral_[j][k] - integral_[i + 1][k]) + b * q.mean(T(0), b);
+      }
+      const T left = starts ? p.at(a) : T(0), right = q.at(b);
+      out.mean[k] = sum / length;
+      out.chord[k] = (right - left) / length;
+      out.bend[k] = (T(0.5) * (left + right) - out.mean[k]) / length;
+    }
+    return out;
+  }
+
   /// From the first knot to `place`.
   Row integral(double place) const {
     if (place >= places_.back()) return integral_.back() + (place - places_.back()) * last_;
@@ -70,6 +114,32 @@ class MonotoneSpline {
 
  private:
   using Piece = std::array<Row, 4>;
+  /// One component of a piece, from its first knot; and between two of its places.
+  struct Cubic {
+    double c0, c1, c2, c3;
+
+    template <class T>
+    T at(const T& x) const {
+      return T(c0) + x * (T(c1) + x * (T(c2) + x * T(c3)));
+    }
+    template <class T>
+    T mean(const T& a, const T& b) const {
+      const T sum = a + b, squares = a * a + b * b;
+      return T(c0) + T(c1 / 2.0) * sum + T(c2 / 3.0) * (squares + a * b) + T(c3 / 4.0) * sum * squares;
+    }
+    template <class T>
+    T chord(const T& a, const T& b) const {
+      return T(c1) + T(c2) * (a + b) + T(c3) * (a * a + a * b + b * b);
+    }
+    template <class T>
+    T bend(const T& a, const T& b) const {
+      return (b - a) * (T(c2 / 6.0) + T(c3 / 4.0) * (a + b));
+    }
+  };
+  Cubic cubic(std::size_t i, int k) const {
+    const Piece& p = pieces_[i];
+    return {p[0][k], p[1][k], p[2][k], p[3][k]};
+  }
 
   template <class T>
   std::size_t piece(const T& place) const {

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 # Of a box with the second moments of a disc and a ball, as in the engine, over the diameter.
 DISC, BALL = np.sqrt(0.75), np.sqrt(0.6)
-SIZES = {"cylinder": (1.0, DISC, DISC), "sphere": (BALL, BALL, BALL)}
+SIZES = {"cylinder": (1.0, DISC, DISC), "disc": (0.0, DISC, DISC), "sphere": (BALL, BALL, BALL)}
 SHALLOW = 20.0  # of k d, beyond which water is deep
 
 

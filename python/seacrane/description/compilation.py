@@ -14,6 +14,7 @@ from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
 from seacrane.description.rungs import compiled_loads
+from seacrane.description.water_contradicted import refuse_contradictions_in_water
 from seacrane.description.wave_grid import grid_of
 from seacrane.description.wave_selection import without_negligible
 from seacrane.description.waves import HullLoads, Waves
@@ -57,6 +58,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
         merge=merge,
         **({} if sea is None else {"sea": field_of(sea)}),
     )
+    refuse_contradictions_in_water(scene)
     warn_of_moves(scene, model)
     if model.redundant:
         warn_caller(
@@ -77,12 +79,14 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
 
     The scene belongs to the model from now on: it is not to be changed.
 
-    Raises SceneError for a sea on other vessels than the model's, or loads at another kind of position.
+    Raises SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea
+    of another depth than a seabed.
     """
     assert scene.waves is not None
     _, merge = model.compiled_from
     sea = pruned(scene.waves, prune=merge)
     out = model.in_sea(compiled_waves(sea), sea=field_of(sea))
+    refuse_contradictions_in_water(scene)
     out.compiled_from = (scene, merge)
     return out
 

@@ -47,6 +47,7 @@ def displaced_volume(part: _core.ImmersedPart) -> float:
     volumes = {
         "box": np.prod(size),
         "cylinder": np.pi / 4.0 * size[0] * size[1] ** 2,
+        "disc": 0.0,
         "sphere": np.pi / 6.0 * size[0] ** 3,
     }
     whole = volumes.get(part.shape)
@@ -72,9 +73,10 @@ def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
     size, up = np.asarray(part.size, dtype=float), np.abs(turn[..., 2, :])
     if part.shape == "box":
         return np.asarray(0.5 * up @ size)
-    if part.shape == "cylinder":
+    if part.shape in ("cylinder", "disc"):
         across = np.sqrt(np.maximum(1.0 - up[..., 0] ** 2, 0.0))
-        return np.asarray(0.5 * (size[0] * up[..., 0] + size[1] * across))
+        length = size[0] if part.shape == "cylinder" else 0.0
+        return np.asarray(0.5 * (length * up[..., 0] + size[1] * across))
     return np.full(turn.shape[:-2], 0.5 * size[2])
 
 

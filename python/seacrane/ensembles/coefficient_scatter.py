@@ -155,7 +155,7 @@ def _shapes(scene: Scene) -> list[str]:
 
 def _shape(load: Any) -> str:
     if isinstance(load, _core.ImmersedPart):
-        return str(load.shape)
+        return "cylinder" if load.shape == "disc" else str(load.shape)  # its ends
     return SPAN if isinstance(load, _core.ImmersedSpan) else ""
 
 

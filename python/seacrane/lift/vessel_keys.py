@@ -105,6 +105,7 @@ def part_keys() -> tuple[Key, ...]:
         "strips": {"type": "array", "shapes": ((2,), (1,), ())},
         "drag_area": {"type": "array", "unit": "m2", "shapes": ((3,),)},
         "mesh": {"type": "file", "text": "Of a mesh: an STL or glTF file."},
+        "ends": {"type": "texts"}, "wall": LENGTH,
         "draughts": ROW | {"unit": "m"}, "slam": {"type": "number"}, "wetting": {"type": "number"},
     }  # fmt: skip
     of_mesh = keys_of(from_mesh, more=more, without=("density",))

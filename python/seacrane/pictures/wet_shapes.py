@@ -18,7 +18,8 @@ THINNEST = 0.01  # m, that is drawn of a plate
 def wet_shapes(scene: Description, body: str) -> list[Shape]:
     """Of all its parts, relative to its centre of mass, body axes, m."""
     centre = np.asarray(scene.bodies[body].center_of_mass, dtype=float)
-    return [_shape(part, centre) for part in immersed_parts(scene).values() if part.body == body]
+    parts = [part for part in immersed_parts(scene).values() if part.body == body and part.shape != "disc"]
+    return [_shape(part, centre) for part in parts]
 
 
 def _shape(part: _core.ImmersedPart, centre: Array) -> Shape:

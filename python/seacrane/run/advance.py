@@ -46,16 +46,16 @@ def ended(
 ) -> Run:
     """Advance a run to its end, or to where Ctrl-C stops it, and return it.
 
-    Where a line that rung "auto" made quasi-static went slack or pushed, it is another run that is returned:
-    one from the same start with elastic lines. Errors carry the outputs until then as their `result`.
+    Where a line that rung "auto" made quasi-static went slack or pushed, or water struck what hangs on it, it
+    is another run that is returned: one from the same start with elastic lines. Errors carry the outputs
+    until then as their `result`.
     """
     with _carrying(run):
         try:
             drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
-            pushing = "" if run.interrupted else run.pushing()
-            if not pushing:
+            what = "" if run.interrupted else run.unsettled()
+            if not what:
                 return run
-            what = f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment"
         except LineSlackError as error:
             if not run.settled:
                 raise

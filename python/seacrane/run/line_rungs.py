@@ -18,6 +18,8 @@ from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, on_winch
 from seacrane.description.once import once
 from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
+from seacrane.description.water_contradicted import starts_wet
+from seacrane.description.wet_parts import immersed_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
@@ -133,6 +135,9 @@ def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool, controlled
     for load in scene.all_loads():
         if type(load).OWN_PACE:  # it strikes, or nobody knows its frequency
             return f"{type(load).__name__} {load.name!r} may shake a line faster than anything known"
+    for name, part in immersed_parts(scene).items():
+        if starts_wet(scene, part)[0] < 0.0:
+            return f"immersed part {name!r} is not under water, and slam is faster than anything known"
     return ""
 
 

@@ -22,6 +22,7 @@ from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
+from seacrane.description.wet_parts import immersed_parts
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
@@ -268,14 +269,21 @@ class Run:
         """Lines that rung "auto" made quasi-static."""
         return [name for name, rung in self.rungs.items() if rung.name == QUASI_STATIC]
 
-    def pushing(self) -> str:
-        """One of these whose recorded tension is negative somewhere; or none."""
-        arrays = self.core.channels() if self.settled else {}
+    def unsettled(self) -> str:
+        """What in a run so far shows that a line which "auto" settled is not quasi-static; or nothing."""
+        if not self.settled:
+            return ""
+        struck = {f"{name}.touch": name for name in immersed_parts(self.scene)}
+        for time, name, *_ in self.core.events():
+            if name in struck and time > self.start.time:
+                return f"immersed part {struck[name]!r}: slam is fast, and it met water at t = {time:.6g} s"
+        arrays = self.core.channels()
         if "line_tension" not in arrays:
             return ""
         least = arrays["line_tension"].min(axis=0, initial=0.0)
         pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
-        return next((name for name in pushed if name in self.rungs), "")
+        line = next((name for name in pushed if name in self.rungs), "")
+        return line and f"line {line!r}: its stretch is quasi-static, and it pushed for a moment"
 
     def with_elastic_lines(self, what: str) -> Run:
         """This run at its start, with elastic lines in the place of those that "auto" settled.

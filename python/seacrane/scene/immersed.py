@@ -86,7 +86,7 @@ def add_immersed(
         axes = np.asarray(part.axes, dtype=float)
         for piece in part.pieces(density):
             element = _core.ImmersedPart(
-                name=f"{label}.{len(out) + 1}", body=owner, shape=piece.shape, axes=axes,
+                name=f"{label}.{len(out) + 1}", body=owner, shape=piece.shape, axes=axes @ piece.turn,
                 point=np.asarray(part.point, dtype=float) + axes @ piece.offset, size=piece.size,
                 row=f"{label} part {number} row {piece.row + 1}" if piece.count > 1 else "",
                 place=piece.place, count=piece.count, step=axes @ piece.step,

@@ -283,6 +283,8 @@ def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     body, sizes = around.scene.bodies[part.body], np.sort(part.size)
     reach = 2.0 * math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)  # of a box with it
     longest, face = float(sizes[2]), float(sizes[1] * sizes[2])
+    if part.shape == "disc":  # all that it has is that of its size
+        return
     if part.place == 0:
         whole = max(longest, part.count * float(np.linalg.norm(part.step)))
         yield Proportion("size", "{:.3g} times the body's size", _over(whole, reach), 3e-3, 20.0, "m")

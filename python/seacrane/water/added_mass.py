@@ -11,7 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-CIRCLE_SOURCE = "Greenhow and Li 1987 to awash, images in the free surface below it"
+CIRCLE_SOURCE = (
+    "Greenhow and Li 1987 to awash, images in the free surface below it, in the plane of each circle; "
+    "ends: one side of a disc"
+)
 PLATE_SOURCE = "DNV-RP-N103 (plate, height; unverified), half of it where one side is wet"
 SPHERE_SOURCE = (
     "von Karman's disc, Hulme 1982 at half depth (C_A 0.5), first image below; between: unverified"
@@ -70,6 +73,26 @@ def circle_table() -> tuple[Array, Array]:
     values = circle_added_mass(depths)
     values[-1] = np.pi
     return depths, values
+
+
+def disc_added_mass(radius: float) -> float:
+    """Added mass of one side of a disc along its axis, over the density, m3: 4/3 radius^3 (H. Lamb,
+    Hydrodynamics, art. 102: 8/3 of both)."""
+    return 4.0 / 3.0 * radius**3
+
+
+def ring_added_mass(radius: float, wall: float) -> float:
+    """Of one side of a ring of outer radius and width (m), along its axis, over the density, m3.
+
+    That of a flat strip, pi/8 wall^2 for each metre, along the ring's mean circle: for thin walls.
+    """
+    return np.pi / 8.0 * wall**2 * 2.0 * np.pi * (radius - 0.5 * wall)
+
+
+def disc_share(depth: Array) -> Array:
+    """Share of a disc on its edge that is wet, with its lowest point at a depth, in radii."""
+    x = np.clip(depth - 1.0, -1.0, 1.0)
+    return np.asarray(0.5 + (x * np.sqrt(1.0 - x**2) + np.arcsin(x)) / np.pi)
 
 
 def plate_factor(short_over_long: float) -> float:

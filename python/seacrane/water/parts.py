@@ -31,9 +31,12 @@ from seacrane.water.added_mass import (
     SPHERE_SOURCE,
     box_deep,
     circle_table,
+    disc_added_mass,
+    disc_share,
     perforation_factor,
     plate_factor,
     ramp,
+    ring_added_mass,
     sphere_table,
     step,
 )
@@ -42,6 +45,8 @@ Array = NDArray[np.float64]
 
 LEAST_SLAM_ROUND, LEAST_SLAM = 3.0, 5.0  # DNV-RP-N103 (unverified)
 CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it touches
+DISC_DRAG = 1.17  # C_D of a thin disc across the flow (Hoerner, Fluid-Dynamic Drag; unverified)
+CLOSED, OPEN, JOINED = "closed", "open", "joined"  # what an end of a cylinder is
 MOST_PERFORATION = 0.5  # where the factor ends
 RAMP_KNOTS = 40
 MOST_STRIPS = 1000
@@ -68,6 +73,7 @@ class Piece:
     place: int = 0
     count: int = 1
     step: Array = field(default_factory=lambda: np.zeros(3))
+    turn: Array = field(default_factory=lambda: np.eye(3))  # columns: its axes in those of the part
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -288,14 +294,25 @@ class CylinderPart(_Part):
         much faster, within a tenth of the radius.
     drag : float
         C_D across, of diameter times length. Default 1.2: below its critical Reynolds number, DNV-RP-C205.
+    ends : tuple of str
+        What is at its first end (x < 0) and at its last: "closed", a disc; "open", the ring of its `wall`;
+        "joined" to something else, with nothing of its own.
     end_drag : float
-        C_D along it, of the area of its end.
+        C_D along it of what its ends close, half of it at each. Default 1.17: a thin disc.
+    wall : float, optional
+        m, thickness of a tube's wall; an open end needs it.
+    flooded : bool, optional
+        Of a tube: True where the water in it stands as high as outside. Its wall alone keeps water out then;
+        what is in it goes along across, and also along it unless both ends are open. False: the whole
+        keeps water out, or `add_entrapped_water` brings it in. An open end needs it.
     point, axes, source
         As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
 
     Notes
     -----
-    The added mass across is that of a circle at each depth, the same in all directions across, none along.
+    Across, each circle has the added mass of its distance from the surface in its own plane: a cylinder that
+    lies that of its depth, an upright one density pi/4 diameter^2 of what is wet (Morison's C_A of 1). Along
+    it each closed end has that of one side of a disc, 4/3 density radius^3.
     """
 
     length: float
@@ -303,7 +320,10 @@ class CylinderPart(_Part):
     strips: int | None = None
     slam: float = CIRCLE_SLAM
     drag: float = 1.2
-    end_drag: float = 0.0
+    ends: tuple[str, str] = (CLOSED, CLOSED)
+    end_drag: float = DISC_DRAG
+    wall: float | None = None
+    flooded: bool | None = None
 
     kind: ClassVar[str] = "cylinder"
 
@@ -316,6 +336,29 @@ class CylinderPart(_Part):
         _check_slam("cylinder", self.slam, LEAST_SLAM_ROUND)
         not_negative_of("cylinder: drag", self.drag)
         not_negative_of("cylinder: end_drag", self.end_drag)
+        self._check_tube()
+
+    def _check_tube(self) -> None:
+        ends = self.ends if isinstance(self.ends, tuple | list) else ()
+        if len(ends) != 2 or not set(ends) <= {CLOSED, OPEN, JOINED}:
+            raise SceneError(
+                f"cylinder: ends is {shown(self.ends)}; give what its first end (x < 0) and its last are, "
+                f"each {CLOSED!r}, {OPEN!r} or {JOINED!r}"
+            )
+        if self.wall is not None and not 0.0 < number_of("cylinder: wall", self.wall) <= 0.5 * self.diameter:
+            raise SceneError(
+                f"cylinder: wall is {self.wall:g} m; give its thickness in m, above 0 and up to half of the "
+                f"diameter of {self.diameter:g} m"
+            )
+        if self.wall is None and (OPEN in ends or self.flooded):
+            raise SceneError(
+                "cylinder: an open or flooded tube needs the thickness of its wall; give wall in m"
+            )
+        if self.flooded is None and OPEN in ends:
+            raise SceneError(
+                "cylinder: has an open end; say flooded=True where the water in it stands as high as "
+                "outside, flooded=False where nothing or add_entrapped_water brings it in"
+            )
 
     @property
     def extent(self) -> float:
@@ -323,9 +366,7 @@ class CylinderPart(_Part):
 
     @property
     def sources(self) -> str:
-        own = (
-            f"C_S {self.slam:.4g}, C_D {self.drag:g}, {self.end_drag:g} at its ends: DNV-RP-C205 (unverified)"
-        )
+        own = f"C_S {self.slam:.4g}, C_D {self.drag:g}, {self.end_drag:g} along it: DNV-RP-C205 (unverified)"
         return f"{self.source or CIRCLE_SOURCE}; {own}"
 
     def pieces(self, density: float) -> Iterator[Piece]:
@@ -336,16 +377,43 @@ class CylinderPart(_Part):
         shares, values = circle_table()
         faster = max(self.slam / CIRCLE_SLAM, 1.0)
         depths = radius * _wetted_at(shares, faster)
-        across = density * radius**2 * self.length / count * values
+        hollow = self._hollow() if self.flooded else 0.0
+        inside = hollow * disc_share(depths / radius)  # what is in it comes in as the circle becomes wet
+        scale = density * radius**2 * self.length / count
+        across, along = scale * (values + np.pi * inside), scale * np.pi * inside
+        if self.ends[0] == self.ends[1] == OPEN:
+            along = np.zeros_like(along)
         size = np.array([self.length / count, self.diameter, self.diameter])
         side = 0.5 * density * self.drag * self.diameter * self.length
-        end = 0.5 * density * self.end_drag * np.pi * radius**2
         for cell in _cells(np.array([self.length, 0.0, 0.0]), (count, 1)):
             yield Piece(
-                **cell, shape="cylinder", size=size, depths=depths,
-                added_masses=np.stack([np.zeros_like(across), across, across], axis=1),
-                drag=np.array([end, side, side]) / count,
+                **cell, shape="cylinder", size=size, depths=depths, fill=1.0 - hollow,
+                added_masses=np.stack([along, across, across], axis=1),
+                drag=np.array([0.0, side, side]) / count,
             )  # fmt: skip
+        for way, end in zip((-1.0, 1.0), self.ends, strict=True):
+            if end != JOINED:
+                yield self._end(way, density, end == OPEN)
+
+    def _hollow(self) -> float:
+        """Share of its section within the wall."""
+        return float((1.0 - 2.0 * (self.wall or 0.0) / self.diameter) ** 2)
+
+    def _end(self, way: float, density: float, is_open: bool) -> Piece:
+        """The disc, or the ring, that closes its first (way -1) or its last end."""
+        radius = 0.5 * self.diameter
+        area, mass = np.pi * radius**2, disc_added_mass(radius)
+        if is_open:
+            area *= 1.0 - self._hollow()
+            mass = min(mass, ring_added_mass(radius, float(self.wall or 0.0)))
+        depths = radius * np.linspace(0.0, 2.0, RAMP_KNOTS + 1)
+        return Piece(
+            shape="disc", offset=np.array([0.5 * way * self.length, 0.0, 0.0]),
+            size=np.array([mass / area, self.diameter, self.diameter]), depths=depths,
+            added_masses=density * mass * np.outer(disc_share(depths / radius), (1.0, 0.0, 0.0)),
+            drag=np.array([0.25 * density * self.end_drag * area, 0.0, 0.0]),
+            turn=np.diag([way, way, 1.0]),
+        )  # fmt: skip
 
 
 @named

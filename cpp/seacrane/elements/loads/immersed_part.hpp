@@ -26,6 +26,12 @@ namespace seacrane {
 ///   F = rho V (Du/Dt + g e_z) - A (a - Du/Dt) - s A' h' v - (d/dt of A by turning) v - drag,
 ///   M = -v x (A v) and the moment of buoyancy,   s = 1 on entry (h' > 0), 0 on exit.
 ///
+/// The added mass of a cylinder is the mean over its length of that of its circles, and each of them meets
+/// the surface in its own plane: at a depth of its centre of s the surface is s / cos(inclination) away. So a
+/// cylinder that lies has A(h) of a circle, an upright one as much as of its length is wet (Morison), and
+/// each between has what its strips have, however many. The end of a cylinder, a disc, likewise: see
+/// look_through_disc.
+///
 /// Momentum A v is brought in on entry; half of |A' h'| v^2 goes with the jet, and as much remains in the
 /// water on exit. The moment is Munk's (Kirchhoff's equations; H. Lamb, Hydrodynamics, art. 124).
 ///
@@ -34,7 +40,7 @@ namespace seacrane {
 struct ImmersedPart {
   static constexpr const char* kind = "immersed part";
   using Description = ImmersedPartDescription;
-  enum class Shape { box, cylinder, sphere, table };
+  enum class Shape { box, cylinder, disc, sphere, table };
 
   Description d;
   Shape shape = Shape::box;
@@ -43,7 +49,7 @@ struct ImmersedPart {
   Vec3d arm;                // the same in its own axes
   Vec3d first_point, step;  // of its row
   Mat3d axes;
-  double whole = 0.0, volume = 0.0;  // m3; and of it, what keeps water out
+  double whole = 0.0, volume = 0.0;  // m3; and of it, what keeps water out; whole is 1 of a table of none
   double weight = 0.0;               // of the water that it keeps out, N
   double edge = 0.0;                 // m, by which edges are round: no attitude is singular
   MonotoneSpline<3> added;
@@ -89,6 +95,11 @@ struct ImmersedPart {
     out.edge = (out.shape == Shape::box ? kRound : 0.1 * kRound) * 0.5 * d.size.maxCoeff();
     out.added = MonotoneSpline<3>(d.depths, d.added_masses);
     if (d.is("table")) out.wet_volume = MonotoneSpline<1>(d.depths, d.volume_rows());
+    if (d.is("table") && out.whole == 0.0) {  // it is wet, and braked, by its height
+      using One = Eigen::Matrix<double, 1, 1>;
+      out.wet_volume = MonotoneSpline<1>({0.0, d.size[2]}, {One(0.0), One(1.0)});
+      out.whole = 1.0;
+    }
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
     out.widths = widths_of(out.shape, d.size).asDiagonal();
@@ -103,6 +114,15 @@ struct ImmersedPart {
 
   std::array<int, 1> bodies() const { return {body}; }
 
+  /// Over which the added mass of a round part is a mean: depths within `along` of its centre's plus `shift`,
+  /// in planes that the part reaches `across` into either way; and their rates. Half widths along the
+  /// vertical.
+  template <class T>
+  struct Window {
+    T shift = T(0), along = T(0), across = T(0);
+    T shift_rate = T(0), along_rate = T(0), across_rate = T(0);
+  };
+
   /// What strips of a row have in common.
   template <class T>
   struct Shared {
@@ -110,7 +130,8 @@ struct ImmersedPart {
     Vec3<T> velocity, turning;   // of the body at its state point, axes of the part
     Vec3<T> half;                // of the widths along the vertical
     T below = T(0), reaches{0};  // its lowest point under its centre, and how fast that sinks
-    FlowPlace<T> first;          // of the row, and what comes from strip to strip
+    Window<T> window;
+    FlowPlace<T> first;  // of the row, and what comes from strip to strip
     Vec3<T> step;
     std::span<const LocalFlow<double>> row;  // of a double, where a wave reaches it
   };
@@ -145,8 +166,8 @@ struct ImmersedPart {
   template <class T>
   void add_inertia(const LoadInput<T>& in, const Shared<T>& as, Mat6<T>* mass) const {
     const Place<T> at = place(in, as);
-    if (!(at.depth > T(0))) return;
-    const Vec3<T> along = added.at(at.depth).value;
+    if (!moves_water(as, at)) return;
+    const Vec3<T> along = added_at(as, at).mass;
     const Mat3<T> weighted = as.axes * along.asDiagonal(), a = weighted * as.axes.transpose();
     add_mass_at<T>(at.lever, a, mass[body]);
   }
@@ -168,7 +189,7 @@ struct ImmersedPart {
       force += braked;
       out.add_power(braked.dot(at.own));
     }
-    if (at.depth > T(0)) {
+    if (moves_water(as, at)) {
       const Carried<T> water = carried(as, at);
       force += water.force;
       moment = water.moment;
@@ -200,20 +221,20 @@ struct ImmersedPart {
           weight * wet.share * at.rise + add(Cause::waves, at.pulled * (d.density * volume * wet.share));
       out.power(Cause::drag) = add(Cause::drag, drag(at, wet));
     }
-    if (!(at.depth > 0.0)) return out;
-    const auto here = added.at(at.depth);
+    if (!moves_water(as, at)) return out;
+    const Added<double> here = added_at(as, at);
     const Carried<double> water = carried(as, at);
-    const Vec3d gain = at.rate * here.slope, driven = here.value.cwiseProduct(at.pulled);
-    const Vec3d slam = -gain.cwiseMax(0.0).cwiseProduct(at.velocity);
+    const Vec3d driven = here.mass.cwiseProduct(at.pulled);
+    const Vec3d slam = -here.gain.cwiseMax(0.0).cwiseProduct(at.velocity);
     const Vec3d accelerated = acceleration.head<3>() + Vec3d(acceleration.tail<3>()).cross(at.lever);
-    const Vec3d opposed = here.value.cwiseProduct(as.axes.transpose() * accelerated);
+    const Vec3d opposed = here.mass.cwiseProduct(as.axes.transpose() * accelerated);
     add(Cause::waves, driven);
     add(Cause::slam, slam);
     add(Cause::added_mass, water.force - slam - driven - opposed);
     out.power(Cause::slam) = -water.loss;
     out.power(Cause::waves) += water.power + water.loss;
-    out.momentum = as.axes * here.value.cwiseProduct(at.velocity);
-    out.shed = -(as.axes * gain.cwiseMin(0.0).cwiseProduct(at.velocity));
+    out.momentum = as.axes * here.mass.cwiseProduct(at.velocity);
+    out.shed = -(as.axes * here.gain.cwiseMin(0.0).cwiseProduct(at.velocity));
     return out;
   }
 
@@ -238,7 +259,10 @@ struct ImmersedPart {
 
  private:
   using Sides = std::array<Margin, 2>;
-  static constexpr double kRound = 1e-3;  // of half a size, or of a cosine
+  static constexpr double kRound = 1e-3;      // of half a size, or of a cosine
+  static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
+  static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat
+  static constexpr double kRoundEnds = 0.25;  // of the depth over which a disc is struck
 
   /// Where a part is.
   template <class T>
@@ -249,6 +273,12 @@ struct ImmersedPart {
     Vec3<T> pulled = Vec3<T>::Zero();  // acceleration of the water, its axes
     T rise;                            // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
+  };
+
+  /// Along its axes, and its rate.
+  template <class T>
+  struct Added {
+    Vec3<T> mass, gain;
   };
 
   /// What the added mass does to a part beside -A a.
@@ -274,23 +304,81 @@ struct ImmersedPart {
   /// How far the part reaches down, and its half widths along the vertical.
   template <class T>
   void reach_down(const Vec3<T>& turning, Shared<T>& as) const {
+    as.half = Vec3<T>::Zero();
+    if (shape == Shape::sphere || shape == Shape::table) {
+      as.below = T(0.5 * d.size[2]);
+      return;
+    }
     const auto reach = [&](int axis, double half, const T& square, const T& square_rate) {
       const Rounded<T> share(square);
       as.half[axis] = width(half, square);
       as.below += T(half) * share.value;
       as.reaches += T(half) * share.slope * square_rate;
     };
-    as.half = Vec3<T>::Zero();
-    if (shape != Shape::box && shape != Shape::cylinder) {
-      as.below = T(0.5 * d.size[2]);
-      return;
-    }
     for (int i = 0; i < (shape == Shape::box ? 3 : 1); ++i) {
       const T n = as.axes(2, i), n_rate = turning.x() * as.axes(1, i) - turning.y() * as.axes(0, i);
       const T square = n * n, square_rate = T(2) * n * n_rate;
-      reach(i, 0.5 * d.size[i], square, square_rate);
-      if (shape == Shape::cylinder) reach(1, 0.5 * d.size[1], T(1) - square, -square_rate);
+      if (shape == Shape::disc) {
+        as.half[0] = T(edge);
+      } else {
+        reach(i, 0.5 * d.size[i], square, square_rate);
+      }
+      if (!round()) continue;
+      reach(1, 0.5 * d.size[1], T(1) - square, -square_rate);
+      look_through(n, n_rate, as.window);
     }
+  }
+
+  /// With half of the length exact, so that strips add up to the whole.
+  template <class T>
+  void look_through(const T& n, const T& n_rate, Window<T>& w) const {
+    const double radius = 0.5 * d.size[1];
+    const Rounded<T> share(T(1) - n * n);
+    w.across = T(radius) * (T(1.0 - kLeast) * share.value + T(kLeast));
+    w.across_rate = T(-2.0 * (1.0 - kLeast) * radius) * share.slope * n * n_rate;
+    if (shape == Shape::disc) return look_through_disc(n, n_rate, w);
+    const double half = n < T(0) ? -0.5 * d.size[0] : 0.5 * d.size[0];
+    w.along = T(half) * n;
+    w.along_rate = T(half) * n_rate;
+  }
+
+  /// A disc, x out of what it closes, gains its water over size[0] as it goes under facing up, by its C_S
+  /// facing down, with rounded ends; one that stands on its edge gains it as it becomes wet.
+  template <class T>
+  void look_through_disc(const T& n, const T& n_rate, Window<T>& w) const {
+    using std::sqrt;
+    const double mean = 0.25 * (1.0 + kStruck) * d.size[0], odd = 0.25 * (1.0 - kStruck) * d.size[0];
+    const double round = kRoundEnds * kStruck * d.size[0];
+    const T size = sqrt(n * n + T(kRound * kRound));
+    w.along = T(mean) * size + T(odd) * n;
+    w.along_rate = (T(mean) * n / size + T(odd)) * n_rate;
+    w.shift = T(-round) - w.along;
+    w.shift_rate = -w.along_rate;
+    w.across += T(round);
+  }
+
+  bool round() const { return shape == Shape::cylinder || shape == Shape::disc; }
+
+  /// Whether it has added mass.
+  template <class T>
+  bool moves_water(const Shared<T>& as, const Place<T>& at) const {
+    if (!round()) return at.depth > T(0);
+    return at.center + as.window.shift + as.window.along + as.window.across > T(0);
+  }
+
+  template <class T>
+  Added<T> added_at(const Shared<T>& as, const Place<T>& at) const {
+    if (!round()) {
+      const auto here = added.at(at.depth);
+      return {here.value, at.rate * here.slope};
+    }
+    const Window<T>& w = as.window;
+    const T center = at.center + w.shift, radius = T(0.5 * d.size[1]), scale = radius / w.across;
+    const auto here = added.over(radius + (center - w.along) * scale, radius + (center + w.along) * scale);
+    const T sinks = at.rate - as.reaches + w.shift_rate, widens = w.across_rate / w.across;
+    const T by_chord = scale * (sinks - center * widens);
+    const T by_bend = T(2) * scale * (w.along_rate - w.along * widens);
+    return {here.mean, by_chord * here.chord + by_bend * here.bend};
   }
 
   template <class T>
@@ -325,6 +413,7 @@ struct ImmersedPart {
   /// Widths of a box with the second moments of the shape: a mean over it errs from the fourth order on.
   static Vec3d widths_of(Shape shape, const Vec3d& size) {
     const double disc = std::sqrt(0.75), ball = std::sqrt(0.6);
+    if (shape == Shape::disc) return {0.0, disc * size[1], disc * size[2]};
     if (shape == Shape::cylinder) return size.cwiseProduct(Vec3d(1.0, disc, disc));
     return shape == Shape::sphere ? Vec3d(ball * size) : size;
   }
@@ -342,6 +431,7 @@ struct ImmersedPart {
       case Shape::box:
         return wet_box<T>(at.center, as.half);
       case Shape::cylinder:
+      case Shape::disc:
         return wet_cylinder<T>(at.center, as.half);
       case Shape::sphere:
         return wet_sphere<T>(at.center, 0.5 * d.size[0]);
@@ -405,15 +495,15 @@ struct ImmersedPart {
   template <class T>
   Carried<T> carried(const Shared<T>& as, const Place<T>& at) const {
     Carried<T> out;
-    const auto here = added.at(at.depth);
+    const Added<T> here = added_at(as, at);
     const Vec3<T>&v = at.velocity, &own = at.own, &turning = as.turning;
-    const Vec3<T> momentum = here.value.cwiseProduct(v);
+    const Vec3<T> momentum = here.mass.cwiseProduct(v);
     const Vec3<T> swept = cross<T>(turning, own - as.velocity);
-    Vec3<T> along = here.value.cwiseProduct(swept - cross<T>(turning, v) - at.pulled);
-    const Vec3<T> turned = here.value.cwiseProduct(swept - cross<T>(turning, own));
+    Vec3<T> along = here.mass.cwiseProduct(swept - cross<T>(turning, v) - at.pulled);
+    const Vec3<T> turned = here.mass.cwiseProduct(swept - cross<T>(turning, own));
     T stored = T(0);  // what the ledger's energy of A gains beside that of A a
     for (int i = 0; i < 3; ++i) {
-      const T gain = at.rate * here.slope[i];
+      const T& gain = here.gain[i];
       const bool enters = gain > T(0);
       if (enters) along[i] += gain * v[i];
       const T power = T(0.5) * gain * v[i] * v[i];
@@ -434,6 +524,7 @@ struct ImmersedPart {
 
   static Shape shape_of(const Description& d) {
     if (d.is("cylinder")) return Shape::cylinder;
+    if (d.is("disc")) return Shape::disc;
     if (d.is("sphere")) return Shape::sphere;
     return d.is("table") ? Shape::table : Shape::box;
   }

@@ -36,10 +36,14 @@ struct ImmersedPartDescription {
   static constexpr auto fields() {
     using D = ImmersedPartDescription;
     return std::tuple(
-        on_body("body", &D::body), optional("shape", &D::shape, "", "'box', 'cylinder', 'sphere' or 'table'"),
+        on_body("body", &D::body),
+        optional("shape", &D::shape, "", "'box', 'cylinder', 'disc', 'sphere' or 'table'"),
         optional("point", &D::point, "m", "its centre, body coordinates"),
         optional("axes", &D::axes, "", "columns: its axes in those of the body"),
-        required("size", &D::size, "m", "along its axes; of a cylinder, its length and twice its diameter"),
+        required(
+            "size", &D::size, "m",
+            "along its axes; of a cylinder, its length and twice its diameter; of a disc, an end of one that "
+            "looks along x, first the depth over which it gains its water facing up"),
         optional("fill", &D::fill, "", "share of its volume that keeps water out")
             .within(0.0, 1.0)
             .usually(2e-3, 1.0),
@@ -70,6 +74,7 @@ struct ImmersedPartDescription {
   double volume() const {
     using std::numbers::pi;
     if (is("cylinder")) return pi / 4.0 * size[0] * size[1] * size[1];
+    if (is("disc")) return 0.0;
     if (is("sphere")) return pi / 6.0 * std::pow(size[0], 3);
     return is("table") ? volumes.back() : size.prod();
   }
@@ -81,8 +86,8 @@ struct ImmersedPartDescription {
 
   void check(const Check& c, SceneNames& names) const {
     names.body(c, body);
-    if (!is("box") && !is("cylinder") && !is("sphere") && !is("table")) {
-      c.fail("shape '" + shape + "' is unknown; choose 'box', 'cylinder', 'sphere' or 'table'");
+    if (!is("box") && !is("cylinder") && !is("disc") && !is("sphere") && !is("table")) {
+      c.fail("shape '" + shape + "' is unknown; choose 'box', 'cylinder', 'disc', 'sphere' or 'table'");
     }
     check_size(c);
     const bool whole = place == std::floor(place) && count == std::floor(count);
@@ -121,9 +126,10 @@ struct ImmersedPartDescription {
     if (size.minCoeff() < 0.0 || size.maxCoeff() <= 0.0) {
       c.fail("size holds " + to_text(size.minCoeff()) + " m; give lengths of which one is above 0 m");
     }
-    if (is("cylinder") && size[1] != size[2]) {
-      c.fail("a cylinder's size is its length and twice its diameter; y and z differ");
+    if ((is("cylinder") || is("disc")) && size[1] != size[2]) {
+      c.fail("the size of a " + shape + " is a length and twice its diameter; y and z differ");
     }
+    if (is("disc") && size.minCoeff() == 0.0) c.fail("a disc of no size; give lengths above 0 m");
     if (is("sphere") && (size[0] != size[1] || size[0] != size[2])) {
       c.fail("a sphere's size is its diameter three times; its numbers differ");
     }
