@@ -17,7 +17,7 @@ Ask = Callable[[Any], float]
 
 
 def usual(scene: Scene) -> dict[str, str]:
-    """The peak of each hook load, the heave of each load and the roll of a vessel; SceneError for none."""
+    """The peak of each hook load, the heave of each load and the roll of a vessel."""
     out = {}
     for hung in hung_loads(scene):
         name = f"hook_load[{hung.suspension.channel}].max"
@@ -25,12 +25,18 @@ def usual(scene: Scene) -> dict[str, str]:
         out[f"position[{hung.load}, z].std"] = f"position[{hung.load}, z].std"
     if len(scene.vessels) == 1 and not given_vessels(scene):
         out["roll.std"] = "roll.std"
-    if not out:
+    return out
+
+
+def asked(scene: Scene, keep: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """What is asked, or the usual; SceneError where there is none."""
+    found = usual(scene) if keep is None else keep
+    if keep is None and not found:
         raise SceneError(
             f'required: nothing hangs or floats in scene {scene.name!r}; give keep={{"z": '
             '"position[<body>, z].max"}'
         )
-    return out
+    return found
 
 
 def asked_of(keep: Mapping[str, Any]) -> tuple[dict[str, Ask], dict[str, str]]:

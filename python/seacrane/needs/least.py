@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from seacrane.needs.answer import Loss
 
-SAVES = 0.01  # share of the cost that is worth a choice
+SAVES = 0.03  # share of the cost that is worth a choice
 
 
 def least_of(rows: Sequence[Loss], limits: Mapping[str, float], noise: Mapping[str, float]) -> list[Loss]:

@@ -16,7 +16,7 @@ from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.needs.answer import FAILED, Loss, Requirements
-from seacrane.needs.asked import asked_of, usual
+from seacrane.needs.asked import asked, asked_of
 from seacrane.needs.bench import Bench, Told, reason
 from seacrane.needs.choice import Choice
 from seacrane.needs.least import least_of
@@ -92,7 +92,7 @@ def required(
     """
     if not isinstance(scene, Description):
         raise SceneError(f"required: scene is {shown(scene)}; give a Scene, such as seacrane.cases.case2()")
-    asks, units = asked_of(usual(scene) if keep is None else keep)
+    asks, units = asked_of(asked(scene, keep))
     method, outputs = settled(method, outputs, shorthand)
     runs = _Runs(t_end=t_end, stages=tuple(stages), start=start, outputs=outputs)
     bench = Bench(run=partial(runs, method=method) if run is None else run, asked=asks)

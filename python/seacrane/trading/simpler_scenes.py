@@ -40,12 +40,11 @@ class _Levels:
 
     asked: str
     all: tuple[float, ...]
-    quick: tuple[float, ...]
     usual: float
 
 
-R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), quick=(0.9, 0.99), usual=0.99)
-LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), quick=(0.05, 0.01), usual=0.01)
+R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), usual=0.99)
+LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
 FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
 
 
@@ -93,7 +92,7 @@ def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
 
 
 def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
-    """None, convolution, and fits of each kind at several R2 or limits."""
+    """None, convolution, and fits of each kind at several R2 or limits; `quick`: none alone."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
         return
@@ -102,8 +101,10 @@ def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callab
         if kind == memory or (kind != "none" and (quick or database is None)):
             continue
         yield kind, partial(with_memory, scene, kind)
-    for kind, levels in FITTED.items() if database is not None else ():
-        for level in levels.quick if quick else levels.all:
+    if quick or database is None:  # a fit costs more than many runs
+        return
+    for kind, levels in FITTED.items():
+        for level in levels.all:
             if kind != memory or level != levels.usual:
                 fit = partial(with_memory, scene, kind, level=level)
                 yield f"{kind} {levels.asked}={level:g}", fit
