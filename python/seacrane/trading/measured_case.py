@@ -208,7 +208,7 @@ def measured(
         if done.stopped is not None:
             return row.ended(SLOW if isinstance(done.stopped, OutOfTime) else STOPPED, done.stopped)
         for name, array in done.channels().items():
-            if not np.isfinite(array).all():
+            if name in channels and not np.isfinite(array).all():
                 return row.ended(NOT_FINITE, f"{name} is not finite")
         result = done.result()
         found = (values or values_by(quantities))(result)
