@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Scene, SceneError, needs, required, simulate
+from seacrane import Scene, SceneError, needs, report, required, simulate
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import changed
 from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
@@ -81,6 +81,12 @@ def test_what_damping_takes_and_what_drag_of_nothing_does_not() -> None:
     assert found.row("no pendulum damping").changes["last"] == pytest.approx(SWING - swung, rel=2e-3)
     assert abs(found.row("no air drag").changes["last"]) <= found.noise["last"] < 1e-6
     assert "none" in str(found) and "no air drag on bob" in str(found)
+
+
+def test_a_report_ends_with_what_the_scene_requires() -> None:
+    found = required(pendulum(), keep=LAST, repeats=1, choices=[], **RUN)
+    page = report(simulate(pendulum(), 1.0), requires=found).html
+    assert "What the scene requires" in page and "nothing that saves may be left out" in page
 
 
 def test_choices_are_told_alike_in_any_order() -> None:

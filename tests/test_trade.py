@@ -128,7 +128,10 @@ def test_a_diagram_has_a_line_for_each_integrator_and_names_that_do_not_meet(mea
 
 def test_a_trade_prints_its_front_in_few_lines(measured: Trade) -> None:
     assert len(repr(measured)) < 200 and repr(measured).startswith("<Trade of 'case2', 6 s: ")
-    known, counted, head, *rows, price = str(measured).splitlines()
+    known, counted, head, *rows, default, price = str(measured).splitlines()
+    assert (
+        default.startswith("the default (dopri5 rtol=1e-06) takes ") and "errs by payload_position" in default
+    )
     assert "s of CPU; told" in price and "the front" in price
     assert "payload_position" in known and f"{len(measured.rows)} rows" in counted
     assert head.startswith("formulation") and len(rows) == len(measured.pareto)

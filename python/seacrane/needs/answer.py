@@ -161,7 +161,7 @@ class Requirements:
         change, value = row.changes[name], self.full[name]
         if abs(change) <= self.noise[name]:
             return "none"
-        return f"{100.0 * change / value:+.2g} %" if value else f"{change:+.2g}"
+        return f"{_few(100.0 * change / value, 2, '+')} %" if value else f"{change:+.2g}"
 
     def _within(self) -> str:
         parts = [(limit, abs(self.full[name]), name) for name, limit in self.limits.items()]
@@ -172,5 +172,10 @@ class Requirements:
 
 
 def _percent(row: Loss) -> str:
-    known = "" if math.isnan(row.spread) else f" ± {100.0 * row.spread:.1g}"
+    known = "" if math.isnan(row.spread) else f" ± {_few(100.0 * row.spread, 1)}"
     return f"{100.0 * row.share:.0f}{known} %"
+
+
+def _few(value: float, digits: int, sign: str = "") -> str:
+    """With so many digits, and no powers of ten for large numbers."""
+    return f"{value:{sign}.0f}" if abs(value) >= 10.0**digits else f"{value:{sign}.{digits}g}"

@@ -19,7 +19,7 @@ from seacrane.needs.answer import FAILED, Loss, Requirements
 from seacrane.needs.asked import asked, asked_of
 from seacrane.needs.bench import Bench, Told, reason
 from seacrane.needs.choice import Choice
-from seacrane.needs.least import least_of
+from seacrane.needs.least import SAVES, least_of
 from seacrane.needs.registry import choices_of, missing_from
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -183,7 +183,7 @@ def _run_together(
         )  # fmt: skip
         row = _row(bench, scene, full, both, repeats, lambda: None)
         if row.stable and all(abs(row.changes[name]) <= limit for name, limit in limits.items()):
-            return row, taken
+            return (row, taken) if row.share < 1.0 - SAVES else (None, ())
         taken.remove(max(taken, key=lambda one: one.uses(limits)))
     return None, ()
 

@@ -12,11 +12,11 @@ from seacrane.trading.row import NOT_FINITE, STOPPED, Row
 from seacrane.trading.trade_table import front
 
 SCOUTS = (
-    ("tsit5", 1e-2), ("verner76", 1e-3), ("dopri5", 1e-3), ("verner65", 1e-5), ("bs32", 1e-2),
-    ("dop853", 1e-4), ("rk4", 0.05), ("dopri5-stiff", 1e-3), ("semi-implicit-euler", 0.02),
+    ("dopri5", 1e-6), ("tsit5", 1e-2), ("verner76", 1e-3), ("dopri5", 1e-3), ("verner65", 1e-5),
+    ("bs32", 1e-2), ("dop853", 1e-4), ("rk4", 0.05), ("dopri5-stiff", 1e-3), ("semi-implicit-euler", 0.02),
     ("rosenbrock", 1e-3),
 )  # fmt: skip
-"""The first setting of each method that has ever been on a front, the likeliest first."""
+"""The default, then the first setting of each method that has ever been on a front, the likeliest first."""
 SPREAD = 3.0  # by which an error may be off the order of its method
 RISES = 1.5  # exponent of the tolerance that no error falls faster with
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seacrane._core import integrators
 from seacrane.accuracy.quantities import Quantity, limits_of, quantities_of
 from seacrane.description.description import Description
 from seacrane.description.file import scene_digest
@@ -22,7 +23,7 @@ from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
-from seacrane.run.method import Method
+from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
@@ -56,6 +57,7 @@ BUDGET = 20.0  # runs of the default setting, beside the reference
 REFERENCE = 12.0  # of them, that the reference and its check are told to take
 OTHERS = 0.01  # of its motion, that a default quantity may err by which nobody names
 BENEATH = 1e-6  # of its motion, an error of which none is looked for
+ORDER = next(one.order for one in integrators() if one.name == DEFAULT_INTEGRATOR)
 ALIKE = 1.15  # times the least cost, which is no more than that
 
 
@@ -231,6 +233,25 @@ class Trade:
         )
 
     @property
+    def default(self) -> str:
+        """What the default setting costs and errs by, and what half of each error costs."""
+        rows = [row for row in self._of_full_scene() if row.stable]
+        row = next((row for row in rows if row.method.integrator == DEFAULT_INTEGRATOR and row.method.rtol
+                    == DEFAULT_TOLERANCE), None)  # fmt: skip
+        if row is None:
+            return "the default was not measured"
+        wrong = ", ".join(f"{name} {row.error(name):.2g} {one.unit}" for name, one in self.quantities.items())
+        told = (
+            f"the default ({row.method.integrator} {row.method.setting}) takes {_ms(row)} and errs by {wrong}"
+        )
+        better = [one for one in rows if all(2.0 * one.error(q) <= row.error(q) for q in self.quantities)]
+        if not better:
+            more = 100.0 * (2.0 ** (1.0 / ORDER) - 1.0)
+            return f"{told}; half of each costs about {more:.0f} % more by its order, and was not measured"
+        half = min(better, key=lambda one: one.cpu_s)
+        return f"{told}; half of each or less: {half.method.integrator} {half.method.setting}, {_ms(half)}"
+
+    @property
     def price(self) -> str:
         """What it cost, what was told beforehand, and whether the budget ended it."""
         told = f"took {self.took_s:.2g} s of CPU; told {self.told_s:.2g} s"
@@ -239,7 +260,9 @@ class Trade:
         return f"{told}. No setting that was left out is expected to change the front"
 
     def __str__(self) -> str:
-        return as_text(self.rows, self.quantities, self.reference.uncertainty, self.pareto, self.price)
+        return as_text(
+            self.rows, self.quantities, self.reference.uncertainty, self.pareto, [self.default, self.price]
+        )
 
     def _repr_html_(self) -> str:
         return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
@@ -369,7 +392,7 @@ def trade(
     bench = Bench(case=case, quantities=measured, truth=truth, repeats=REPEATS if budget is None else 1)
     spending = Spending(unit_s=unit, runs=runs)
     if budget is None or methods is not None:
-        rows, left = _all(bench, metadata, methods, file, progress=progress), 0
+        rows, left = _all(bench, metadata, methods, file, few=budget is not None, progress=progress), 0
     else:
         rows, left = _best(bench, metadata, spending, file, progress=progress)
     different = {row.key: row for row in reversed(rows)}  # two levels of a memory fit may give one model
@@ -411,11 +434,12 @@ def _all(
     methods: Iterable[Method] | None,
     file: RowFile,
     *,
+    few: bool,
     progress: bool,
 ) -> list[Row]:
     """The whole grid, or all methods that are given, and all less physics."""
     tried = measured_methods() if methods is None else methods
-    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, quick=False)])
+    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, quick=few)])
     return completed(
         tasks, file, lambda keys: ((key, tasks[key](math.inf)) for key in keys), title="trade",
         progress=progress,
@@ -499,6 +523,10 @@ def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any],
     if not folder.is_dir():
         raise SceneError(f"out {str(folder)!r} is no folder; create it first")
     return RowFile(folder / "trade_rows.jsonl", {**experiment, "described": scene_digest(scene)})
+
+
+def _ms(row: Row) -> str:
+    return f"{1e3 * row.cpu_s:.3g} ms"
 
 
 def _or_nan(value: float | None) -> float:

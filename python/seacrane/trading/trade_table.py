@@ -50,9 +50,9 @@ def as_text(
     quantities: Mapping[str, Quantity],
     uncertainty: Mapping[str, float],
     best: Sequence[Row],
-    price: str,
+    said: Sequence[str],
 ) -> str:
-    """How well the reference is known, the front of the first quantity and the price, for terminals."""
+    """How well the reference is known, the front of the first quantity, and what is said of both."""
     known = ", ".join(f"{name} {uncertainty[name]:.1g} {one.unit}" for name, one in quantities.items())
     head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "CPU [ms]"]
     cells = [
@@ -66,7 +66,7 @@ def as_text(
             f"reference known within {known}",
             f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:",
             text_table([*head, *(f"{name} [{one.unit}]" for name, one in quantities.items())], cells),
-            price,
+            *said,
         ]
     )
 
