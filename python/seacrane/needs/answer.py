@@ -119,7 +119,7 @@ class Requirements:
         )
 
     def __str__(self) -> str:
-        known = ", ".join(f"{name} {self.noise[name]:.1g} {self.units[name]}".rstrip() for name in self.full)
+        known = ", ".join(map(self._known, self.full))
         told = [
             f"what {self.scene!r} requires: a run takes {self.cpu_s:.3g} s of CPU",
             f"changes known within {known}",
@@ -159,9 +159,15 @@ class Requirements:
     def _change(self, name: str, row: Loss) -> str:
         """In percent of the number, or nothing that could be told."""
         change, value = row.changes[name], self.full[name]
-        if abs(change) <= self.noise[name]:
+        if change == 0.0 or abs(change) <= self.noise[name]:
             return "none"
         return f"{_few(100.0 * change / value, 2, '+')} %" if value else f"{change:+.2g}"
+
+    def _known(self, name: str) -> str:
+        noise = self.noise[name]
+        return (
+            f"{name} (not told)" if math.isnan(noise) else f"{name} {noise:.1g} {self.units[name]}".rstrip()
+        )
 
     def _within(self) -> str:
         parts = [(limit, abs(self.full[name]), name) for name, limit in self.limits.items()]

@@ -96,13 +96,14 @@ def required(
     method, outputs = settled(method, outputs, shorthand)
     runs = _Runs(t_end=t_end, stages=tuple(stages), start=start, outputs=outputs)
     bench = Bench(run=partial(runs, method=method) if run is None else run, asked=asks)
-    full = bench.told(scene)
+    cold, full = bench.told(scene), bench.told(scene)  # what is found of a scene once belongs to no choice
     tight = None if run is not None else bench.told(scene, partial(runs, method=tighter(method)))
     limits = _limits(within, full.values)
     tried = choices_of(scene) if choices is None else list(choices)
     missing = missing_from(scene)
-    price = (len(tried) * (1 + 2 * repeats) + len(missing) + 2) * full.cpu_s
-    with _bar(progress, price, len(tried) + len(missing) + 1) as tick:
+    choices_tried = len(tried) + len(missing)
+    price = choices_tried * cold.cpu_s + (2 * repeats * (len(tried) + 1) + len(missing) + 4) * full.cpu_s
+    with _bar(progress, price, choices_tried) as tick:
         rows = [_row(bench, scene, full, choice, repeats, tick) for choice in tried]
         lacks = [_row(bench, scene, full, choice, 0, tick) for choice in missing]
         noise = {
@@ -163,7 +164,7 @@ def _row(
             row = replace(row, shares=tuple(shares), evaluations=counted)
         else:
             told = bench.told(made)
-            row = replace(row, shares=(told.cpu_s / max(full.cpu_s, 1e-9),))
+            row = replace(row, shares=(bench.told(made).cpu_s / max(full.cpu_s, 1e-9),))
     except (SeacraneError, ValueError) as error:
         return replace(row, verdict=FAILED, message=reason(error))
     finally:
