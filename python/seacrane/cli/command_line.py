@@ -199,7 +199,7 @@ def _add_trade(commands: Any) -> None:
     trade.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     trade.add_argument(
         "--budget", type=float, metavar="RUNS", default=20.0,
-        help="runs of the default setting that it may take beside its reference (20)",
+        help="runs of the default setting that it may take beside its reference (20); inf: the whole grid",
     )  # fmt: skip
 
 

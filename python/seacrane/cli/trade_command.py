@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import Any
 
 from seacrane.cli.output_folder import output_folder
@@ -22,7 +23,8 @@ def run(arguments: argparse.Namespace) -> int:
     span: dict[str, Any] = {"stages": source.stages, "start": source.start, "outputs": outputs}
     if source.t_end is not None and not source.stages:
         span["t_end"] = source.t_end
-    result = trade(source.scene, budget=arguments.budget, out=folder, **span)
+    budget = None if arguments.budget == math.inf else arguments.budget
+    result = trade(source.scene, budget=budget, out=folder, **span)
     try:
         print(result)
     finally:
