@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -44,14 +44,12 @@ class Bench:
     run : What is done with a scene.
     asked : mapping of str to callable
         Numbers of what it returns.
-    runs, cpu_s : Made by now, and their processor time, s.
+    runs : Made by now.
     """
 
     run: Run
     asked: Mapping[str, Ask]
     runs: int = 0
-    cpu_s: float = 0.0
-    tick: Callable[[], None] = field(default=lambda: None)
 
     def told(self, scene: Scene, run: Run | None = None) -> Told:
         """Of one run; what it warns of was told for the scene as it stands, or is a row's own."""
@@ -59,8 +57,7 @@ class Bench:
             begun = time.process_time()
             found = (self.run if run is None else run)(scene)
             cpu = time.process_time() - begun
-        self.runs, self.cpu_s = self.runs + 1, self.cpu_s + cpu
-        self.tick()
+        self.runs += 1
         if isinstance(found, Result) and found.interrupted:
             raise KeyboardInterrupt
         values = {name: self._number(name, ask, found) for name, ask in self.asked.items()}

@@ -109,7 +109,10 @@ def _said(scene: Scene, name: str) -> str:
     """How a line is called."""
     line = scene.loads[name]
     slings = _between(scene, *line.bodies) if len(line.bodies) == 2 else []
-    return f"slings of {line.bodies[-1]}" if len(slings) > 1 else f"line {name}"
+    if len(slings) < 2:
+        return f"line {name}"
+    first, last = line.bodies
+    return f"slings of {last}" if first in scene.bodies else f"lines from {first} to {last}"
 
 
 def _on_rung(scene: Scene, *, names: Sequence[str], rung: str) -> Scene:

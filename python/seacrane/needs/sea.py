@@ -104,9 +104,9 @@ def less_memory(scene: Scene) -> Iterator[Choice]:
     if not _one_vessel(scene) or memory_name(scene) == "none":
         return
     kind, known = memory_name(scene), _known(scene)
-    if known and kind == "convolution":
+    if known and kind != "by-motion":
         yield _memory("by-motion")
-    if known and kind in ("convolution", "by-motion"):
+    if known:
         yield _memory("by-motion", LOOSER)
     yield _memory("none")
 
