@@ -370,10 +370,10 @@ def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.
         return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
 
     monkeypatch.setattr(trade_study, "measure", counted)
-    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.5))
+    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
     found = trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
     assert len(units) == len(found.rows) == 3
-    assert found.told_s == trade_study.REFERENCE + 3.0 * 1.5
+    assert found.told_s == trade_study.REFERENCE + 3.0
     assert found.not_measured > 0 and "The budget ended before" in found.price
 
 
@@ -382,6 +382,7 @@ def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
     chosen = [Method(integrator="tsit5", rtol=1e-3)]
     found = trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
     (row,) = found.rows
+    assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
     staged = simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
     tight = simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
     worst = 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
@@ -21,7 +22,7 @@ class Spending:
 
     Attributes
     ----------
-    unit_s : Of one such run, s.
+    unit_s : Of one such run with all around it, s.
     runs : Of them that may be spent; infinite: any.
     spent_s : By now, s.
     """
@@ -34,9 +35,9 @@ class Spending:
         """Seconds of a share of the budget."""
         return share * self.runs * self.unit_s - self.spent_s
 
-    def spend(self, row: Row) -> None:
-        """What a row took."""
-        self.spent_s += row.cpu_s if row.cpu_s > 0.0 else 0.0
+    def spend(self, row: Row, around_s: float = 0.0) -> None:
+        """What a row took, with all around its run."""
+        self.spent_s += max(row.cpu_s if row.cpu_s > 0.0 else 0.0, around_s)
 
 
 def within_budget(
@@ -68,8 +69,9 @@ def _settings(
 
 
 def _row(spending: Spending, measure: Measure) -> Row:
+    begun = time.process_time()
     row = measure(LONGEST * spending.unit_s)
-    spending.spend(row)
+    spending.spend(row, time.process_time() - begun)
     return row
 
 

@@ -260,9 +260,10 @@ class Trade:
         return f"{told}. No setting that was left out is expected to change the front"
 
     def __str__(self) -> str:
-        return as_text(
-            self.rows, self.quantities, self.reference.uncertainty, self.pareto, [self.default, self.price]
-        )
+        said = [self.default, self.price]
+        if self.metadata.get("stages"):
+            said = ["errors are those of the extremes of each stage", *said]
+        return as_text(self.rows, self.quantities, self.reference.uncertainty, self.pareto, said)
 
     def _repr_html_(self) -> str:
         return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
@@ -390,11 +391,13 @@ def trade(
     metadata |= {f"refused {name}": reason for name, reason in truth.refused.items()}
     file = _row_file(out, {**metadata, "quantities": list(measured)}, scene)
     bench = Bench(case=case, quantities=measured, truth=truth, repeats=REPEATS if budget is None else 1)
-    spending = Spending(unit_s=unit, runs=runs)
+    spending = Spending(unit_s=whole, runs=runs)
     if budget is None or methods is not None:
         rows, left = _all(bench, metadata, methods, file, few=budget is not None, progress=progress), 0
     else:
         rows, left = _best(bench, metadata, spending, file, progress=progress)
+    if case.stages:
+        metadata["t_end"] = max((row.simulated_s for row in rows if row.stable), default=math.nan)
     different = {row.key: row for row in reversed(rows)}  # two levels of a memory fit may give one model
     result = Trade(
         rows=tuple(reversed(different.values())), quantities=measured, reference=truth, metadata=metadata,
