@@ -67,6 +67,18 @@ def on_deck() -> Scene:
     return scene
 
 
+def on_oil() -> Scene:
+    """A crane that stands on the oil of two cylinders."""
+    oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
+    scene = Scene(name="on oil")
+    scene.add_crane(
+        base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True,
+        hydraulics={"main": oil, "knuckle": oil},
+    )  # fmt: skip
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7)
+    return scene
+
+
 def executed(choice: Choice, scene: Scene) -> Scene:
     held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
     exec(choice.script, held)
@@ -116,7 +128,7 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
     assert abs(found.least.changes["peak"]) <= found.limits["peak"]
 
 
-@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, seacrane.cases.case2])
+@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, on_oil, seacrane.cases.case2])
 def test_a_script_makes_what_is_measured(described: Any) -> None:
     scene = described()
     tried = [*choices_of(scene), *missing_from(scene)]
@@ -142,6 +154,17 @@ def test_what_does_not_run_is_a_row_with_its_reason() -> None:
     row = found.row("line hoist quasi-static")
     assert not row.stable and "its winch has no lag" in row.message
     assert f"not tried: line hoist quasi-static: {row.message}" in str(found)
+
+
+def test_oil_that_holds_is_as_good_as_a_driver() -> None:
+    scene = on_oil()
+    (held,) = [choice for choice in choices_of(scene) if choice.of == "drives"]
+    found = required(
+        scene, keep={"peak": "hook_load[hoist].max"}, t_end=2.0, start="rest", repeats=1, choices=[held]
+    )
+    (row,) = found.rows
+    assert row.evaluations < 1.0
+    assert abs(row.changes["peak"]) < 1e-3 * found.full["peak"]
 
 
 def test_one_piece_has_the_water_of_its_strips() -> None:

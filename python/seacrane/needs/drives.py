@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from seacrane import _core
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
@@ -15,9 +16,11 @@ from seacrane.trading.simpler_scenes import locked
 
 def held_oil(scene: Scene) -> Iterator[Choice]:
     """Hydraulic cylinders that hold their stroke, each held by a driver instead."""
-    slides = {name: slide_of(scene, one) for name, one in hydraulic_cylinders(scene).items()}
-    still = [n for n in slides if np.ptp(hydraulic_cylinders(scene)[n].reference.evaluate([0.0, 1e3])) == 0.0]
-    held = {name: slide for name in still if (slide := slides[name]) is not None}
+    held = {
+        name: slide
+        for name, one in hydraulic_cylinders(scene).items()
+        if (slide := slide_of(scene, one)) is not None and _is_still(one.reference)
+    }
     if held:
         lines = [
             f'scene.remove("{name}", kind="load")\nscene.add_driver("{slide}", curve=0.0)'
@@ -29,6 +32,11 @@ def held_oil(scene: Scene) -> Iterator[Choice]:
             made=partial(_held, slides=held),
             of="drives",
         )
+
+
+def _is_still(curve: _core.Curve) -> bool:
+    pieces = curve.to_pieces()
+    return len(pieces["starts"]) == 1 and not np.any(np.reshape(pieces["coefficients"], (-1, 6))[:, 1:])
 
 
 def _held(scene: Scene, *, slides: dict[str, str]) -> Scene:
