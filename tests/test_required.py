@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Scene, SceneError, needs, report, required, simulate
+from seacrane import Scene, SceneError, needs, report, required, shipped_database, simulate
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import changed
+from seacrane.hydro import DriftCoefficients
 from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
 from seacrane.needs.least import least_of
 from seacrane.water import BoxPart
@@ -79,6 +80,18 @@ def on_oil() -> Scene:
     return scene
 
 
+def drifting(*, drift: bool = True) -> Scene:
+    """A ship whose database knows its drift."""
+    known = DriftCoefficients(
+        heading=np.linspace(0.0, np.pi, 13), omega=np.linspace(0.2, 2.6, 25),
+        coefficient=np.full((13, 25, 6), [-2e3, 1e3, 0.0, 0.0, 0.0, 1e4]),
+    )  # fmt: skip
+    scene = Scene(name="drifting")
+    scene.add_vessel(dataclasses.replace(shipped_database(), drift=known))
+    scene.add_sea(hs=2.0, tp=8.0, direction_deg=180.0, count=20, drift=drift)
+    return scene
+
+
 def executed(choice: Choice, scene: Scene) -> Scene:
     held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
     exec(choice.script, held)
@@ -128,7 +141,7 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
     assert abs(found.least.changes["peak"]) <= found.limits["peak"]
 
 
-@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, on_oil, seacrane.cases.case2])
+@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, on_oil, drifting, seacrane.cases.case2])
 def test_a_script_makes_what_is_measured(described: Any) -> None:
     scene = described()
     tried = [*choices_of(scene), *missing_from(scene)]
@@ -165,6 +178,14 @@ def test_oil_that_holds_is_as_good_as_a_driver() -> None:
     (row,) = found.rows
     assert row.evaluations < 1.0
     assert abs(row.changes["peak"]) < 1e-3 * found.full["peak"]
+
+
+def test_slow_drift_is_left_out_or_missed() -> None:
+    (less,) = [choice for choice in choices_of(drifting()) if choice.of == "slow drift of vessel"]
+    calm = drifting(drift=False)
+    (more,) = [choice for choice in missing_from(calm) if choice.of == "slow drift of vessel"]
+    assert scene_digest(less.made(drifting())) == scene_digest(calm)
+    assert scene_digest(more.made(calm)) == scene_digest(drifting())
 
 
 def test_one_piece_has_the_water_of_its_strips() -> None:
