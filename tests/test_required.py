@@ -188,6 +188,21 @@ def test_slow_drift_is_left_out_or_missed() -> None:
     assert scene_digest(more.made(calm)) == scene_digest(drifting())
 
 
+def test_fewer_waves_keep_their_drift_and_their_loads_over_the_heading() -> None:
+    scene = drifting()
+    scene.use_actual_position()
+    assert scene.waves is not None
+    few, all_of_them = needs.strongest(scene.waves, 5), needs.strongest(scene.waves, 20)
+    kept = np.isin(scene.waves.omega, few.omega)
+    assert kept.sum() == 5
+    hull, whole = few.hull(), scene.waves.hull()
+    for name in ("force_by_heading", "drift_by_heading"):
+        np.testing.assert_array_equal(getattr(hull, name).values, getattr(whole, name).values[:, kept])
+    assert scene_digest(scene.copy(waves=all_of_them)) == scene_digest(scene)
+    run = simulate(scene.copy(waves=few), 5.0)
+    assert np.all(np.isfinite(run["position"]))
+
+
 def test_one_piece_has_the_water_of_its_strips() -> None:
     scene = wet()
     (whole,) = [load for load in in_one_piece(scene).loads.values() if type(load).__name__ == "ImmersedPart"]

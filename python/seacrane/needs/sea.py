@@ -26,8 +26,6 @@ def fewer_waves(scene: Scene) -> Iterator[Choice]:
     waves = scene.waves
     if waves is None or given_vessels(scene) or not waves.hulls:
         return
-    if any(h.force_by_heading is not None or h.drift is not None for h in waves.hulls.values()):
-        return
     for share in SHARES:
         count = int(np.ceil(share * len(waves.omega)))
         if count < len(waves.omega):
