@@ -190,7 +190,7 @@ def strongest(waves: Any, count: int) -> Any:
 
 def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
     """The loads of some components."""
-    tables = {
+    tables: dict[str, Any] = {
         name: None if table is None else replace(table, values=np.asarray(table.values)[:, kept])
         for name in ("force_by_heading", "drift_by_heading")
         for table in [getattr(hull, name)]
