@@ -1,6 +1,6 @@
 """The tables and the picture of docs/trade.md, from a trade of case 2 in a folder:
 
-seacrane trade case2 --out out/trade && python benchmarks/trade_tables.py out/trade
+seacrane trade case2 --budget inf --out out/trade && python benchmarks/trade_tables.py out/trade
 """
 
 from __future__ import annotations
@@ -95,6 +95,6 @@ if __name__ == "__main__":
     folder = Path(sys.argv[1])
     with (folder / "trade.csv").open(newline="", encoding="utf-8") as file:
         tables(list(csv.DictReader(file)))
-    measured = trade(cases.case2(), out=folder)  # takes the rows that the folder holds
+    measured = trade(cases.case2(), budget=None, out=folder)  # takes the rows that the folder holds
     measured.plot(over="cpu_s").savefig(FIGURE, dpi=110)
     documents.fill()

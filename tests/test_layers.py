@@ -39,6 +39,7 @@ FLOORS = """
     pictures
     answers
     trading
+    needs
     lift
     cases
     cli

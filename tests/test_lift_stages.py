@@ -180,8 +180,16 @@ def test_options_that_stages_have_no_use_for(tmp_path: Path, capsys: pytest.Capt
     lift_of(ON_DECK, tmp_path)
     assert main(["run", str(tmp_path / "my_lift.toml"), "--out", str(tmp_path), "--t-end", "3"]) == 1
     assert "--t-end does not go with a lift in stages" in capsys.readouterr().err
-    assert main(["trade", str(tmp_path / "my_lift.toml"), "--out", str(tmp_path)]) == 1
-    assert "is a lift in stages" in capsys.readouterr().err
+
+
+def test_a_trade_of_a_file_with_stages_prints_front_and_needs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lift_of(ON_DECK, tmp_path)
+    assert main(["trade", str(tmp_path / "my_lift.toml"), "--out", str(tmp_path), "--budget", "2"]) == 0
+    told = capsys.readouterr()
+    assert "Pareto front" in told.out and "requires: a run takes" in told.out
+    assert "trade: one run takes" in told.err and "required: takes about" in told.err
 
 
 BALLAST = (

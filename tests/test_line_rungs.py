@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -83,11 +84,11 @@ def rung_of(scene: Scene, t_end: float = 1.0, **settings: Any) -> tuple[str, str
     return rung.name, rung.reason
 
 
-@pytest.mark.parametrize(("stiffness", "expected"), [(1e7, "elastic"), (1e8, "quasi-static")])
+@pytest.mark.parametrize(("stiffness", "expected"), [(1e6, "elastic"), (1e8, "quasi-static")])
 def test_case2_takes_the_rung_that_its_stiffness_allows(stiffness: float, expected: str) -> None:
     rung = Run(case2_on_a_line("auto", stiffness), 100.0).rungs["link"]
     assert rung.name == expected
-    assert "% of what the swing of its load makes of it, its own frequency being" in rung.reason
+    assert "its own frequency being" in rung.reason
 
 
 @pytest.mark.warns("UnitWarning")
@@ -497,3 +498,26 @@ def test_an_energy_that_does_not_close_is_told() -> None:
     ):
         result = simulate(scene, 4.0, dt_out=0.1, integrator="rk4", dt=0.02)
     assert "energy_balance reaches" in result.stats["validity"]
+
+
+def slung(rung: str) -> Scene:
+    """35 t on four slings below a block, which a slew lets swing."""
+    scene = Scene(name="slung")
+    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
+    scene.add_hoist(
+        mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, rung=rung, block_mass=1e3, winch={"lag": 0.2},
+        slings={"angle_deg": 60, "EA": 5e7, "rung": rung},
+    )  # fmt: skip
+    turned = Curve.quintic(start_time=0.0, end_time=6.0, start=0.0, end=0.3)
+    scene.replace("A.angle", kind="driver", curve=turned)
+    return scene
+
+
+def test_auto_goes_over_a_block_and_slings() -> None:
+    held, chosen = (simulate(slung(rung), 10.0, channels=["line_tension"]) for rung in ("elastic", "auto"))
+    assert set(re.findall(r": (elastic|quasi-static): ", str(chosen.stats["line_rungs"]))) == {"quasi-static"}
+    assert chosen.stats["evaluations"] < 0.3 * held.stats["evaluations"]
+    hoist = [run.select("line_tension", line="hoist") for run in (held, chosen)]
+    settled = held.time > 1.0
+    assert np.abs(hoist[1] - hoist[0])[settled].max() < 0.005 * hoist[0].mean()
+    assert np.ptp(hoist[0][settled]) > 0.02 * hoist[0].mean()

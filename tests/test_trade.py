@@ -11,20 +11,31 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Method, Run, Scene, SceneError, cases, integrator_names, simulate, trade
+from seacrane import (
+    Method,
+    Run,
+    Scene,
+    SceneError,
+    Stage,
+    cases,
+    integrator_names,
+    simulate,
+    simulate_stages,
+    trade,
+)
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
-from seacrane.accuracy.quantities import compare, quantities_of
+from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
 from seacrane.inputs.checked import curve_of
 from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
 from seacrane.trading.case import Case
+from seacrane.trading.ladders import Ladders
 from seacrane.trading.measured_case import measured as measured_row
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
-from seacrane.warnings import NonPassiveMemoryWarning
 
-T_END = 6.0
+T_END, BUDGET = 6.0, 40.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
 
 
@@ -40,8 +51,7 @@ def case2() -> Scene:
 
 @pytest.fixture(scope="module")
 def measured(case2: Scene, folder: Path) -> Trade:
-    with pytest.warns(NonPassiveMemoryWarning):
-        return trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
+    return trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
 
 
 @pytest.mark.slow("a trade study")
@@ -50,11 +60,14 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
         "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load",
     ]  # fmt: skip
     assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
-    assert len(measured.reference.runs) == 4
-    for formulation in ("recursive", "redundant"):
-        rows = [r for r in measured.rows if (r.formulation, r.method.integrator) == (formulation, "tsit5")]
-        errors = [row.error("payload_position") for row in rows if row.case == measured.full_case]
-        assert len(errors) == 3 and errors[0] > 10 * errors[1] > 100 * errors[2] > 0.0
+    assert len(measured.reference.runs) == 2
+    errors = {
+        row.method.rtol: row.error("payload_position")
+        for row in measured.rows
+        if row.method.integrator == "verner76" and row.case == measured.full_case
+    }
+    assert len(errors) >= 2
+    assert [errors[rtol] for rtol in sorted(errors)] == sorted(errors.values())
 
 
 def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
@@ -74,7 +87,7 @@ def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
     assert front
     for row in measured.rows:
         if np.isfinite(row.error("roll")):
-            beats = [row.wall_s < f.wall_s and row.error("roll") < f.error("roll") for f in front]
+            beats = [row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front]
             assert not any(beats)
 
 
@@ -115,7 +128,11 @@ def test_a_diagram_has_a_line_for_each_integrator_and_names_that_do_not_meet(mea
 
 def test_a_trade_prints_its_front_in_few_lines(measured: Trade) -> None:
     assert len(repr(measured)) < 200 and repr(measured).startswith("<Trade of 'case2', 6 s: ")
-    known, counted, head, *rows = str(measured).splitlines()
+    known, counted, head, *rows, default, price = str(measured).splitlines()
+    assert (
+        default.startswith("the default (dopri5 rtol=1e-06) takes ") and "errs by payload_position" in default
+    )
+    assert "s of CPU; told" in price and "the front" in price
     assert "payload_position" in known and f"{len(measured.rows)} rows" in counted
     assert head.startswith("formulation") and len(rows) == len(measured.pareto)
 
@@ -179,16 +196,18 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
     path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
     called: list[str] = []
 
-    def filled(*arguments: object) -> Row:
+    def filled(*arguments: object, **given: object) -> Row:
         called.append("one")
         return measured.rows[-1]
 
     monkeypatch.setattr(trade_study, "measure", filled)
     monkeypatch.setattr(trade_study, "measure_variant", filled)
     monkeypatch.setattr(trade_study, "frequency_domain", filled)
-    again = trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
-    assert called == ["one"]
-    assert [row.wall_s for row in again.rows] == [row.wall_s for row in measured.rows]
+    unit = next(row.cpu_s for row in measured.rows if row.method.name == "recursive dopri5 rtol=0.001")
+    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (unit, unit))
+    again = trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
+    kept = {row.wall_s for row in measured.rows[:-1]}
+    assert called and kept <= {row.wall_s for row in again.rows}
     other = RowFile(path, {"scene": "another"})
     assert not other.rows and len(path.read_text().splitlines()) == 1
 
@@ -203,7 +222,7 @@ def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) ->
 
 
 def test_every_integrator_of_the_core_is_in_the_grid() -> None:
-    assert {method.integrator for method in methods.measured_methods(quick=False)} == set(integrator_names())
+    assert {method.integrator for method in methods.measured_methods()} == set(integrator_names())
 
 
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
@@ -289,12 +308,86 @@ def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
 
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
     scene = pendulum()
-    found = trade(scene, t_end=2.0, quick=True, progress=False)
+    found = trade(scene, t_end=2.0, progress=False)
     assert list(found.quantities) == ["position", "velocity"] and {r.case["rung"] for r in found.rows} == {
         "full"
     }
     with pytest.raises(SceneError, match="channel 'depth' does not exist"):
         trade(scene, quantities=["depth"], t_end=2.0, progress=False)
     with pytest.raises(SceneError, match="is no folder"):
-        trade(scene, t_end=2.0, quick=True, progress=False, out=tmp_path / "absent")
+        trade(scene, t_end=2.0, progress=False, out=tmp_path / "absent")
     assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key
+
+
+def row_of(method: Method, cost: float, **errors: float) -> Row:
+    measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
+    case = {"memory": "none", "waves": "none", "rung": "full"}
+    return Row(case=case, method=method, verdict="completed", errors=measures, cpu_s=cost, wall_s=cost)
+
+
+def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
+    fixed = Method(integrator="semi-implicit-euler", dt=0.02)
+    rows = (
+        row_of(fixed, 1.0, payload_position=0.005, hook_load=3400.0),
+        row_of(Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
+        row_of(Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
+        row_of(Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
+    )
+    names = ("payload_position", "hook_load")
+    moved = {"payload_position": np.array([[[0.0]], [[1.0]]]), "hook_load": np.array([[[0.0]], [[1e5]]])}
+    found = Trade(
+        rows=rows,
+        quantities=quantities_of(cases.case2(), cases.case2().compile(), list(names)),
+        reference=Reference(values=moved, uncertainty=dict.fromkeys(names, 1e-9)),
+        metadata={"memory": "none", "waves": "none", "default quantities": 1},
+    )
+    assert found.cheapest(payload_position=0.01).integrator == "tsit5"
+    assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
+    with pytest.raises(SceneError, match="give others=None"):
+        found.cheapest(others=1e-9, payload_position=0.01)
+
+
+def test_what_cannot_change_the_front_is_not_measured() -> None:
+    loose, tight = Method(integrator="dop853", rtol=1e-4), Method(integrator="dop853", rtol=1e-5)
+    poor = [Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
+    ladders = Ladders([loose, tight, *poor], ["x"], {"x": 1e-6})
+    ladders.scouts = []
+    ladders.add(loose, row_of(loose, 1.0, x=1e-7))
+    ladders.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
+    assert ladders.next() is None and ladders.open == 0  # all errors below the floor are alike
+    finer = Ladders([loose, tight, *poor], ["x"], {"x": 1e-12})
+    finer.scouts = []
+    finer.add(loose, row_of(loose, 1.0, x=1e-7))
+    finer.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
+    assert finer.next() == tight and finer.open == 1
+
+
+def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    units: list[str] = []
+
+    def counted(bench: object, row: Row, **given: object) -> Row:
+        units.append(row.key)
+        return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
+
+    monkeypatch.setattr(trade_study, "measure", counted)
+    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
+    found = trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
+    assert len(units) == len(found.rows) == 3
+    assert found.told_s == trade_study.REFERENCE + 3.0
+    assert found.not_measured > 0 and "The budget ended before" in found.price
+
+
+def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
+    stages = [Stage(name="first", duration=1.0), Stage(name="second", duration=1.0)]
+    chosen = [Method(integrator="tsit5", rtol=1e-3)]
+    found = trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
+    (row,) = found.rows
+    assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
+    staged = simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
+    tight = simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
+    worst = 0.0
+    for one in stages:
+        own, true = (run["position"][run.stage(one.name), 0] for run in (staged, tight))
+        for extreme in (np.min, np.max):
+            worst = max(worst, float(np.linalg.norm(extreme(own, axis=0) - extreme(true, axis=0))))
+    assert row.error("position") == pytest.approx(worst, rel=1e-6)

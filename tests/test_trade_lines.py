@@ -49,7 +49,7 @@ def test_a_rigid_link_moves_as_the_stiff_line() -> None:
 
 
 def test_each_rung_is_a_line_with_its_cost_and_error() -> None:
-    found = trade(hung("elastic"), t_end=2.0, quick=True, progress=False)
+    found = trade(hung("elastic"), t_end=2.0, progress=False)
     rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
     assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]
     elastic = min(row.evaluations for row in found.rows if row.stable and row.case["rung"] == "full")
@@ -70,7 +70,7 @@ def test_what_has_no_rigid_rung_is_a_row_with_its_reason() -> None:
     scene.add_winch(line="hoist", lag=0.2)
     with pytest.raises(SceneError, match="line 'hoist': its length changes"):
         with_rigid_lines(scene)
-    found = trade(scene, t_end=0.5, quick=True, progress=False)
+    found = trade(scene, t_end=0.5, progress=False)
     (row, _) = [row for row in found.rows if row.case["rung"] == RIGID_LINES]
     assert row.verdict == "refused"
     assert "its length changes" in row.message

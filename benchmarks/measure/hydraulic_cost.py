@@ -123,8 +123,8 @@ def _run(scene: Scene, method: Method, repeats: int) -> tuple[Array, tuple[int, 
     done = timed(case, method, ["position"], repeats=repeats)
     if done.stopped is not None:
         raise done.stopped
-    place = done.run.core.channels()["position"][:, list(scene.bodies).index("payload")]
-    return place, (int(done.run.core.statistics()["evaluations"]), float(done.cpu_s))
+    place = done.channels()["position"][:, list(scene.bodies).index("payload")]
+    return place, (int(done.counted["evaluations"]), float(done.cpu_s))
 
 
 def _path(scene: Scene) -> Array:

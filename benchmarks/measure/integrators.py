@@ -45,7 +45,7 @@ def work_precision(*, repeats: int) -> tuple[list[Row], Reference]:
         done = timed(case, method, channels_of(quantities))
         if done.stopped is not None:
             return str(done.stopped)
-        result = done.run.result()
+        result = done.result()
         return {name: quantity.values(result) for name, quantity in quantities.items()}
 
     truth = reference(values, TIGHT)

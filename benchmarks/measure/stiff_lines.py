@@ -116,11 +116,11 @@ def run_of(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) 
     done = timed(case, method, ["position", "line_tension" if has_line else "tension"], repeats=repeats)
     if done.stopped is not None:
         raise done.stopped
-    channels = done.run.core.channels()
+    channels = done.channels()
     return Ran(
         payload=channels["position"][:, list(scene.bodies).index("payload")],
         tension=channels["line_tension"][:, 0] if has_line else np.zeros(0),
-        evaluations=int(done.run.core.statistics()["evaluations"]),
+        evaluations=int(done.counted["evaluations"]),
         cpu_ms=1e3 * done.cpu_s,
     )
 

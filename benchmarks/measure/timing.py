@@ -51,8 +51,7 @@ def timed_run(
     done = timed(case, method, outputs.channels, repeats=repeats)
     if done.stopped is not None:
         raise done.stopped
-    core = done.run.core
-    return Timed(wall=done.wall_s, cpu=done.cpu_s, counters=core.statistics(), channels=core.channels())
+    return Timed(wall=done.wall_s, cpu=done.cpu_s, counters=done.counted, channels=done.channels())
 
 
 def evaluation_ns(model: Model, *, repeats: int, count: int = 4_000, formulation: str = "redundant") -> float:

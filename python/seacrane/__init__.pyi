@@ -82,7 +82,9 @@ from seacrane import operability as operability
 # What settings cost and what error they bring
 from seacrane.trading.trade_study import trade as trade
 from seacrane.accuracy.step_error import step_error as step_error
+from seacrane.needs.required import required as required
 from seacrane import accuracy as accuracy
+from seacrane import needs as needs
 
 # What went wrong
 from seacrane.errors import SeacraneError as SeacraneError

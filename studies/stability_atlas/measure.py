@@ -30,7 +30,7 @@ def reference_of(case: Case, limit_s: float) -> Reference:
         try:
             done = timed(case, method, POINTS.channels, limit_s=SLOWER * limit_s)
             if done.stopped is None:
-                return {POINTS.name: POINTS.values(done.run.result())}
+                return {POINTS.name: POINTS.values(done.result())}
             reason: Exception = done.stopped
         except (ValueError, SimulationError) as error:  # a SceneError, or a result that is not finite
             reason = error

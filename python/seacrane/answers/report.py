@@ -8,7 +8,7 @@ from html import escape
 from pathlib import Path
 
 from seacrane.answers.registry import SECTIONS
-from seacrane.answers.section import compose
+from seacrane.answers.section import Section, compose
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import AXES_NOTE
@@ -73,7 +73,7 @@ class Report:
 
 
 @named
-def report(result: Result, *, title: str | None = None) -> Report:
+def report(result: Result, *, title: str | None = None, requires: object = None) -> Report:
     """One page about a run: what was lifted and how, the loads, the limits, the numbers, and the checks.
 
     Parameters
@@ -82,6 +82,8 @@ def report(result: Result, *, title: str | None = None) -> Report:
         Of any scene; what it has not recorded is left out.
     title : str, optional
         Heading; default: the scene's name.
+    requires : Requirements, optional
+        What `seacrane.required` found of the scene: the page ends with it.
 
     Returns
     -------
@@ -104,4 +106,11 @@ def report(result: Result, *, title: str | None = None) -> Report:
         else ""
     )
     lead = f'{stopped}<p class="note">{escape(AXES_NOTE)}</p>'
-    return Report(title=heading, html=compose(title=heading, lead=lead, sections=SECTIONS, subject=result))
+    sections = SECTIONS if requires is None else (*SECTIONS, _requires(str(requires)))
+    return Report(title=heading, html=compose(title=heading, lead=lead, sections=sections, subject=result))
+
+
+def _requires(told: str) -> Section[Result]:
+    return Section(
+        title="What the scene requires", applies=lambda _: True, html=lambda _: f"<pre>{escape(told)}</pre>"
+    )

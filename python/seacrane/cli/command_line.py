@@ -197,7 +197,10 @@ def _add_trade(commands: Any) -> None:
     trade = commands.add_parser("trade", help=text, description=f"{text}; a call that was stopped goes on")
     trade.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
     trade.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
-    trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
+    trade.add_argument(
+        "--budget", type=float, metavar="RUNS", default=20.0,
+        help="runs of the default setting that it may take beside its reference (20); inf: the whole grid",
+    )  # fmt: skip
 
 
 def _add_schema(commands: Any) -> None:

@@ -127,7 +127,7 @@ def coefficient_scatter(
     -----
     The default shares are 20 to 30 % of added mass and 30 to 50 % of drag, unverified.
     """
-    used = {shape: dict(SHARES[shape]) for shape in _shapes(scene)}
+    used = {shape: dict(SHARES[shape]) for shape in shapes_in(scene)}
     if not used:
         raise SceneError(f"scene {scene.name!r}: has nothing in water; add_immersed parts first")
     sources = dict.fromkeys(used, "usual, unverified")
@@ -136,7 +136,9 @@ def coefficient_scatter(
             used[shape] |= one
             sources[shape] = "given"
     cases = [DESCRIBED, *CASES, *([SLOW] if _knows_slow(scene) else [])]
-    done = ensemble(partial(_varied, scene, used), over={"case": cases}, keep=keep, on_error="raise", **given)
+    done = ensemble(
+        partial(scattered, scene, used), over={"case": cases}, keep=keep, on_error="raise", **given
+    )
     values: dict[str, dict[str, float]] = {case: {} for case in cases}
     for name in keep:
         found = done.dataset[name].to_numpy()
@@ -147,7 +149,7 @@ def coefficient_scatter(
     return CoefficientScatter(values=values, shares=used, sources=sources)
 
 
-def _shapes(scene: Scene) -> list[str]:
+def shapes_in(scene: Scene) -> list[str]:
     """Of what is in water, each once."""
     found = (_shape(load) for load in scene.loads.values())
     return list(dict.fromkeys(shape for shape in found if shape))
@@ -184,7 +186,8 @@ def _checked(shares: Any) -> dict[str, dict[str, float]]:
     return out
 
 
-def _varied(scene: Scene, shares: Mapping[str, Mapping[str, float]], *, case: str) -> Scene:
+def scattered(scene: Scene, shares: Mapping[str, Mapping[str, float]], *, case: str) -> Scene:
+    """The scene with the coefficients of one of the cases, by shares of each shape."""
     out = scene.copy()
     for name, load in scene.loads.items():
         if not (shape := _shape(load)):

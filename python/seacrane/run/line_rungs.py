@@ -31,6 +31,10 @@ Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
 LARGEST_ERROR = 0.005  # of what a source makes of the tension
 LARGEST_TOLD = 0.05  # likewise, of a line that is given as quasi-static: beyond, a warning
+SWING = 0.2  # rad, of a load whose swing is judged
+OF_TENSION = (
+    0.75 * SWING**2
+)  # amplitude of the tension of such a swing, at twice its frequency, over the mean
 LARGEST_RINGING = 0.005  # of the tension at the start, from a kink
 LARGEST_AT_START = 0.02  # likewise, from the start: a sea begins at once, and that decays
 MOST_KINKS = 5000
@@ -236,8 +240,8 @@ def _bounded(
     """By the error that the sources make."""
     error, worst = _worst_error(line, now, sources)
     text = (
-        f"its tension would err by {100.0 * error:.2g} % of what {worst} makes of it, its own "
-        f"frequency being {now[line.name].omega:.4g} rad/s"
+        f"its tension would err by {100.0 * error:.2g} % of {worst}, its own frequency being "
+        f"{now[line.name].omega:.4g} rad/s"
     )
     if error > LARGEST_ERROR:
         return _elastic(f"{text}: more than {100.0 * LARGEST_ERROR:g} %")
@@ -247,11 +251,16 @@ def _bounded(
 def _worst_error(
     line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
 ) -> tuple[float, str]:
-    """The error of a line's tension, of what the source makes of it that is named."""
+    """The error of a line's tension, of what it is told of: what the sea or a curve makes of the tension, or
+    the tension itself in a swing."""
     own = now[line.name]
     swing = np.array([2.0 * max(now[name].swing for name in own.coupled)])  # of the tension of what swings
-    every = [*sources, ("the swing of its load", swing, np.ones(1))]
-    errors = {name: _error(line.settling, own, omega, weight) for name, omega, weight in every}
+    errors = {
+        f"what {name} makes of it": _error(line.settling, own, omega, weight)
+        for name, omega, weight in sources
+    }
+    swung = OF_TENSION * _error(line.settling, own, swing, np.ones(1))
+    errors[f"itself when its load swings by {SWING:g} rad"] = swung
     worst = max(errors, key=lambda name: errors[name])
     return errors[worst], worst
 
@@ -298,7 +307,7 @@ def warn_of_quasi_static(scene: Scene, model: _core.Model, *, end: float) -> Non
         if error > LARGEST_TOLD:
             warn_caller(
                 f"line {name!r}: its stretch is quasi-static, and its tension errs by about "
-                f"{100.0 * error:.2g} % of what {worst} makes of it, its own frequency being "
+                f"{100.0 * error:.2g} % of {worst}, its own frequency being "
                 f"{now[name].omega:.4g} rad/s. Give it rung 'elastic', or 'auto', or a smaller settling",
                 QuasiStaticLineWarning,
             )

@@ -13,6 +13,8 @@ from seacrane import _core
 from seacrane.description.channels import DERIVED
 from seacrane.run.channel_names import missing_names
 from seacrane.run.outputs import Outputs
+from seacrane.run.stage import Stage
+from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -26,8 +28,10 @@ class Case:
     ----------
     t_end, dt_out : float
         s.
-    start : State, optional
+    start : State or "rest", optional
         Where to begin; default: the assembled start.
+    stages : tuple of Stage
+        Carried out in place of one run to `t_end`.
     truth : mapping of str to ndarray, optional
         Values of quantities, known otherwise than by tight runs of the same scene.
     compiled : Model, optional
@@ -37,7 +41,8 @@ class Case:
     scene: Scene
     t_end: float
     dt_out: float
-    start: _core.State | None = None
+    start: Start = None
+    stages: tuple[Stage, ...] = ()
     truth: Mapping[str, Array] | None = None
     compiled: _core.Model | None = None
 

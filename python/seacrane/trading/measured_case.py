@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,9 @@ from seacrane.errors import SimulationError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
+from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
 from seacrane.trading.case import Case
 from seacrane.trading.reference import Reference, distance_from_start
@@ -44,6 +47,57 @@ class Timed:
         """How far it came, s."""
         return self.run.core.time - self.run.start.time
 
+    @property
+    def counted(self) -> Mapping[str, Any]:
+        """Steps, evaluations and so on."""
+        return self.run.core.statistics()
+
+    @property
+    def formulation(self) -> str:
+        """The one that was stepped."""
+        return self.run.formulation
+
+    def channels(self) -> Mapping[str, Array]:
+        """What was recorded, by name."""
+        return self.run.core.channels()
+
+    def result(self) -> Result:
+        """What came of it."""
+        return self.run.result()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TimedStages:
+    """The quickest of equal lifts in stages, likewise."""
+
+    staged: StagedRun
+    wall_s: float
+    cpu_s: float
+    stopped: OutOfTime | SimulationError | None = None
+
+    @property
+    def simulated_s(self) -> float:
+        """How far it came, s."""
+        return float(self.result().time[-1])
+
+    @property
+    def counted(self) -> Mapping[str, Any]:
+        """Steps, evaluations and so on."""
+        return self.result().stats
+
+    @property
+    def formulation(self) -> str:
+        """The one that was stepped."""
+        return str(self.result().stats["formulation"])
+
+    def channels(self) -> Mapping[str, Array]:
+        """What was recorded, by name."""
+        return self.result().channels
+
+    def result(self) -> Result:
+        """What came of it."""
+        return self.staged.result()
+
 
 def timed(
     case: Case,
@@ -53,7 +107,7 @@ def timed(
     repeats: int = 1,
     long_s: float = np.inf,
     limit_s: float | None = None,
-) -> Timed:
+) -> Timed | TimedStages:
     """Run a case; preparing it does not count.
 
     Parameters
@@ -64,6 +118,8 @@ def timed(
     limit_s : Processor time granted to each, s, so that what else the machine does decides nothing.
     """
     outputs = case.outputs(channels) if channels is not None else replace(case.outputs(()), channels=None)
+    if case.stages:
+        return _timed_stages(case, method, outputs, repeats=repeats, long_s=long_s, limit_s=limit_s)
     wall = cpu = np.inf
     for _ in range(repeats):
         run = Run(case.scene, case.t_end, method=method, outputs=outputs, start=case.start, model=case.model)
@@ -74,6 +130,33 @@ def timed(
         if stopped is not None or wall > long_s:
             break
     return Timed(run=run, wall_s=wall, cpu_s=cpu, stopped=stopped)
+
+
+def _timed_stages(
+    case: Case, method: Method, outputs: Outputs, *, repeats: int, long_s: float, limit_s: float | None
+) -> TimedStages:
+    """As `timed`, of a lift in stages; the time granted is looked at between them."""
+    wall = cpu = np.inf
+    for _ in range(repeats):
+        staged = StagedRun(case.scene, case.stages, start=case.start, method=method, outputs=outputs)
+        clock, begun = time.perf_counter(), time.thread_time()
+        stopped = _carry_out(staged, begun, limit_s)
+        cpu, wall = min(cpu, time.thread_time() - begun), min(wall, time.perf_counter() - clock)
+        if stopped is not None or wall > long_s:
+            break
+    return TimedStages(staged=staged, wall_s=wall, cpu_s=cpu, stopped=stopped)
+
+
+def _carry_out(staged: StagedRun, begun: float, limit_s: float | None) -> OutOfTime | SimulationError | None:
+    try:
+        while staged.advance():
+            if limit_s is not None and time.thread_time() - begun > limit_s:
+                return OutOfTime(f"granted {limit_s:g} s of processor time")
+    except SimulationError as stopped:
+        return stopped
+    if staged.interrupted:
+        raise KeyboardInterrupt
+    return None
 
 
 def _advance(run: Run, limit_s: float | None) -> OutOfTime | SimulationError | None:
@@ -124,10 +207,10 @@ def measured(
         row = _with_cost(row, done)
         if done.stopped is not None:
             return row.ended(SLOW if isinstance(done.stopped, OutOfTime) else STOPPED, done.stopped)
-        for name, array in done.run.core.channels().items():
-            if not np.isfinite(array).all():
+        for name, array in done.channels().items():
+            if name in channels and not np.isfinite(array).all():
                 return row.ended(NOT_FINITE, f"{name} is not finite")
-        result = done.run.result()
+        result = done.result()
         found = (values or values_by(quantities))(result)
     except SimulationError as stopped:  # at the start
         return row.ended(STOPPED, stopped)
@@ -156,11 +239,11 @@ def values_by(quantities: Mapping[str, Quantity]) -> Values:
     return values
 
 
-def _with_cost(row: Row, done: Timed) -> Row:
-    counted = done.run.core.statistics()
+def _with_cost(row: Row, done: Timed | TimedStages) -> Row:
+    counted = done.counted
     return replace(
         row,
-        stepped=done.run.formulation,
+        stepped=done.formulation,
         steps=int(counted["steps"]),
         rejected_steps=int(counted["rejected_steps"]),
         evaluations=int(counted["evaluations"]),

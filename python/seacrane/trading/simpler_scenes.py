@@ -17,7 +17,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import bodies_of
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.waves import calm_water
+from seacrane.description.waves import HullLoads, calm_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
@@ -40,12 +40,11 @@ class _Levels:
 
     asked: str
     all: tuple[float, ...]
-    quick: tuple[float, ...]
     usual: float
 
 
-R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), quick=(0.9, 0.99), usual=0.99)
-LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), quick=(0.05, 0.01), usual=0.01)
+R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), usual=0.99)
+LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
 FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
 
 
@@ -93,7 +92,7 @@ def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
 
 
 def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
-    """None, convolution, and fits of each kind at several R2 or limits."""
+    """None, convolution, and fits of each kind at several R2 or limits; `quick`: none alone."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
         return
@@ -102,8 +101,10 @@ def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callab
         if kind == memory or (kind != "none" and (quick or database is None)):
             continue
         yield kind, partial(with_memory, scene, kind)
-    for kind, levels in FITTED.items() if database is not None else ():
-        for level in levels.quick if quick else levels.all:
+    if quick or database is None:  # a fit costs more than many runs
+        return
+    for kind, levels in FITTED.items():
+        for level in levels.all:
             if kind != memory or level != levels.usual:
                 fit = partial(with_memory, scene, kind, level=level)
                 yield f"{kind} {levels.asked}={level:g}", fit
@@ -167,11 +168,10 @@ def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable
         if not quick:
             coarse = replace(waves, evaluation="table", relative_bound=BOUND)
             yield f"table bound {BOUND:g}", partial(scene.copy, waves=coarse)
-    if all(hull.force_by_heading is None and hull.drift is None for hull in waves.hulls.values()):
-        for share in SHARES:
-            count = int(np.ceil(share * len(waves.omega)))
-            fewer = partial(scene.copy, waves=strongest(waves, count))
-            yield f"{count} of {len(waves.omega)} components", fewer
+    for share in SHARES if waves.hulls else ():
+        count = int(np.ceil(share * len(waves.omega)))
+        fewer = partial(scene.copy, waves=strongest(waves, count))
+        yield f"{count} of {len(waves.omega)} components", fewer
 
 
 def strongest(waves: Any, count: int) -> Any:
@@ -184,8 +184,19 @@ def strongest(waves: Any, count: int) -> Any:
     parts = {
         name: np.asarray(getattr(waves, name))[kept] for name in ("omega", "amplitude", "phase", "direction")
     }
-    hulls = {body: replace(h, transfer=np.asarray(h.transfer)[kept]) for body, h in waves.hulls.items()}
+    hulls = {body: _of_components(hull, kept) for body, hull in waves.hulls.items()}
     return replace(waves, hulls=hulls, **parts)
+
+
+def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
+    """The loads of some components."""
+    tables: dict[str, Any] = {
+        name: None if table is None else replace(table, values=np.asarray(table.values)[:, kept])
+        for name in ("force_by_heading", "drift_by_heading")
+        for table in [getattr(hull, name)]
+    }
+    drift = None if hull.drift is None else np.asarray(hull.drift)[kept]
+    return replace(hull, transfer=np.asarray(hull.transfer)[kept], drift=drift, **tables)
 
 
 def locked(scene: Scene) -> Scene:

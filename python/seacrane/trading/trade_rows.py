@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -51,7 +52,7 @@ class Bench:
 
 
 def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference:
-    """Tight runs in two formulations and with two methods; the first is the reference.
+    """A tight run and its check, in another formulation and by another method; the first is the reference.
 
     Raises SceneError if fewer than two of them work: a reference without a second opinion is none.
     """
@@ -62,13 +63,12 @@ def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference
             if done.stopped is not None:
                 return str(done.stopped)
             return {
-                name: quantity.values(require_finite(done.run.result()))
-                for name, quantity in quantities.items()
+                name: quantity.values(require_finite(done.result())) for name, quantity in quantities.items()
             }
         except SeacraneError as error:
             return str(error)
 
-    found = reference(run, TIGHT)
+    found = reference(run, TIGHT, enough=math.inf)
     if len(found.runs) < 2:
         raise SceneError(
             f"scene {case.scene.name!r}: only {len(found.runs)} of {len(TIGHT)} reference runs work, and one "
@@ -77,8 +77,11 @@ def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference
     return found
 
 
-def measure(bench: Bench, row: Row, *, scene: Scene | None = None, repeats: int | None = None) -> Row:
-    """The row of a method, on the full scene or on one with less physics, filled in."""
+def measure(bench: Bench, row: Row, *, scene: Scene | None = None, limit_s: float | None = None) -> Row:
+    """The row of a method, on the full scene or on one with less physics, filled in.
+
+    `limit_s` is the processor time that it may take, s.
+    """
     case = bench.case if scene is None else replace(bench.case, scene=scene)
     before = (0.0, 0.0)
     values = None
@@ -92,7 +95,7 @@ def measure(bench: Bench, row: Row, *, scene: Scene | None = None, repeats: int 
         return row.ended(REFUSED, error)
     done = measured(
         case, row.method, bench.quantities, bench.truth, row, values=values,
-        repeats=bench.repeats if repeats is None else repeats, long_s=LONG,
+        repeats=bench.repeats, long_s=LONG, limit_s=limit_s,
     )  # fmt: skip
     return replace(done, wall_s=done.wall_s + before[0], cpu_s=done.cpu_s + before[1])
 
@@ -113,7 +116,7 @@ def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, tuple[f
     done = timed(alone, method, ["vessel_motion"], repeats=bench.repeats, long_s=LONG)
     if done.stopped is not None:
         raise SceneError(str(done.stopped))
-    result = require_finite(done.run.result())
+    result = require_finite(done.result())
     driven = simpler_scenes.with_prescribed_vessel(case.scene, result.time, result["vessel_motion"])
     return replace(case, scene=driven), (done.wall_s, done.cpu_s)
 
@@ -146,7 +149,7 @@ def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str,
 def frequency_domain(bench: Bench, row: Row) -> Row:
     """The row of the linear model about the described pose, in its steady state under the same waves."""
     case, truth = bench.case, bench.truth.values
-    begun = time.perf_counter()
+    begun, ticks = time.perf_counter(), time.thread_time()
     try:
         values = _linear_values(case, truth)
     except (SeacraneError, ValueError) as error:
@@ -157,6 +160,7 @@ def frequency_domain(bench: Bench, row: Row) -> Row:
         row,
         stepped="linear",
         wall_s=time.perf_counter() - begun,
+        cpu_s=time.thread_time() - ticks,
         simulated_s=case.t_end,
         errors=errors,
         uncertainty=bench.truth.uncertainty,

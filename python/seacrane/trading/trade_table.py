@@ -16,7 +16,7 @@ from seacrane.trading.row import UNKNOWN, Row
 from seacrane.trading.row_file import write_table
 
 
-def front(rows: Sequence[Row], quantity: str, *, cost: str = "wall_s") -> list[bool]:
+def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
     """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
     costs = [getattr(row, cost) for row in rows]
     usable = [
@@ -50,13 +50,14 @@ def as_text(
     quantities: Mapping[str, Quantity],
     uncertainty: Mapping[str, float],
     best: Sequence[Row],
+    said: Sequence[str],
 ) -> str:
-    """How well the reference is known, and the Pareto front of the first quantity, for terminals."""
+    """How well the reference is known, the front of the first quantity, and what is said of both."""
     known = ", ".join(f"{name} {uncertainty[name]:.1g} {one.unit}" for name, one in quantities.items())
-    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]"]
+    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "CPU [ms]"]
     cells = [
         [row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
-         f"{row.wall_s * 1e3:.3g}", *(f"{row.error(name):.2g}" for name in quantities)]
+         f"{row.cpu_s * 1e3:.3g}", *(f"{row.error(name):.2g}" for name in quantities)]
         for row in best
     ]  # fmt: skip
     unstable = sum(not row.stable for row in rows)
@@ -65,6 +66,7 @@ def as_text(
             f"reference known within {known}",
             f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:",
             text_table([*head, *(f"{name} [{one.unit}]" for name, one in quantities.items())], cells),
+            *said,
         ]
     )
 
@@ -73,13 +75,13 @@ def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[
     """The Pareto front of the first quantity, for notebooks."""
     caption = (
         f"Trade of {about['scene']!r}, {about['t_end']:g} s: {len(best)} of {measured} settings, which no "
-        f"other beats in both wall time and error of {quantities[0]}"
+        f"other beats in both CPU time and error of {quantities[0]}"
     )
-    head = ("formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]", *quantities)
+    head = ("formulation", "integrator", "setting", "memory", "waves", "rung", "CPU [ms]", *quantities)
     rows = [
         (
             row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
-            float(f"{1e3 * row.wall_s:.3g}"), *(float(f"{row.error(name):.2g}") for name in quantities),
+            float(f"{1e3 * row.cpu_s:.3g}"), *(float(f"{row.error(name):.2g}") for name in quantities),
         )
         for row in best
     ]  # fmt: skip

@@ -1,0 +1,12 @@
+"""What a scene requires: each choice of modelling made simpler, one at a time, with its cost and its loss."""
+
+from seacrane.needs.required import required as required
+from seacrane.needs.answer import Requirements as Requirements
+from seacrane.needs.answer import Loss as Loss
+from seacrane.needs.choice import Choice as Choice
+from seacrane.needs.registry import choices_of as choices_of
+from seacrane.needs.registry import missing_from as missing_from
+from seacrane.needs.water_parts import in_one_piece as in_one_piece
+from seacrane.trading.simpler_scenes import strongest as strongest
+from seacrane.trading.simpler_scenes import with_memory as with_memory
+from seacrane.trading.simpler_scenes import locked as locked

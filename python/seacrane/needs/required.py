@@ -1,0 +1,210 @@
+"""required(): each choice of modelling left out or made simpler, one at a time."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from seacrane.description.description import Description
+from seacrane.errors import SceneError, SeacraneError
+from seacrane.inputs.checked import positive_of
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
+from seacrane.needs.answer import FAILED, Loss, Requirements
+from seacrane.needs.asked import asked, asked_of
+from seacrane.needs.bench import Bench, Told, reason
+from seacrane.needs.choice import Choice
+from seacrane.needs.least import SAVES, least_of
+from seacrane.needs.registry import choices_of, missing_from
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.shorthand import settled
+from seacrane.run.stage import Stage
+from seacrane.run.staged_run import simulate_stages
+from seacrane.run.start import Start
+from seacrane.scene.scene import Scene
+from seacrane.simulation import simulate
+
+TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the numbers are known
+SHORTER = 0.5  # times the step, likewise
+TWICE = 2.0  # both of two runs err
+
+
+@named
+def required(
+    scene: Scene,
+    t_end: float = 100.0,
+    *,
+    stages: Sequence[Stage] = (),
+    start: Start = None,
+    method: Method | None = None,
+    outputs: Outputs | None = None,
+    keep: Mapping[str, Any] | None = None,
+    within: float | Mapping[str, float] = 0.01,
+    run: Callable[[Scene], Any] | None = None,
+    choices: Iterable[Choice] | None = None,
+    repeats: int = 2,
+    progress: bool = False,
+    **shorthand: Any,
+) -> Requirements:
+    """What a scene requires: what each choice of modelling costs, and what leaving it out would change.
+
+    Each choice is made simpler by itself (slings and block as one with the load, the rungs of lines, wave
+    components, fluid memory, damping, strips and waves of parts in water, oil, controlled drives, contacts),
+    run beside the scene as it stands by turns, and told with its share of the processor time and the change
+    of the numbers that are asked. The cheapest set whose changes together stay within what is asked is then
+    run once. What the scene leaves out, and would matter, is run likewise.
+
+    Parameters
+    ----------
+    scene : Scene
+    t_end, stages, start, method, outputs, **shorthand
+        As of `simulate`, or with stages of `simulate_stages`.
+    keep : mapping, optional
+        Single numbers of a run by name, as of `ensemble`: ``{"peak": "hook_load.max"}``, or functions of the
+        result. Default: the largest hook load, the scatter of each load's height, and of roll.
+    within : float or mapping of str to float
+        Largest change that is accepted: a share of each number (0.01), or by name, in its unit.
+    run : callable, optional
+        In place of a simulation: from a scene to what `keep` takes its numbers from, such as
+        ``lambda scene: allowable_hs(scene, ...)``.
+    choices : iterable of Choice, optional
+        To try; default: `seacrane.needs.choices_of` the scene.
+    repeats : int
+        Timed runs of each, by turns with the scene as it stands.
+    progress : bool
+        Tell the price beforehand, and show a progress bar.
+
+    Returns
+    -------
+    Requirements
+        Prints as a table, with the least set and its lines of script.
+
+    Raises
+    ------
+    SceneError
+        For what is asked and is no single number, limits that are none, and a scene that does not run.
+    """
+    if not isinstance(scene, Description):
+        raise SceneError(f"required: scene is {shown(scene)}; give a Scene, such as seacrane.cases.case2()")
+    asks, units = asked_of(asked(scene, keep))
+    method, outputs = settled(method, outputs, shorthand)
+    begun = time.process_time()
+    runs = _Runs(t_end=t_end, stages=tuple(stages), start=start, outputs=outputs)
+    bench = Bench(run=partial(runs, method=method) if run is None else run, asked=asks)
+    cold, full = bench.told(scene), bench.told(scene)  # what is found of a scene once belongs to no choice
+    tight = None if run is not None else bench.told(scene, partial(runs, method=tighter(method)))
+    limits = _limits(within, full.values)
+    tried = choices_of(scene) if choices is None else list(choices)
+    missing = missing_from(scene)
+    choices_tried = len(tried) + len(missing)
+    price = choices_tried * cold.cpu_s + (2 * repeats * (len(tried) + 1) + len(missing) + 4) * full.cpu_s
+    with _bar(progress, price, choices_tried) as tick:
+        rows = [_row(bench, scene, full, choice, repeats, tick) for choice in tried]
+        lacks = [_row(bench, scene, full, choice, 0, tick) for choice in missing]
+        noise = {
+            name: math.nan if tight is None else TWICE * abs(tight.values[name] - value)
+            for name, value in full.values.items()
+        }
+        chosen = least_of(rows, limits, noise)
+        least, taken = _run_together(bench, scene, full, chosen, limits, repeats)
+    return Requirements(
+        scene=scene.name, full=full.values, units=units, limits=limits, noise=noise, cpu_s=full.cpu_s,
+        rows=tuple(rows), missing=tuple(lacks), least=least, taken=tuple(taken), told_s=price,
+        took_s=time.process_time() - begun, runs=bench.runs,
+    )  # fmt: skip
+
+
+def tighter(method: Method) -> Method:
+    """The same method at a far smaller tolerance or step."""
+    if method.dt is not None:
+        return replace(method, dt=SHORTER * method.dt)
+    return replace(method, rtol=TIGHTER * (1e-6 if method.rtol is None else method.rtol))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Runs:
+    """A run or a lift in stages, of any scene."""
+
+    t_end: float
+    stages: tuple[Stage, ...]
+    start: Start
+    outputs: Outputs
+
+    def __call__(self, scene: Scene, *, method: Method) -> Any:
+        if self.stages:
+            return simulate_stages(scene, self.stages, start=self.start, method=method, outputs=self.outputs)
+        return simulate(scene, self.t_end, start=self.start, method=method, outputs=self.outputs)
+
+
+def _limits(within: float | Mapping[str, float], values: Mapping[str, float]) -> dict[str, float]:
+    """Largest change of each number, in its unit; one that is not named has none."""
+    if not isinstance(within, Mapping):
+        share = positive_of("required: within", within)
+        return {name: share * abs(value) for name, value in values.items()}
+    for name in within:
+        if name not in values:
+            raise SceneError(f"required: within has {name!r}, which is not asked; {', '.join(values)} are")
+    return {name: positive_of(f"required: within: {name}", limit) for name, limit in within.items()}
+
+
+def _row(
+    bench: Bench, scene: Scene, full: Told, choice: Choice, repeats: int, tick: Callable[[], None]
+) -> Loss:
+    """Of one choice; what does not run is a row that says why."""
+    row = Loss(name=choice.name, script=choice.script, of=choice.of, choice=choice)
+    try:
+        made = choice.made(scene)
+        if repeats:
+            told, shares, counted = bench.beside(scene, made, repeats)
+            row = replace(row, shares=tuple(shares), evaluations=counted)
+        else:
+            told = bench.told(made)
+            row = replace(row, shares=(bench.told(made).cpu_s / max(full.cpu_s, 1e-9),))
+    except (SeacraneError, ValueError) as error:
+        return replace(row, verdict=FAILED, message=reason(error))
+    finally:
+        tick()
+    return replace(row, changes={name: told.values[name] - value for name, value in full.values.items()})
+
+
+def _run_together(
+    bench: Bench, scene: Scene, full: Told, chosen: Sequence[Loss], limits: Mapping[str, float], repeats: int
+) -> tuple[Loss | None, Sequence[Loss]]:
+    """The chosen set, run against the full scene; what changes most goes while it is beyond a limit."""
+    taken = list(chosen)
+    while taken:
+        both = Choice(
+            name="all of these", script="\n".join(one.script for one in taken), of="",
+            made=partial(_all_of, choices=[one.choice for one in taken]),
+        )  # fmt: skip
+        row = _row(bench, scene, full, both, repeats, lambda: None)
+        if row.stable and all(abs(row.changes[name]) <= limit for name, limit in limits.items()):
+            return (row, taken) if row.share < 1.0 - SAVES else (None, ())
+        taken.remove(max(taken, key=lambda one: one.uses(limits)))
+    return None, ()
+
+
+def _all_of(scene: Scene, *, choices: Sequence[Choice]) -> Scene:
+    for choice in choices:
+        scene = choice.made(scene)
+    return scene
+
+
+@contextmanager
+def _bar(progress: bool, price: float, rows: int) -> Iterator[Callable[[], None]]:
+    """The price, then a bar; nothing where no progress is asked."""
+    if not progress:
+        yield lambda: None
+        return
+    from tqdm.auto import tqdm
+
+    tqdm.write(f"required: takes about {price:.2g} s of CPU, fits of a memory aside", file=sys.stderr)
+    with tqdm(total=rows, desc="required", unit="row") as bar:
+        yield lambda: bar.update() and None

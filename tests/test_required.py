@@ -1,0 +1,257 @@
+"""required(): choices of modelling made simpler one at a time, and the set that is enough."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import seacrane
+from seacrane import Scene, SceneError, needs, report, required, shipped_database, simulate
+from seacrane.description.file import scene_digest
+from seacrane.description.loads import changed
+from seacrane.hydro import DriftCoefficients
+from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
+from seacrane.needs.least import least_of
+from seacrane.water import BoxPart
+
+LENGTH, RATIO, G = 5.0, 0.02, 9.80665
+OMEGA = math.sqrt(G / LENGTH)
+PERIODS = 5
+RUN: dict[str, Any] = {"t_end": (PERIODS + 0.25) * 2.0 * math.pi / OMEGA, "dt_out": 0.02, "rtol": 1e-9}
+LAST = {"last": f"position[bob, x, after={(PERIODS - 0.5) * 2.0 * math.pi / OMEGA:.6g}].max"}
+SWING = 0.02  # m
+
+
+def pendulum() -> Scene:
+    """A point mass on a rod, with friction where it hangs, and drag of no coefficient."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=1e3, inertia=(1.0, 1.0, 1.0), position=(SWING, 0.0, -LENGTH))
+    scene.add_joint(kind="distance", name="rod", first="ground", second="bob", point=(0, 0, 0),
+                    second_point=(SWING, 0.0, -LENGTH))  # fmt: skip
+    scene.add_pendulum_damping("friction", first="ground", second="bob", ratio=RATIO)
+    scene.add_air_drag("bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
+    return scene
+
+
+def slung(**more: Any) -> Scene:
+    """A load on four slings below a block, whose hoist is shaken by nothing but its own start."""
+    scene = Scene(name="slung")
+    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
+    scene.add_hoist(
+        mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, block_mass=1e3, winch={"lag": 0.2},
+        slings={"angle_deg": 60, "EA": 5e7}, **more,
+    )  # fmt: skip
+    return scene
+
+
+def wet() -> Scene:
+    """A box cut into strips, with waves at its parts."""
+    scene = Scene(name="wet")
+    scene.add_sea(vessel=None, hs=1.0, tp=8.0, direction_deg=0.0)
+    scene.add_body(name="box", mass=40e3, inertia=(1e5, 1e5, 1e5), position=(0.0, 0.0, -8.0))
+    scene.add_line(
+        "wire", bodies=["ground", "box"], points=[(0.0, 0.0, 10.0), (0, 0, 1.0)], EA=5e7, length=17.0
+    )
+    scene.add_immersed("box", parts=[BoxPart(size=(6.0, 4.0, 1.0), strips=(3, 1))])
+    return scene
+
+
+def on_deck() -> Scene:
+    """A box that stands on points of its own."""
+    scene = Scene(name="on deck")
+    scene.add_body(name="box", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 0.5), size=(1, 1, 1))
+    scene.add_contact("box", on="ground", points=[(x, y, -0.5) for x in (-0.5, 0.5) for y in (-0.5, 0.5)])
+    return scene
+
+
+def on_oil() -> Scene:
+    """A crane that stands on the oil of two cylinders."""
+    oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
+    scene = Scene(name="on oil")
+    scene.add_crane(
+        base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True,
+        hydraulics={"main": oil, "knuckle": oil},
+    )  # fmt: skip
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7)
+    return scene
+
+
+def drifting(*, drift: bool = True) -> Scene:
+    """A ship whose database knows its drift."""
+    known = DriftCoefficients(
+        heading=np.linspace(0.0, np.pi, 13), omega=np.linspace(0.2, 2.6, 25),
+        coefficient=np.full((13, 25, 6), [-2e3, 1e3, 0.0, 0.0, 0.0, 1e4]),
+    )  # fmt: skip
+    scene = Scene(name="drifting")
+    scene.add_vessel(dataclasses.replace(shipped_database(), drift=known))
+    scene.add_sea(hs=2.0, tp=8.0, direction_deg=180.0, count=20, drift=drift)
+    return scene
+
+
+def executed(choice: Choice, scene: Scene) -> Scene:
+    held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
+    exec(choice.script, held)
+    made: Scene = held["scene"]
+    return made
+
+
+def test_what_damping_takes_and_what_drag_of_nothing_does_not() -> None:
+    found = required(pendulum(), keep=LAST, repeats=1, **RUN)
+    swung = SWING * math.exp(-RATIO * OMEGA * PERIODS * 2.0 * math.pi / OMEGA)
+    assert found.full["last"] == pytest.approx(swung, rel=2e-3)
+    assert found.row("no pendulum damping").changes["last"] == pytest.approx(SWING - swung, rel=2e-3)
+    assert abs(found.row("no air drag").changes["last"]) <= found.noise["last"] < 1e-6
+    assert "none" in str(found) and "no air drag on bob" in str(found)
+
+
+def test_a_report_ends_with_what_the_scene_requires() -> None:
+    found = required(pendulum(), keep=LAST, repeats=1, choices=[], **RUN)
+    page = report(simulate(pendulum(), 1.0), requires=found).html
+    assert "What the scene requires" in page and "nothing that saves may be left out" in page
+
+
+def test_choices_are_told_alike_in_any_order() -> None:
+    scene = pendulum()
+    either = [required(scene, keep=LAST, repeats=1, choices=order, **RUN)
+              for order in (choices_of(scene), choices_of(scene)[::-1])]  # fmt: skip
+    for row in either[0].rows:
+        assert either[1].row(row.name).changes == row.changes
+
+
+def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(Loss, "share", property(lambda self: self.evaluations))
+    monkeypatch.setattr(Loss, "spread", property(lambda self: 0.0))
+    peak = {"peak": "hook_load[hoist].max"}
+    scene = slung()
+    found = required(scene, keep=peak, within=0.02, t_end=3.0)
+    assert found.least is not None
+    assert [row.of for row in found.taken] and found.least.evaluations < 0.5
+    assert len({row.of for row in found.taken}) == len(found.taken)
+    held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses}
+    exec(found.script, held)
+    least = simulate(held["scene"], 3.0)["hook_load"].max()
+    full = simulate(scene, 3.0)["hook_load"].max()
+    assert found.least.changes["peak"] == pytest.approx(least - full, abs=0.01 * full)
+    assert abs(found.least.changes["peak"]) <= found.limits["peak"]
+
+
+@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, on_oil, drifting, seacrane.cases.case2])
+def test_a_script_makes_what_is_measured(described: Any) -> None:
+    scene = described()
+    tried = [*choices_of(scene), *missing_from(scene)]
+    assert tried
+    for choice in tried:
+        if "coefficient_scatter" not in choice.script:
+            assert scene_digest(executed(choice, scene)) == scene_digest(choice.made(scene)), choice.name
+
+
+def test_a_choice_whose_object_is_gone_does_nothing() -> None:
+    scene = slung()
+    stiff, *others = choices_of(scene)
+    made = stiff.made(scene)
+    for choice in others:
+        choice.made(made)
+    assert not any("sling" in name for name in made.loads)
+
+
+def test_what_does_not_run_is_a_row_with_its_reason() -> None:
+    scene = slung()
+    scene.loads["hoist"] = changed(scene.loads["hoist"], lag=0.0)
+    found = required(scene, keep={"peak": "hook_load[hoist].max"}, t_end=0.5, repeats=1)
+    row = found.row("line hoist quasi-static")
+    assert not row.stable and "its winch has no lag" in row.message
+    assert f"not tried: line hoist quasi-static: {row.message}" in str(found)
+
+
+def test_oil_that_holds_is_as_good_as_a_driver() -> None:
+    scene = on_oil()
+    (held,) = [choice for choice in choices_of(scene) if choice.of == "drives"]
+    found = required(
+        scene, keep={"peak": "hook_load[hoist].max"}, t_end=2.0, start="rest", repeats=1, choices=[held]
+    )
+    (row,) = found.rows
+    assert row.evaluations < 1.0
+    assert abs(row.changes["peak"]) < 1e-3 * found.full["peak"]
+
+
+def test_slow_drift_is_left_out_or_missed() -> None:
+    (less,) = [choice for choice in choices_of(drifting()) if choice.of == "slow drift of vessel"]
+    calm = drifting(drift=False)
+    (more,) = [choice for choice in missing_from(calm) if choice.of == "slow drift of vessel"]
+    assert scene_digest(less.made(drifting())) == scene_digest(calm)
+    assert scene_digest(more.made(calm)) == scene_digest(drifting())
+
+
+def test_fewer_waves_keep_their_drift_and_their_loads_over_the_heading() -> None:
+    scene = drifting()
+    scene.use_actual_position()
+    assert scene.waves is not None
+    few, all_of_them = needs.strongest(scene.waves, 5), needs.strongest(scene.waves, 20)
+    kept = np.isin(scene.waves.omega, few.omega)
+    assert kept.sum() == 5
+    hull, whole = few.hull(), scene.waves.hull()
+    for name in ("force_by_heading", "drift_by_heading"):
+        np.testing.assert_array_equal(getattr(hull, name).values, getattr(whole, name).values[:, kept])
+    assert scene_digest(scene.copy(waves=all_of_them)) == scene_digest(scene)
+    run = simulate(scene.copy(waves=few), 5.0)
+    assert np.all(np.isfinite(run["position"]))
+
+
+def test_one_piece_has_the_water_of_its_strips() -> None:
+    scene = wet()
+    (whole,) = [load for load in in_one_piece(scene).loads.values() if type(load).__name__ == "ImmersedPart"]
+    strips = [load for load in scene.loads.values() if type(load).__name__ == "ImmersedPart"]
+    assert len(strips) == 3 and not whole.row
+    np.testing.assert_allclose(whole.size, (6.0, 4.0, 1.0))
+    np.testing.assert_allclose(whole.drag, 3.0 * np.asarray(strips[0].drag))
+    np.testing.assert_allclose(whole.added_masses, 3.0 * np.asarray(strips[0].added_masses))
+    np.testing.assert_allclose(whole.point, (0.0, 0.0, 0.0), atol=1e-12)
+
+
+def loss(name: str, of: str, share: float, change: float) -> Loss:
+    nothing = Choice(name=name, script="", made=lambda scene: scene, of=of)
+    return Loss(name=name, script="", of=of, choice=nothing, shares=(share, share), changes={"x": change})
+
+
+def test_the_least_set_takes_one_choice_about_each_thing_and_keeps_the_sum_of_changes() -> None:
+    rows = [
+        loss("half", "waves", 0.9, 0.1), loss("quarter", "waves", 0.8, 0.7), loss("stiff", "lines", 0.5, 0.6),
+        loss("free", "drag", 0.7, -0.2), loss("dearer", "memory", 1.2, 0.0), loss("wrong", "oil", 0.01, 9.0),
+    ]  # fmt: skip
+    taken = {row.name for row in least_of(rows, {"x": 1.0}, {"x": 0.0})}
+    assert taken == {"half", "stiff", "free"}
+    assert taken == {row.name for row in least_of(rows[::-1], {"x": 1.0}, {"x": 0.0})}
+    assert not least_of(rows, {"x": 0.05}, {"x": 0.0})
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"keep": {}}, "keep is"),
+        ({"keep": {"z": "position[bob, z]"}}, "'z' is a series"),
+        ({"keep": {"z": "position.max"}}, "'z' is 3 numbers of a run"),
+        ({"within": {"y": 1.0}, "keep": LAST}, "within has 'y', which is not asked; last are"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        required(pendulum(), t_end=8.0 * math.pi, **given)
+
+
+def test_any_number_of_a_scene_may_be_asked() -> None:
+    found = required(
+        pendulum(), keep={"mass": lambda scene: scene.bodies["bob"].mass}, run=lambda scene: scene, repeats=1
+    )
+    assert found.full == {"mass": 1e3} and math.isnan(found.noise["mass"])
+    assert all(row.changes == {"mass": 0.0} for row in found.rows if row.stable)
+
+
+def test_a_scene_in_which_nothing_hangs_has_no_usual_numbers() -> None:
+    with pytest.raises(SceneError, match="nothing hangs or floats in scene 'on deck'"):
+        required(on_deck(), t_end=0.5)
