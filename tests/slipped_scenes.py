@@ -65,7 +65,7 @@ def immersed(**numbers: Any) -> Scene:
 
 def filled(**numbers: Any) -> Scene:
     scene = at_the_surface()
-    add_load(scene, _core.EntrappedWater(name="water", body="load", **numbers))
+    add_load(scene, _core.EntrappedWater(name="water", body="load", air="free", **numbers))
     return scene
 
 
