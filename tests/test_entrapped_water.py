@@ -401,13 +401,17 @@ def test_a_lift_out_of_the_water_is_that_of_the_same_equations(formulation: str)
 # --- both formulations, Jacobian, restart, lanes --------------------------------------------------------
 
 
-def hanging(seed: int, waves: bool = True) -> Scene:
+AIR = pytest.mark.parametrize("air", ["free", "vented", "shut"])
+
+
+def hanging(seed: int, air: str = "free") -> Scene:
     """A load with two compartments and a part in the water that swings on two links through a sea."""
+    kept = {"air": air, "exponent": 1.3} if air == "shut" else {"air": air}
     rng = np.random.default_rng(seed)
     scene = Scene(name="hanging", gravity=G)
     scene.add_body(name="hook", mass=300.0, inertia=(50.0, 60.0, 70.0), position=(0.5, 0.2, 5.0))
     scene.add_body(
-        name="load", mass=4000.0, inertia=(3000.0, 4000.0, 5000.0), position=(1.0, 0.0, 0.3),
+        name="load", mass=9000.0, inertia=(3000.0, 4000.0, 5000.0), position=(1.0, 0.0, 0.3),
         angular_velocity=(0.2, -0.15, 0.3), velocity=(0.615, 0.86, 0.02),
     )  # fmt: skip
     scene.add_joint(kind="distance", name="rope", first="ground", second="hook", point=(0.0, 0.0, 10.0),
@@ -418,20 +422,20 @@ def hanging(seed: int, waves: bool = True) -> Scene:
         places = bottom + rng.uniform((-0.5, -0.5, 0.0), (0.5, 0.5, 2.5), (3, 3))
         filled(
             scene, *((place, 0.05 + 0.02 * i) for i, place in enumerate(places)), name=f"water {n}",
-            point=bottom, area=1.0 + n, height=2.5, initial=0.4 + 0.3 * n,
+            point=bottom, area=1.0 + n, height=2.5, initial=0.4 + 0.3 * n, **kept,
         )  # fmt: skip
     scene.add_immersed("load", parts=[CylinderPart(length=2.0, diameter=0.6, point=(0.0, 0.0, -1.0))])
-    if waves:
-        scene.add_sea(
-            vessel=None, hs=1.5, tp=6.0, seed=seed, direction_deg=30.0,
-            current=Current(speed=0.5, direction_deg=100.0),
-        )  # fmt: skip
+    scene.add_sea(
+        vessel=None, hs=1.5, tp=6.0, seed=seed, direction_deg=30.0,
+        current=Current(speed=0.5, direction_deg=100.0),
+    )  # fmt: skip
     return scene
 
 
+@AIR
 @pytest.mark.parametrize("seed", range(3))
-def test_both_formulations_agree_and_the_ledger_closes(seed: int) -> None:
-    one, other = (run(hanging(seed), 5.0, 0.1, form) for form in FORMS)
+def test_both_formulations_agree_and_the_ledger_closes(seed: int, air: str) -> None:
+    one, other = (run(hanging(seed, air), 5.0, 0.1, form) for form in FORMS)
     assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-7)
     assert np.asarray(one["load_state"]) == pytest.approx(np.asarray(other["load_state"]), rel=1e-6, abs=1e-4)
     for result in (one, other):
@@ -444,9 +448,10 @@ def test_both_formulations_agree_and_the_ledger_closes(seed: int) -> None:
         assert volume.max() <= 5.0 * (1.0 + 1e-9)
 
 
+@AIR
 @pytest.mark.parametrize("formulation", FORMS)
-def test_a_run_continues_bit_for_bit(formulation: str) -> None:
-    scene = hanging(1)
+def test_a_run_continues_bit_for_bit(formulation: str, air: str) -> None:
+    scene = hanging(1, air)
     given: dict[str, Any] = {"formulation": formulation, "integrator": "dopri5", "dt_out": 0.1}
     whole = Run(scene, 2.0, **given)
     whole.advance(0.97)
@@ -469,11 +474,12 @@ def test_a_run_continues_at_a_bound_bit_for_bit() -> None:
             assert np.array_equal(rest.state.values, whole.state.values)
 
 
+@AIR
 @pytest.mark.parametrize("volume", [0.7, None])
 @pytest.mark.parametrize("seed", range(3))
-def test_the_exact_jacobian_is_that_of_differences(seed: int, volume: float | None) -> None:
+def test_the_exact_jacobian_is_that_of_differences(seed: int, volume: float | None, air: str) -> None:
     """Partly filled, and full."""
-    scene = hanging(seed)
+    scene = hanging(seed, air)
     model = scene.compile()
     evaluator = _core.Evaluator(model, "redundant")
     y = np.asarray(evaluator.project(1.7, model.initial_state))
@@ -498,10 +504,11 @@ def test_the_exact_jacobian_is_that_of_differences(seed: int, volume: float | No
 
 
 @pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
-def test_lanes_hold_water_each_its_own() -> None:
+@AIR
+def test_lanes_hold_water_each_its_own(air: str) -> None:
     scenes = []
     for lane in range(4):
-        scene = hanging(2)
+        scene = hanging(2, air)
         scene.replace("load", mass=3000.0 + 500.0 * lane)
         scenes.append(scene)
     evaluator = _core.LaneEvaluator(module_of(4), [scene.compile() for scene in scenes])
