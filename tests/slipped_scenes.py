@@ -11,6 +11,7 @@ import numpy as np
 from seacrane import Curve, Scene, _core
 from seacrane.description.forces import add_load
 from seacrane.description.waves import Waves
+from seacrane.water import BoxPart
 
 MASS, G = 2e4, 9.80665
 INERTIA = np.diag([3e4, 3e4, 3e4])
@@ -65,6 +66,7 @@ def immersed(**numbers: Any) -> Scene:
 
 def filled(**numbers: Any) -> Scene:
     scene = at_the_surface()
+    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0.0, 0.0))])
     add_load(scene, _core.EntrappedWater(name="water", body="load", air="free", **numbers))
     return scene
 
