@@ -579,7 +579,8 @@ def every_part() -> Scene:
     scene.add_immersed("load", name="wet", parts=parts, density=1000.0)
     scene.add_entrapped_water(
         "load", name="in it", density=1000.0, area=0.5, height=1.0, point=(0, 0, -0.5), initial=0.1,
-        air="shut", exponent=1.2, air_pressure=2e5, discharge_coefficient=0.7, openings=[{"point": (0, 0, -0.5), "area": 0.01}],
+        air="shut", exponent=1.2, air_pressure=2e5, discharge_coefficient=0.7,
+        openings=[{"point": (0, 0, -0.5), "area": 0.01}],
     )  # fmt: skip
     return scene
 

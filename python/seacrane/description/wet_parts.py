@@ -75,8 +75,15 @@ def _least_water(one: _core.EntrappedWater) -> float:
     return float(one.density * (one.initial if one.air == "shut" else one.area * one.height))
 
 
-def refuse_outside_parts(scene: Description) -> None:
-    """Refuse a compartment that parts of its body, or of bodies welded to it, do not keep water out of."""
+def refuse_compartments(scene: Description) -> None:
+    """Refuse one that parts of its body, or of what is welded to it, do not hold; or whose air is unsaid."""
+    for one in waters_in(scene):
+        if not one.air:
+            raise SceneError(
+                f"entrapped water {one.name!r}: no opening is in its lid, {one.height:.6g} m over its bottom,"
+                " and nothing says where its air goes; give air='shut' and exponent=1.0 to 1.4 for a lid that"
+                " is shut, air='free' for air that comes and goes, or an opening in the lid"
+            )
     for body in dict.fromkeys(water.body for water in waters_in(scene)):
         waters = [one for one in waters_in(scene) if one.body == body]
         holds, rigid = sum(one.area * one.height for one in waters), welded_to(scene, body)

@@ -77,8 +77,8 @@ def add_entrapped_water(
     ------
     SceneError
         For a body that is not there or leans by more than 60 deg as described, openings outside the
-        compartment, none in its lid and no word on its air, more water than it holds, bad numbers, and a
-        density that is in t/m3; when the scene is compiled, for a compartment outside its body's parts.
+        compartment, more water than it holds, bad numbers, and a density that is in t/m3; when the scene is
+        compiled, for no opening in its lid and no word on its air, and outside its body's parts.
 
     Notes
     -----
@@ -130,15 +130,9 @@ def _opening(what: str, given: Any) -> Opening:
 
 
 def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
-    """As told; openings in the lid tell it too."""
-    if given is None and max(heights) > (1.0 - IN_LID) * top:
-        return "vented"
-    if given is None:
-        raise SceneError(
-            f"{what}: no opening is in its lid, {top:.6g} m over its bottom, and nothing says where its air "
-            f"goes; give air='shut' and exponent=1.0 to 1.4 for a lid that is shut, air='free' for air that "
-            f"comes and goes, or an opening in the lid"
-        )
+    """As told; an opening in the lid tells it too."""
+    if given is None:  # "" is asked for when the scene is compiled
+        return "vented" if max(heights) > (1.0 - IN_LID) * top else ""
     if given not in AIR:
         raise SceneError(f"{what}: air is {shown(given)}; give one of {', '.join(AIR)}")
     return given
