@@ -53,7 +53,7 @@ def standing(z: float, *openings: tuple[Any, float], lean: float = 0.0, **more: 
     """A compartment whose bottom is held at a height."""
     scene = Scene(name="standing", gravity=G)
     scene.add_body(
-        name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, z),
+        name="load", mass=6e3, inertia=(6e3, 6e3, 6e3), position=(0.0, 0.0, z),
         quaternion=(np.cos(0.5 * lean), 0.0, np.sin(0.5 * lean), 0.0),
     )  # fmt: skip
     scene.add_joint(kind="weld", name="held", first="ground", second="load", point=(0.0, 0.0, z))
@@ -79,7 +79,9 @@ def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "auto", **
 
 def states(result: Any) -> tuple[Array, Array]:
     """Volume, and what is lost, of the one compartment."""
-    volume, loss = np.asarray(result["load_state"]).reshape(len(result.time), -1).T
+    volume, loss = (
+        np.asarray(result.select("load_state", state_name=f"water.{one}")) for one in ("volume", "flow_loss")
+    )
     return volume, loss
 
 
@@ -500,7 +502,7 @@ def test_the_exact_jacobian_is_that_of_differences(seed: int, volume: float | No
         )
         expected[:, i] = (4.0 * near - wide) / 3.0
     scale = np.max(np.abs(expected), axis=1, keepdims=True) + 1.0
-    assert np.max(np.abs(found - expected) / scale) < 5e-6
+    assert np.max(np.abs(found - expected) / scale) < 1e-5
 
 
 @pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
@@ -547,7 +549,7 @@ def test_a_load_welded_on_a_body_brings_its_water_to_the_carrier() -> None:
 def test_leaning_over_is_told() -> None:
     scene = Scene(name="leans", gravity=G)
     scene.add_body(
-        name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 30.0),
+        name="load", mass=4e3, inertia=(4e3, 4e3, 4e3), position=(0.0, 0.0, 30.0),
         angular_velocity=(0.0, 0.5, 0.0), gravity=False,
     )  # fmt: skip
     filled(scene, BOTTOM)
@@ -592,7 +594,9 @@ def test_bad_calls_are_refused(given: dict[str, Any], message: str) -> None:
 )  # fmt: skip
 def test_what_does_not_fit_is_refused_when_the_scene_is_compiled(given: dict[str, Any], message: str) -> None:
     scene = bare()
-    scene.add_entrapped_water("load", **{"area": 2.0, "height": 3.0, "openings": [HOLE]} | given)
+    scene.add_immersed("load", parts=[BoxPart(size=(1.5, 1.5, 3.0), point=(0.0, 0.0, 1.5))])
+    told = {"area": 2.0, "height": 3.0, "openings": [HOLE], "air": "free"}
+    scene.add_entrapped_water("load", **told | given)
     with pytest.raises(SceneError, match=message):
         scene.compile()
 
