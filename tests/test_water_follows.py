@@ -371,7 +371,12 @@ def test_a_current_and_compartments_are_refused_by_name() -> None:
         motion_rao(scene, omega=[0.8], direction=0.0, body="load")
     scene = hung(4.0)
     scene.add_entrapped_water(
-        "load", area=1.0, height=1.0, openings=[{"point": (0.0, 0.0, 0.0), "area": 0.1}], initial=1.0
+        "load",
+        area=1.0,
+        height=1.0,
+        openings=[{"point": (0.0, 0.0, 0.0), "area": 0.1}],
+        initial=1.0,
+        air="free",
     )
     with pytest.raises(SceneError, match="entrapped water 'water in load': flows by the root of a head"):
         motion_rao(scene, omega=[0.8], direction=0.0, body="load")

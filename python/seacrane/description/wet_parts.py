@@ -75,8 +75,8 @@ def _least_water(one: _core.EntrappedWater) -> float:
     return float(one.density * (one.initial if one.air == "shut" else one.area * one.height))
 
 
-def refuse_compartments(scene: Description) -> None:
-    """Refuse one that parts of its body, or of what is welded to it, do not hold; or whose air is unsaid."""
+def refuse_unsaid_air(scene: Description) -> None:
+    """Refuse a compartment of which neither an opening in its lid nor a word tells where its air goes."""
     for one in waters_in(scene):
         if not one.air:
             raise SceneError(
@@ -84,6 +84,10 @@ def refuse_compartments(scene: Description) -> None:
                 " and nothing says where its air goes; give air='shut' and exponent=1.0 to 1.4 for a lid that"
                 " is shut, air='free' for air that comes and goes, or an opening in the lid"
             )
+
+
+def refuse_outside_parts(scene: Description) -> None:
+    """Refuse a compartment that parts of its body, or of what is welded to it, do not keep water out of."""
     for body in dict.fromkeys(water.body for water in waters_in(scene)):
         waters = [one for one in waters_in(scene) if one.body == body]
         holds, rigid = sum(one.area * one.height for one in waters), welded_to(scene, body)
