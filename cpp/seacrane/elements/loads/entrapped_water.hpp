@@ -73,7 +73,8 @@ struct EntrappedWaterDescription {
 /// meets walls alone is at z_w at any heel.
 ///
 /// Air that is free has h_a = 0. Vented, it is as much as comes in: the sum of all q is zero, which h_a
-/// follows from. Shut in, p (A H - V)^exponent stays, as long as no air passes; else it is as vented air.
+/// follows from. Shut in, p (A H - V)^exponent stays, as long as no air passes; else it is as vented air,
+/// or as much as the last opening holds back that lets it through.
 /// Where all openings are in air outside and under water inside, nothing seals: air comes up through the
 /// water. The mass of air is a state, its volume at one atmosphere. h_a is not below the vapour's pressure:
 /// there a column of water parts from its lid. Without air, h_a is the head under the lid, likewise.
@@ -408,6 +409,20 @@ struct EntrappedWater {
     }
     return true;
   }
+  /// The head at which the last opening stops to let air through: out below its lip, or in by suction.
+  template <class T>
+  T lip(const Exchange<T>& all, bool out) const {
+    T found(0);
+    bool any = false;
+    for (std::size_t i = 0; i < openings.size(); ++i) {
+      const Flow<T>& at = all.flows[i];
+      if (out ? at.wet_inside : at.wet_outside) continue;
+      const T one = at.outside - at.inside;
+      if (!any || (out ? one < found : one > found)) found = one;
+      any = true;
+    }
+    return found;
+  }
   /// Whether there is water behind every opening, and none before.
   template <class T>
   bool falls_out(const Exchange<T>& all) const {
@@ -431,6 +446,7 @@ struct EntrappedWater {
   template <class T>
   T air_head(const LoadInput<T>& in, const Column<T>& water, Exchange<T>& all) const {
     if (air == Air::free && !water.full) return T(0);
+    const T lowest(lowest_head());
     if (air == Air::shut) {
       all.open = falls_out(all);
       if (all.open) return T(0);
@@ -438,9 +454,11 @@ struct EntrappedWater {
         const T kept = kept_head(in, water);
         all.open = !sealed(all, kept);
         if (!all.open) return kept;
+        const T even = balanced_head(all);
+        return sealed(all, even) ? lip(all, kept > even) : select(even > lowest, even, lowest);
       }
     }
-    const T least = air == Air::free ? T(0) : T(lowest_head()), head = balanced_head(all);
+    const T least = air == Air::free ? T(0) : lowest, head = balanced_head(all);
     return select(head > least, head, least);
   }
 
@@ -475,7 +493,7 @@ struct EntrappedWater {
     if (!flow.open || per_gravity == 0.0) return T(0);
     const T held = power(T(T(1) + flow.head * T(1.0 / (kAtmosphere * per_head()))), 1.0 / d.exponent);
     const T room = T(whole()) - water.volume;
-    return (held * room - in.states[states.first + 2]) * T(1.0 / kEvenOut) - held * flow.rate;
+    return (held * room - in.states[states.first + 2]) * T(1.0 / kEvenOut);
   }
 
   /// What goes through an opening does to the body and to the ledger. Returns the power that is lost.
