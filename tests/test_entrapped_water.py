@@ -437,9 +437,9 @@ def hanging(seed: int, air: str = "free") -> Scene:
 @AIR
 @pytest.mark.parametrize("seed", range(3))
 def test_both_formulations_agree_and_the_ledger_closes(seed: int, air: str) -> None:
-    one, other = (run(hanging(seed, air), 5.0, 0.1, form) for form in FORMS)
+    one, other = (run(hanging(seed, air), 5.0, 0.1, form, rtol=1e-10) for form in FORMS)
     assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-7)
-    assert np.asarray(one["load_state"]) == pytest.approx(np.asarray(other["load_state"]), rel=1e-6, abs=1e-4)
+    assert np.asarray(one["load_state"]) == pytest.approx(np.asarray(other["load_state"]), rel=1e-5, abs=1e-3)
     for result in (one, other):
         assert np.max(np.abs(result["energy_balance"])) < 1e-6 * np.max(result["absolute_work"])
         lost = np.asarray(result.select("load_state", state_name="water 0.flow_loss"))
