@@ -331,9 +331,12 @@ parts = [
 name = "skirt"
 body = "bob"
 area_m2 = 1.5
-height_m = 2
-point_m = [0, 0, -1]
-openings = [{ point_m = [0, 0.5, -0.9], area_m2 = 0.02 }, { point_m = [0.5, 0, 0.8], area_m2 = 0.01 }]
+height_m = 0.5
+point_m = [0, 0, -0.15]
+openings = [{ point_m = [0, 0.5, -0.1], area_m2 = 0.02 }, { point_m = [0.5, 0, 0.3], area_m2 = 0.01 }]
+air = "shut"
+exponent = 1.2
+air_pressure_Pa = 1.1e5
 initial_m3 = 0.5
 
 [pendulum_damping]
@@ -614,8 +617,9 @@ def every_table() -> Scene:
     parts = [SpherePart(diameter=0.4), BoxPart(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
     scene.add_immersed("bob", parts=parts)
     scene.add_entrapped_water(
-        name="skirt", body="bob", area=1.5, height=2, point=(0, 0, -1), initial=0.5,
-        openings=[Opening(point=(0, 0.5, -0.9), area=0.02), Opening(point=(0.5, 0, 0.8), area=0.01)],
+        name="skirt", body="bob", area=1.5, height=0.5, point=(0, 0, -0.15), initial=0.5,
+        openings=[Opening(point=(0, 0.5, -0.1), area=0.02), Opening(point=(0.5, 0, 0.3), area=0.01)],
+        air="shut", exponent=1.2, air_pressure=1.1e5,
     )  # fmt: skip
     scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
     scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)

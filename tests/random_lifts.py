@@ -252,7 +252,7 @@ class Lift:
             scene.add_immersed("load", parts=[parts[lift.part]])
         if lift.compartment:
             openings = [Opening(area=0.02, point=(0.0, 0.0, end * 0.3 * height)) for end in (-1.0, 1.0)]
-            scene.add_entrapped_water("load", area=0.5 * length * breadth, height=0.6 * height,
+            scene.add_entrapped_water("load", area=0.3 * length * breadth, height=0.6 * height,
                                       point=(0.0, 0.0, -0.3 * height), openings=openings)  # fmt: skip
 
     def add_contacts(self) -> None:

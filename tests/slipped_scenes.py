@@ -11,6 +11,7 @@ import numpy as np
 from seacrane import Curve, Scene, _core
 from seacrane.description.forces import add_load
 from seacrane.description.waves import Waves
+from seacrane.water import BoxPart
 
 MASS, G = 2e4, 9.80665
 INERTIA = np.diag([3e4, 3e4, 3e4])
@@ -65,7 +66,8 @@ def immersed(**numbers: Any) -> Scene:
 
 def filled(**numbers: Any) -> Scene:
     scene = at_the_surface()
-    add_load(scene, _core.EntrappedWater(name="water", body="load", **numbers))
+    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0.0, 0.0))])
+    add_load(scene, _core.EntrappedWater(name="water", body="load", air="shut", **numbers))
     return scene
 
 
@@ -372,8 +374,8 @@ SAMPLES: Mapping[str, Sample] = {
         kind=_core.EntrappedWater,
         numbers={
             "point": (0.3, 0.0, -1.0), "area": 3.0, "height": 2.0, "opening_points": [(0.3, 0.0, -1.0)],
-            "opening_areas": [0.1], "discharge_coefficient": 0.6, "initial": 1.5, "density": 1025.0,
-            "wave_factor": 1.2,
+            "opening_areas": [0.1], "exponent": 1.2, "air_pressure": 101325.0, "discharge_coefficient": 0.6,
+            "initial": 1.5, "density": 1025.0, "wave_factor": 1.2,
         },
         scene=lambda n: filled(**n),
     ),

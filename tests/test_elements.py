@@ -50,6 +50,9 @@ def three_bodies(joint: str = "revolute", seed: int = 5) -> Scene:
 def loaded_scene(kind: str) -> Scene:
     scene = three_bodies()
     scene.add_load(LOADS[kind].example())
+    if kind == "entrapped water":  # which asks for parts around it
+        around = LOADS["immersed part"].example()
+        scene.add_load(type(around)(**entries(around) | {"name": "around", "point": (0.2, -0.1, -0.5)}))
     return scene
 
 

@@ -52,10 +52,9 @@ def test_a_script_runs_where_it_is_written(written: Path, name: str) -> None:
     assert (done.returncode, done.stderr) == (0, "") and done.stdout
 
 
-def test_a_lift_file_runs_where_it_is_written(written: Path, tmp_path: Path) -> None:
-    done = command_line(
-        "run", written / "lifts" / "box_over_the_side.toml", "--out", tmp_path, "--t-end", "2"
-    )
+@pytest.mark.parametrize("name", ["box_over_the_side", "suction_anchor"])
+def test_a_lift_file_runs_where_it_is_written(written: Path, tmp_path: Path, name: str) -> None:
+    done = command_line("run", written / "lifts" / f"{name}.toml", "--out", tmp_path, "--t-end", "2")
     assert done.returncode == 0, done.stderr
     assert [path.suffix for path in tmp_path.iterdir()] == [".nc"]
 

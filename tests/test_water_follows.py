@@ -371,7 +371,12 @@ def test_a_current_and_compartments_are_refused_by_name() -> None:
         motion_rao(scene, omega=[0.8], direction=0.0, body="load")
     scene = hung(4.0)
     scene.add_entrapped_water(
-        "load", area=1.0, height=1.0, openings=[{"point": (0.0, 0.0, 0.0), "area": 0.1}], initial=1.0
+        "load",
+        area=1.0,
+        height=1.0,
+        openings=[{"point": (0.0, 0.0, 0.0), "area": 0.1}],
+        initial=1.0,
+        air="free",
     )
     with pytest.raises(SceneError, match="entrapped water 'water in load': flows by the root of a head"):
         motion_rao(scene, omega=[0.8], direction=0.0, body="load")
@@ -545,6 +550,9 @@ height_m = 1
 point_m = [0, 0, -0.5]
 discharge_coefficient = 0.7
 initial_m3 = 0.1
+air = "shut"
+exponent = 1.2
+air_pressure_Pa = 2e5
 openings = [{ point_m = [0, 0, -0.5], area_m2 = 0.01 }]
 
 [[stage]]
@@ -582,7 +590,8 @@ def every_part() -> Scene:
     scene.add_immersed("load", name="wet", parts=parts, density=1000.0)
     scene.add_entrapped_water(
         "load", name="in it", density=1000.0, area=0.5, height=1.0, point=(0, 0, -0.5), initial=0.1,
-        discharge_coefficient=0.7, openings=[{"point": (0, 0, -0.5), "area": 0.01}],
+        air="shut", exponent=1.2, air_pressure=2e5, discharge_coefficient=0.7,
+        openings=[{"point": (0, 0, -0.5), "area": 0.01}],
     )  # fmt: skip
     return scene
 

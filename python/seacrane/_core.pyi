@@ -2417,12 +2417,22 @@ class EntrappedWater:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat, wave_factor: typing.SupportsFloat = ...) -> None:
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, air: str, exponent: typing.SupportsFloat = ..., air_pressure: typing.SupportsFloat = ..., discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat, wave_factor: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    @property
+    def air(self) -> str:
+        """
+        above the water: free, vented, or shut in
+        """
+    @property
+    def air_pressure(self) -> float:
+        """
+        Pa, absolute, of air that is shut in, at the start
+        """
     @property
     def area(self) -> float:
         """
@@ -2442,6 +2452,11 @@ class EntrappedWater:
     def discharge_coefficient(self) -> float:
         """
         C_d: share of an opening's area that the jet fills
+        """
+    @property
+    def exponent(self) -> float:
+        """
+        of air that is shut in: p V^exponent stays
         """
     @property
     def height(self) -> float:

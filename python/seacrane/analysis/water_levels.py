@@ -13,13 +13,15 @@ from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 HALVINGS = 60  # of a volume, until its last digit
+MOST_AIR = 1e3  # times the compartment, at one atmosphere
 
 
 def leveled(scene: Description, model: _core.Model, *, time: float) -> Callable[[Array], Array]:
     """Takes a state to that with the same poses in which no compartment takes or gives water.
 
     What flows is the root of a head: Newton's method on it steps from one side to the other by as much. So
-    volumes go first, by bisection. One through whose openings nothing flows stays.
+    volumes go first, by bisection, with the air that is shut in above. One through whose openings nothing
+    flows stays.
     """
     waters = {name: load for name, load in scene.loads.items() if isinstance(load, _core.EntrappedWater)}
     places = {name: place for name, _, place, *_ in model.load_states}
@@ -33,8 +35,12 @@ def leveled(scene: Description, model: _core.Model, *, time: float) -> Callable[
     def found(values: Array) -> Array:
         out = np.array(values)
         for name, water in waters.items():
-            place = places[f"{name}.volume"]
-            out[place] = _settled(partial(flow, out, place), out[place], water.area * water.height)
+            whole, place = water.area * water.height, places[f"{name}.volume"]
+            out[place] = _settled(partial(flow, out, place), out[place], whole)
+            if water.air == "shut":
+                air = places[f"{name}.air"]
+                out[air] = _settled(partial(flow, out, air), out[air], MOST_AIR * whole)
+                out[place] = _settled(partial(flow, out, place), out[place], whole)
         return out
 
     return found if waters else np.array

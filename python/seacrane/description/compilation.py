@@ -18,6 +18,7 @@ from seacrane.description.water_contradicted import refuse_contradictions_in_wat
 from seacrane.description.wave_grid import grid_of
 from seacrane.description.wave_selection import without_negligible
 from seacrane.description.waves import HullLoads, Waves
+from seacrane.description.wet_parts import refuse_outside_parts, refuse_unsaid_air
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
@@ -36,6 +37,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
 
 def _compiled(scene: Description, merge: bool) -> _core.Model:
     scene = with_holds(scene)
+    refuse_unsaid_air(scene)
     sea = None if scene.waves is None else pruned(scene.waves, prune=merge)
     for line in lines_of(scene.loads).values():
         if line.winch and not line.paid_out_by:
@@ -59,6 +61,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
         **({} if sea is None else {"sea": field_of(sea)}),
     )
     refuse_contradictions_in_water(scene)
+    refuse_outside_parts(scene)
     warn_of_moves(scene, model)
     if model.redundant:
         warn_caller(

@@ -9,7 +9,12 @@ if TYPE_CHECKING:
 
 
 def welded_mass(scene: Description, body: str) -> float:
-    """Mass of a body and of all that is welded to it, kg; without vessels, and what only stands on a seat."""
+    """Mass of a body and of all that is welded to it, kg."""
+    return float(sum(scene.bodies[one].mass for one in welded_to(scene, body)))
+
+
+def welded_to(scene: Description, body: str) -> list[str]:
+    """A body and all that is welded to it; without vessels, and what only stands on a seat."""
     seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
     vessels = {vessel.body for vessel in scene.vessels.values()}
     welds = [one for name, one in scene.joints.items() if one.kind == "weld" and name not in seats]
@@ -20,4 +25,4 @@ def welded_mass(scene: Description, body: str) -> float:
         ends = [(weld.first, weld.second) for weld in welds if one in (weld.first, weld.second)]
         beside = {other for pair in ends for other in pair} & (scene.bodies.keys() - vessels)
         found += sorted(beside - set(found))
-    return float(sum(scene.bodies[one].mass for one in found))
+    return found

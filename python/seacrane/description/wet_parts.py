@@ -11,12 +11,16 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.body_motion import place_in, position_of
 from seacrane.description.once import once_in_any_sea
+from seacrane.description.welded import welded_to
+from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
+SLACK = 0.01  # of sizes and volumes, between a compartment and what is around it
+STATIONS = 9  # along a compartment
 
 
 def immersed_parts(scene: Description) -> dict[str, _core.ImmersedPart]:
@@ -62,10 +66,54 @@ def buoyancy_of(scene: Description, bodies: Iterable[str]) -> float:
 
 
 def water_in(scene: Description, bodies: Iterable[str]) -> float:
-    """N, the weight of the water in the compartments of bodies that are under water."""
+    """N, the weight of the water in the compartments of bodies that are under water: at the least."""
     held = set(bodies)
-    full = [one for one in waters_in(scene) if one.body in held]
-    return scene.gravity * sum(one.density * one.area * one.height for one in full)
+    return scene.gravity * sum(_least_water(one) for one in waters_in(scene) if one.body in held)
+
+
+def _least_water(one: _core.EntrappedWater) -> float:
+    """kg in a compartment under water: what air that is shut in leaves of it at first."""
+    return float(one.density * (one.initial if one.air == "shut" else one.area * one.height))
+
+
+def refuse_unsaid_air(scene: Description) -> None:
+    """Refuse a compartment of which neither an opening in its lid nor a word tells where its air goes."""
+    for one in waters_in(scene):
+        if not one.air:
+            raise SceneError(
+                f"entrapped water {one.name!r}: no opening is in its lid, {one.height:.6g} m over its bottom,"
+                " and nothing says where its air goes; give air='shut' and exponent=1.0 to 1.4 for a lid that"
+                " is shut, air='free' for air that comes and goes, or an opening in the lid"
+            )
+
+
+def refuse_outside_parts(scene: Description) -> None:
+    """Refuse a compartment that parts of its body, or of what is welded to it, do not keep water out of."""
+    for body in dict.fromkeys(water.body for water in waters_in(scene)):
+        waters = [one for one in waters_in(scene) if one.body == body]
+        holds, rigid = sum(one.area * one.height for one in waters), welded_to(scene, body)
+        parts = [part for part in immersed_parts(scene).values() if part.body in rigid]
+        keeps = sum(map(displaced_volume, parts))
+        own = [part for part in parts if part.body == body]
+        outside = [one for one in waters if len(own) == len(parts) and not _within(one, own)]
+        if outside or holds > (1.0 + SLACK) * keeps:
+            raise SceneError(
+                f"entrapped water {(outside or waters)[0].name!r} is outside the parts of {body!r}: these "
+                f"displace {keeps:.6g} m3, and {holds:.6g} m3 come in; give `add_immersed` the outer shape "
+                "there, with fill=1, so that the water in it is not weighed as if it were lifted into air"
+            )
+
+
+def _within(water: _core.EntrappedWater, parts: Iterable[_core.ImmersedPart]) -> bool:
+    """Whether the axis of a compartment is in the boxes around parts."""
+    heights = water.height * np.linspace(SLACK, 1.0 - SLACK, STATIONS)
+    axis = np.asarray(water.point) + heights[:, None] * np.array([0.0, 0.0, 1.0])
+    inside = np.zeros(STATIONS, dtype=bool)
+    for part in parts:
+        local = (axis - np.asarray(part.point)) @ np.asarray(part.axes)
+        half = (0.5 + SLACK) * np.asarray(part.size)
+        inside |= np.all(np.abs(local) <= np.where(half > 0.0, half, np.inf), axis=1)
+    return bool(inside.all())
 
 
 def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
@@ -95,7 +143,7 @@ def carried_by_water(scene: Description, arrays: Mapping[str, Array], bodies: It
         if one.body in held:
             top = np.asarray(one.point) + np.array([0.0, 0.0, one.height])
             under = position_of(scene, arrays, one.body, top)[:, 2] < 0.0
-            total -= np.where(under, scene.gravity * one.density * one.area * one.height, 0.0)
+            total -= np.where(under, scene.gravity * _least_water(one), 0.0)
     return total
 
 

@@ -345,6 +345,7 @@ _ALL = (
     ),
     _call(
         "entrapped_water", entrapped.add_entrapped_water, _core.EntrappedWater,
+        air={"choices": entrapped.AIR}, exponent={"unit": ""},
         openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),

@@ -46,8 +46,8 @@ def immersed_parts() -> Scene:
 def entrapped_water() -> Scene:
     """A suction anchor that fills as it goes down, with a skirt in the water."""
     scene = into_waves()
-    scene.add_immersed("load", parts=[BoxPart(size=(2, 2, 3), fill=0.1)])
-    holes = [Opening(point=(0, 0, -1.5), area=0.8), Opening(point=(0.5, 0, 1.4), area=0.05)]
+    scene.add_immersed("load", parts=[BoxPart(size=(2, 2, 3))])
+    holes = [Opening(point=(0, 0, -1.5), area=0.8), Opening(point=(0.5, 0, 1.5), area=0.05)]
     scene.add_entrapped_water(
         "load", name="inside", area=np.pi, height=3.0, point=(0, 0, -1.5), openings=holes
     )

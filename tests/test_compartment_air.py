@@ -1,0 +1,264 @@
+"""A compartment's air and its lid in closed form: free, vented, shut; the surface below and above the lid."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Curve, Scene, SceneError, simulate
+from seacrane.water import BoxPart, CylinderPart
+
+Array = NDArray[np.float64]
+G, RHO, ATMOSPHERE, VAPOUR = 9.80665, 1025.0, 101325.0, 2339.0
+AIR_DENSITY = 1.204
+D, H, MASS, C_D = 6.0, 12.0, 90e3, 0.6
+A = np.pi / 4.0 * D**2
+MOUTH = {"point": (0.0, 0.0, 0.0), "area": A}
+UPRIGHT = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0))  # of a cylinder's x
+FORMS = ("recursive", "redundant")
+SHUT = {"air": "shut", "exponent": 1.0}
+
+
+def vent(area: float) -> dict[str, Any]:
+    return {"point": (0.0, 0.0, H), "area": area}
+
+
+def bucket(lean: float, mouth: float, curve: Curve, *openings: dict[str, Any], **more: Any) -> Scene:
+    """A suction anchor that is led along its axis, the middle of its mouth at an elevation; or its shell."""
+    scene = Scene(name="bucket", gravity=G)
+    axis = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    at = np.array([0.0, 0.0, mouth])
+    turned = (np.cos(0.5 * lean), 0.0, np.sin(0.5 * lean), 0.0)
+    scene.add_body("anchor", mass=MASS, inertia=(2e6, 2e6, 5e5), position=at, quaternion=turned)
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="anchor", point=at, axis=tuple(axis)
+    )
+    scene.add_driver(joint="guide", curve=curve, name="led")
+    scene.add_immersed(
+        "anchor", parts=[CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, point=(0, 0, H / 2))]
+    )
+    if openings:
+        scene.add_entrapped_water(
+            "anchor", area=A, height=H, openings=list(openings), name="water", **{"density": RHO} | more
+        )
+    return scene
+
+
+def pushes(form: str, t_end: float, *given: Any, **more: Any) -> tuple[Array, Array, Array]:
+    """Times, what the compartment pushes the body by along its axis, N, and its volume."""
+    run: dict[str, Any] = {"t_end": t_end, "dt_out": 0.1, "formulation": form, "rtol": 1e-8}
+    lean, mouth, curve, *openings = given
+    filled = simulate(bucket(lean, mouth, curve, *openings, **more), **run)
+    shell = simulate(bucket(lean, mouth, curve), **run)
+    assert np.max(np.abs(filled["energy_balance"])) < 1e-5 * np.max(filled["absolute_work"])
+    force = shell["driver_force"][:, 0] - filled["driver_force"][:, 0]
+    return filled.time, force, filled.select("load_state", state_name="water.volume")
+
+
+HEAVE, OMEGA = 0.5, 0.9
+
+
+def heaving() -> Curve:
+    return Curve.harmonic(amplitude=HEAVE, omega=OMEGA, phase=-0.5 * np.pi)
+
+
+LEANS = pytest.mark.parametrize("lean", [0.0, np.radians(45.0)], ids=["upright", "lying"])
+
+
+@LEANS
+@pytest.mark.parametrize("form", FORMS)
+def test_with_a_dry_lid_an_open_mouth_carries_no_water_along_the_axis(form: str, lean: float) -> None:
+    """What is left is the sea's pressure on the closed end that parts count, and the mouth has not."""
+    deep = 6.0 * np.cos(lean)
+    filled = {"initial": 6.0 * A}
+    t, force, volume = pushes(form, 15.0, lean, -deep, heaving(), MOUTH, vent(1.0), **filled)
+    depth = deep - HEAVE * np.sin(OMEGA * t) * np.cos(lean)
+    air = 0.5 * AIR_DENSITY * (np.gradient(volume, t) / C_D) ** 2 * np.sign(np.gradient(volume, t))
+    assert np.max(np.abs(air)) < 2e3
+    assert force == pytest.approx(-RHO * G * A * depth + air * (A - 1.0), abs=6e3)
+    assert volume / A == pytest.approx(depth / np.cos(lean), abs=0.15)
+
+
+@LEANS
+@pytest.mark.parametrize("form", FORMS)
+def test_a_wet_lid_less_its_opening_carries_all_of_it(form: str, lean: float) -> None:
+    deep, share = 18.0 * np.cos(lean), 1.0 - 0.02 / A
+    t, force, volume = pushes(form, 15.0, lean, -deep, heaving(), MOUTH, vent(0.02), initial=A * H)
+    rate = -HEAVE * OMEGA**2 * np.sin(OMEGA * t)
+    assert volume == pytest.approx(A * H * np.ones(len(t)), rel=1e-9)
+    assert force == pytest.approx(-RHO * A * H * (G * np.cos(lean) + share * rate), rel=1e-6)
+
+
+@LEANS
+@pytest.mark.parametrize("form", FORMS)
+def test_in_air_an_open_one_is_its_steel(form: str, lean: float) -> None:
+    _, force, volume = pushes(form, 5.0, lean, 3.0, heaving(), MOUTH, vent(1.0))
+    assert np.max(np.abs(volume)) < 1e-9
+    assert np.max(np.abs(force)) < 1e-3
+
+
+def test_a_tube_open_at_both_ends_carries_nothing_at_any_depth() -> None:
+    both = (MOUTH, vent(A))
+    for deep in (6.0, 20.0):
+        t, force, _ = pushes("auto", 15.0, 0.0, -deep, heaving(), *both, initial=A * min(deep, H))
+        depth = deep - HEAVE * np.sin(OMEGA * t)
+        closed = RHO * G * A * np.minimum(depth, H)
+        assert force == pytest.approx(-closed, abs=1.0), "all the buoyancy of a closed shape, and no inertia"
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_air_that_a_vent_lets_out_resists(form: str) -> None:
+    """3 m/s on 28 m2 through 1 m2: 0.34 MN."""
+    lowered = Curve.pieces(starts=[0.0], coefficients=[[0.0, -3.0, 0.0, 0.0, 0.0, 0.0]])
+    t, vented, volume = pushes(form, 2.5, 0.0, -3.5, lowered, MOUTH, vent(1.0), initial=1.03 * A)
+    _, free, same = pushes(form, 2.5, 0.0, -3.5, lowered, MOUTH, air="free", initial=2.2 * A)
+    late = (t > 1.0) & (t < 2.4)
+    flow = np.gradient(volume, t)[late]
+    pressure = 0.5 * AIR_DENSITY * (flow / (C_D * 1.0)) ** 2
+    assert flow == pytest.approx(3.0 * A * np.ones(late.sum()), rel=0.05)
+    assert (vented - free)[late] == pytest.approx(pressure * (A - 1.0), rel=0.02)
+    by_hand = 0.5 * AIR_DENSITY * (3.0 * A / C_D) ** 2 * A
+    assert by_hand == pytest.approx(0.34e6, rel=2e-3)
+    assert np.all(same[late] > volume[late])
+
+
+def isothermal(depth: Any, tall: float = H) -> Any:
+    """m of water in a bucket of one atmosphere of air whose mouth is at a depth."""
+    height = ATMOSPHERE / (RHO * G)  # (depth - x) (tall - x) = height x
+    b = depth + tall + height
+    return 0.5 * (b - np.sqrt(b * b - 4.0 * depth * tall))
+
+
+@LEANS
+@pytest.mark.parametrize("form", FORMS)
+def test_air_that_is_shut_in_is_compressed_as_its_law_says(form: str, lean: float) -> None:
+    """Lowered from air; upright to a mouth 26 m deep."""
+    down = Curve.quintic(start_time=0.0, end_time=60.0, start=0.0, end=-27.0)
+    t, force, volume = pushes(form, 62.0, lean, 1.0, down, MOUTH, **SHUT)
+    depth = np.clip(-(1.0 + down.evaluate(t)[:, 0] * np.cos(lean)), 0.0, None)
+    if lean == 0.0:
+        assert volume / A == pytest.approx(isothermal(depth), abs=6e-3)
+    assert force == pytest.approx(-RHO * G * np.cos(lean) * volume, abs=6e3)
+
+
+def test_a_shut_bucket_sinks_by_itself_where_its_air_carries_it_no_more() -> None:
+    """226 m3 of air, 90 t: until the water in it is 15.9 m deep, by Boyle's law and Archimedes'."""
+    tall = 8.0
+    ratio = A * tall * RHO / MASS
+    surface = (ratio - 1.0) * ATMOSPHERE / (RHO * G)
+    assert surface == pytest.approx(15.9, abs=0.05)
+    mouth = surface + tall - MASS / (RHO * A)
+    signs = []
+    for above in (0.3, -0.3):
+        scene = Scene(name="sinks", gravity=G)
+        at = (0.0, 0.0, -mouth + above)
+        scene.add_body("anchor", mass=MASS, inertia=(2e6, 2e6, 5e5), position=at)
+        scene.add_joint(
+            kind="prismatic", name="guide", first="ground", second="anchor", point=at, axis=(0, 0, 1)
+        )
+        scene.add_immersed(
+            "anchor",
+            parts=[CylinderPart(length=tall, diameter=D, axes=UPRIGHT, strips=1, point=(0, 0, tall / 2))],
+        )
+        inside = float(isothermal(mouth - above, tall))
+        scene.add_entrapped_water(
+            "anchor", area=A, height=tall, openings=[MOUTH], initial=A * inside, density=RHO,
+            air_pressure=ATMOSPHERE * tall / (tall - inside), **SHUT,
+        )  # fmt: skip
+        signs.append(simulate(scene, 8.0, dt_out=0.1).select("position", body="anchor", axis="z")[-1] - at[2])
+    assert signs[0] > 0.1
+    assert signs[1] < -0.1
+
+
+@cache
+def recovered(form: str) -> Any:
+    """Full, its hatch shut, pulled out of the sea on a wire."""
+    scene = Scene(name="recovered", gravity=G)
+    scene.add_body("anchor", mass=MASS, size=(D, D, H), position=(0.0, 0.0, -8.0))
+    scene.add_line(
+        "hoist", first="ground", second="anchor", first_point=(0, 0, 60), second_point=(0, 0, H / 2), EA=5e8,
+        tension_at_start=MASS * G, damping_ratio=0.3,
+    )  # fmt: skip
+    scene.add_winch("hoist", rate=Curve.quintic(start_time=2.0, end_time=4.0, start=0.0, end=-0.25), lag=0.1)
+    scene.add_immersed(
+        "anchor", parts=[CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, end_drag=0.0)]
+    )
+    scene.add_entrapped_water(
+        "anchor", area=A, height=H, openings=[{"point": (0, 0, -H / 2), "area": A}], point=(0, 0, -H / 2),
+        initial=A * H, density=RHO, name="water", **SHUT,
+    )  # fmt: skip
+    return simulate(scene, 80.0, dt_out=0.05, start="rest", formulation=form)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls_at_the_end(
+    form: str,
+) -> None:
+    result = recovered(form)
+    pull = result.select("line_tension", line="hoist")
+    z = result.select("position", body="anchor", axis="z")
+    column = (ATMOSPHERE - VAPOUR) / (RHO * G)
+    top, mouth = z + H / 2, z - H / 2
+    hangs = (top > 2.0) & (mouth < -0.1)
+    expected = MASS * G + RHO * G * A * np.minimum(top, column)
+    assert pull[hangs] == pytest.approx(expected[hangs], rel=3e-3)
+    assert 3.65e6 < pull.max() < 3.70e6
+    out = mouth > 0.5
+    assert pull[out][-100:] == pytest.approx(MASS * G * np.ones(100), rel=1e-2)
+    assert result.select("load_state", state_name="water.volume")[-1] == pytest.approx(0.0, abs=1e-2)
+    assert result.select("load_state", state_name="water.air")[-1] == pytest.approx(A * H, rel=1e-3)
+    assert np.max(np.abs(result["energy_balance"])) < 1e-4 * np.max(result["absolute_work"])
+
+
+# --- what is asked for, and refused ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "no opening is in its lid, 12 m over its bottom"),
+        ({"air": "shut"}, "give exponent, 1"),
+        ({"air": "free", "exponent": 1.2}, "leave exponent out"),
+        ({"air": "trapped"}, "give one of free, vented, shut"),
+    ],
+)  # fmt: skip
+def test_what_geometry_does_not_tell_is_asked_for(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        bucket(0.0, 0.0, heaving(), MOUTH, **given).compile()
+
+
+@pytest.mark.parametrize(
+    ("openings", "given", "message"),
+    [
+        ([MOUTH], {"air": "shut", "exponent": 1.6}, "exponent is 1.6, and air is shut"),
+        ([MOUTH, MOUTH], {"air": "free"}, "openings in its bottom take 2 of its section"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_refused(openings: Any, given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        bucket(0.0, 0.0, heaving(), *openings, **given).compile()
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        [],
+        [BoxPart(size=(4, 4, 8), point=(0, 0, 4), fill=MASS / 7850.0 / 128.0)],
+        [BoxPart(size=(4, 4, 8), point=(6, 0, 4))],
+    ],
+    ids=["none", "steel", "beside"],
+)
+def test_a_compartment_outside_its_parts_is_refused(parts: list[Any]) -> None:
+    scene = Scene(name="outside", gravity=G)
+    scene.add_body("anchor", mass=MASS, size=(4, 4, 8))
+    if parts:
+        scene.add_immersed("anchor", parts=parts)
+    scene.add_entrapped_water("anchor", area=12.0, height=8.0, openings=[{"point": (0, 0, 8), "area": 1.0}])
+    with pytest.raises(
+        SceneError, match="entrapped water 'water in anchor' is outside the parts of 'anchor'"
+    ):
+        scene.compile()
