@@ -31,8 +31,12 @@ def main() -> int:
     unknown = {*args.names} - {fault.name for fault in wanted}
     if unknown:
         parser.error(f"there is no fault {sorted(unknown)[0]!r}")
-    for fault in wanted:
-        fault.seeded((ROOT / fault.file).read_text(encoding="utf-8"))
+    lost = [
+        fault for fault in wanted if (ROOT / fault.file).read_text(encoding="utf-8").count(fault.old) != 1
+    ]
+    if lost:
+        print("\n".join(f"fault {one.name!r} has not its place in {one.file}; mend it" for one in lost))
+        return 1
     if args.check:
         print(f"{len(wanted)} faults have their places")
         return 0
