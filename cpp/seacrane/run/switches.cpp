@@ -25,6 +25,7 @@ constexpr double kNear = 1e-3;
 /// A way within a step that is not looked at: what is met and left on it is shallower, m or rad; and a part
 /// of the longest way that the step may have led, and of what is thin.
 constexpr double kShallow = 1e-4, kPart = 0.01, kPartOfThin = 0.125;
+constexpr double kGolden = 0.381966;  // of an interval, to close in on a least value in it
 /// m or rad, into what is struck: the first step there, where steps would lead that many times as far.
 constexpr double kFirst = 0.01, kFar = 4.0;
 double first_way(double thin) { return std::min(kFirst, 0.25 * thin); }
@@ -65,6 +66,20 @@ bool presses(const Contact& contact, int side) {
   bool out = false;
   for (std::size_t i = 0; i < contact.points.size(); ++i) out = out || (side & Contact::closed(i)) != 0;
   return out;
+}
+
+/// Closes in on the time between two at which something is nearest, until it is met there, or is not. Looks
+/// lie far apart beside an edge or the side of a post, which are thinner than the rest.
+template <class F, class Met>
+void look_into_dip(double first, double last, double pace, F&& clear_at, const Met& met) {
+  while (last - first > std::max(kShallow / pace, 100.0 * smallest_step(last))) {
+    const double part = kGolden * (last - first);
+    const double early = clear_at(first + part);
+    if (met) return;
+    const double late = clear_at(last - part);
+    if (met || std::min(early, late) > pace * part) return;
+    (early < late ? last : first) = early < late ? last - part : first + part;
+  }
 }
 
 const char* kind_of(Contact::Change change) {
@@ -468,21 +483,31 @@ std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastS
                                                         const LoadList& list, std::size_t i, std::size_t load,
                                                         double pace, bool on_cubic) {
   const Sight& from = seen_before_[load];
-  const double end = step.time(), whole = pace * (end - step.previous_time());
+  const double start = step.previous_time(), end = step.time(), whole = pace * (end - start);
   const double least = std::min(kPartOfThin * from.thin, std::max(kPart * whole, kShallow));
-  double t = step.previous_time(), clear = from.clear;
-  while (t += std::max(clear, least) / pace, t < end) {
+  std::optional<Between> met;
+  const auto clear_at = [&](double t) {
     const LoadInput<double> in = read_within(at, step, t, on_cubic);
     const Sight now = look(list, i, in);
-    const int changed = (now.side ^ before_[load]) & from.watched;
-    if (changed != 0) {
-      const int side = before_[load] ^ changed;
-      return Between{t, side, list.across(i, in, before_[load], side)};
-    }
-    clear = now.clear;
-    if (clear + clear_at_end(load) > pace * (end - t)) return std::nullopt;
+    const int changed = (now.side ^ before_[load]) & from.watched, side = before_[load] ^ changed;
+    if (changed != 0) met = Between{t, side, list.across(i, in, before_[load], side)};
+    return now.clear;
+  };
+  struct {
+    double time, clear;
+  } before{start, from.clear}, here = before, next = before;
+  while (true) {
+    next.time = here.time + std::max(here.clear, least) / pace;
+    const bool ends = next.time >= end;
+    next = ends ? decltype(next){end, clear_at_end(load)} : decltype(next){next.time, clear_at(next.time)};
+    if (met) return met;
+    const bool is_over = ends || next.clear + clear_at_end(load) > pace * (end - next.time);
+    const bool dips = here.clear <= before.clear && (here.clear <= next.clear || is_over);
+    if (dips && here.clear < least) look_into_dip(before.time, next.time, pace, clear_at, met);
+    if (met || is_over) return met;
+    before = here;
+    here = next;
   }
-  return std::nullopt;
 }
 
 }  // namespace seacrane
