@@ -162,7 +162,9 @@ void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt
   const Needs& needs = extremes_.needs_of_ends();
   const auto take = [&](double t) {
     state_at(t, state_.data());
-    largest_residual_ = project(at, t);
+    take_residual(at);
+    at.stepped.project(t, state_.data(), false);
+    at.stepped.take_residual_before_projection();  // what is interpolated is no residual of the steps
     evaluate(at, t, needs);
     if (needs.coordinates) evaluate_coordinates(at.system.terms());
     extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(),
