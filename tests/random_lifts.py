@@ -208,6 +208,7 @@ class Lift:
             turn = np.radians(HALF * view.turn_deg)
             scene.replace("load", quaternion=(np.cos(turn), 0.0, 0.0, np.sin(turn)))
         self.start = view.back(np.array(load.position))
+        scene.add_point("middle", body="load")  # of the whole load, also where it is cut
         if view.cut:
             share, offset = 0.4, np.array([0.1 * lift.size[0], 0.05 * lift.size[1], 0.1 * lift.size[2]])
             self.cut(share, offset)
@@ -284,7 +285,7 @@ class Lift:
             elif kind == "meet" and feet:
                 until = [
                     Until.contact(feet[0]),
-                    Until.channel("position", body="load", axis="z", maximum=-3.0),
+                    Until.channel("point_position", point="middle", axis="z", maximum=-3.0),
                 ]
                 out.append(
                     Stage(name=name, until=until, maximum_duration=60.0, commands={"hoist.rate": speed})

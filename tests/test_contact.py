@@ -306,3 +306,17 @@ def test_a_bumper_bears_no_weight() -> None:
     hit = contact_hits(simulate(scene, 3.0, dt_out=0.001), "bumper")[0]
     assert hit.undamped == pytest.approx(speed * np.sqrt(stiffness * mass), rel=1e-6)
     assert hit.peak == pytest.approx(hit.undamped, rel=1e-3)
+
+
+def test_a_hit_of_a_ship_whose_motion_is_given_counts_the_mass_that_it_hits() -> None:
+    """The points are the ship's, whose light body stands for it; the module bears them."""
+    mass, speed, stiffness = 50e3, 0.3, 2e6
+    scene = Scene(name="rammed", gravity=GRAVITY)
+    scene.add_given_vessel(motion="rest", name="ship", position=(-20.0, 0.0, 0.0))
+    scene.add_body("module", mass=mass, size=(8, 6, 4), velocity=(-speed, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="module", axis=(1, 0, 0))
+    scene.add_contact("ship", on="module", points=[(15.0, 0, 0)], surface="plane", place=(-4, 0, 0),
+                      axis=(-1, 0, 0), stiffness=stiffness, damping=0.0, name="side")  # fmt: skip
+    hit = contact_hits(simulate(scene, 5.0, dt_out=0.001), "side")[0]
+    assert hit.undamped == pytest.approx(speed * np.sqrt(stiffness * mass), rel=1e-6)
+    assert hit.peak == pytest.approx(hit.undamped, rel=1e-3)

@@ -175,6 +175,7 @@ def test_a_design_fills_every_part_of_its_ranges() -> None:
     assert again.dataset.identical(there.dataset)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 @pytest.mark.parametrize("stored", [False, True])
 def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
     there = ensemble(
@@ -206,6 +207,7 @@ def test_the_first_failure_ends_it_where_asked(tmp_path: Path) -> None:
     assert left.dataset.failure.to_numpy().tolist() == ["", "", "ValueError: no such start", "not run"]
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_members_of_other_shapes_are_failures() -> None:
     there = ensemble(
         short_or_long, over={"start": [1.0, 2.0, 3.0]}, keep={"numbers": two_numbers_or_three}, **SWING

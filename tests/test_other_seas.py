@@ -230,6 +230,7 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     assert there.dataset.identical(ensemble(scene, **given).dataset)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: HydroDatabase) -> None:
     over = [{"bodies.vessel.mass": mass, "seed": 1} for mass in (-1.0, 2e7)]
     there = ensemble(cases.vessel(database=database), over=over, keep=PATH, t_end=1.0)

@@ -215,6 +215,33 @@ def test_a_driver_reaches_what_it_carries(formulation: str) -> None:
     assert least.min() == pytest.approx(WEIGHT - MASS * height * omega**2, rel=1e-3)
 
 
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> None:
+    """A pendulum falls from the horizontal."""
+    inertia, scene = 1e3, Scene(name="pendulum", gravity=GRAVITY)
+    scene.add_body("bob", mass=MASS, inertia=(inertia,) * 3, position=(LENGTH, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.add_body("post", mass=1.0, inertia=(1.0,) * 3)
+    scene.add_joint(kind="weld", name="foot", first="ground", second="post", point=(0, 0, 0))
+    scene.add_point("pin", body="post")
+    scene.add_point("middle", body="bob")
+    scene.add_relative("under", point="middle", to="pin")
+    scene.add_channel("fallen", expression="pin.z - bob.z")
+    channels = ["reaction_force", "relative_position", "own"]
+    result = simulate(scene, 5.4, dt_out=2.7, channels=channels, formulation=formulation)
+    share = MASS * LENGTH**2 / (MASS * LENGTH**2 + inertia)
+    for name, end, peak in (
+        ("reaction_force[pin, z]", 1, WEIGHT * (1.0 + 2.0 * share)),
+        ("relative_position[under, z]", 0, -LENGTH),
+        ("own[fallen]", 1, LENGTH),
+    ):
+        bound = result.reached(name)[end]
+        assert abs(bound).max() == pytest.approx(abs(peak), rel=1e-3)
+        assert abs(result.curve(name)).max() < 0.98 * abs(peak)
+
+
 def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_other() -> None:
     scene, length, per_length = Scene(name="deep", gravity=GRAVITY), 1000.0, 20.0
     scene.add_body("load", mass=2e4, inertia=np.diag([1e4] * 3), position=(0.0, 0.0, -length))

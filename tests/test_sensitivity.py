@@ -81,6 +81,7 @@ def test_the_gradient_of_a_gumbel_number(number: str, reduced: float) -> None:
     assert one.half_width < 0.15 * abs(truth)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_a_seed_with_a_failure_is_left_out() -> None:
     found = sensitivity(fails_for_some, parameters={"stiffness": (STIFFNESS, 4.0)}, **GIVEN)
     assert found.seeds == 29

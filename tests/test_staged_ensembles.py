@@ -137,6 +137,7 @@ def test_numbers_of_moves_vary_too() -> None:
     assert told.dataset.x.to_numpy().ravel() == pytest.approx([1.0, 2.5], abs=1e-9)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_a_member_that_never_reaches_a_stage_says_so() -> None:
     short = [STAGES[0], Stage(name="lift", until=Until.release("grillage"), maximum_duration=0.5,
                               commands={"hoist.rate": -0.5}), STAGES[2]]  # fmt: skip

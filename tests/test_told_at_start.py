@@ -11,6 +11,7 @@ import pytest
 
 from seacrane import (
     Criterion,
+    Result,
     Scene,
     SceneError,
     Stage,
@@ -21,6 +22,7 @@ from seacrane import (
     summary,
 )
 from seacrane.errors import KeywordError
+from seacrane.warnings import FailedMembersWarning
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
 
 SHORT = {"rtol": 1e-2, "dt_out": 0.1}
@@ -129,6 +131,20 @@ def test_an_ensemble_of_failures_says_so() -> None:
         t_end=0.2,
     )  # fmt: skip
     assert len(done.failures) == 2
+
+
+def test_an_ensemble_in_which_some_fail_says_how_many_and_why() -> None:
+    scene = Scene(name="drop")
+    scene.add_body("load", mass=1e3, inertia=(1e2,) * 3)
+
+    def light(result: Result) -> float:
+        assert result.scene is not None
+        if result.scene.bodies["load"].mass > 1.5e3:
+            raise ValueError("too heavy")
+        return 1.0
+
+    with pytest.warns(FailedMembersWarning, match="1 of 3 members failed, .* member 2, by .*: too heavy"):
+        ensemble(scene, over={"bodies.load.mass": [1e3, 1.2e3, 2e3]}, keep={"light": light}, t_end=0.2)
 
 
 def hung(*parts: Any) -> Scene:

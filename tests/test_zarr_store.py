@@ -84,6 +84,7 @@ def test_rows_and_texts_vary_too(tmp_path: Path) -> None:
     assert there.dataset.identical(plain.dataset)
 
 
+@pytest.mark.warns("FailedMembersWarning")
 def test_members_that_fail_are_told(tmp_path: Path) -> None:
     starts = {"start": [1.0, 2.0, 3.0, 4.0]}
     there = ensemble(

@@ -27,7 +27,7 @@ void bind_channels(py::module_& m) {
       .def_readonly("unit", &Channel::unit)
       .def_readonly("text", &Channel::text)
       .def_property_readonly(
-          "has_extremes", [](const Channel& c) { return c.peaks != Peaks::of_none; },
+          "has_extremes", [](const Channel& c) { return has_extremes(c); },
           "Whether least and largest values between outputs can be kept of it.")
       .def_readonly("by_default", &Channel::by_default, "Whether it is recorded unasked.");
   m.def(

@@ -45,6 +45,25 @@ py::dict extremes(const Recording& r, std::size_t most) {
   return out;
 }
 
+py::dict trail(const Trail& t) {
+  const auto rows = static_cast<py::ssize_t>(t.times.size()), width = static_cast<py::ssize_t>(t.width());
+  py::dict out;
+  out["time"] = Array(rows, t.times.data());
+  py::ssize_t offset = 0;
+  for (const RecordedChannel* c : t.channels) {
+    std::vector<py::ssize_t> shape = {rows};
+    for (const std::size_t n : c->shape) shape.push_back(static_cast<py::ssize_t>(n));
+    Array values(shape);
+    double* to = values.mutable_data();
+    for (py::ssize_t i = 0; i < rows; ++i, to += c->size) {
+      std::copy_n(t.rows.data() + i * width + offset, c->size, to);
+    }
+    offset += static_cast<py::ssize_t>(c->size);
+    out[c->channel->name.c_str()] = values;
+  }
+  return out;
+}
+
 py::dict statistics(const Simulation& s) {
   const RunStatistics r = s.statistics();
   py::dict out;
@@ -163,12 +182,14 @@ void bind_options(py::module_& m) {
       "units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the "
       "method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs. "
       "`extremes`: those of the channels of which least and largest values between outputs are kept, "
-      "where the core has them (Channel.has_extremes).")
+      "where the core has them (Channel.has_extremes). `trail`: those whose values at every step are kept, "
+      "where they follow from a state.")
       .def(py::init([](std::string formulation, std::string integrator, double scaled_tolerance,
                        std::optional<double> fixed_step, std::optional<double> max_step,
                        std::optional<double> spectral_radius, std::optional<double> energy_limit,
                        const Array& output_times, std::set<std::string> channels,
-                       std::set<std::string> extremes, std::optional<std::size_t> capacity) {
+                       std::set<std::string> extremes, std::set<std::string> trail,
+                       std::optional<std::size_t> capacity) {
              return RunOptions{std::move(formulation),
                                std::move(integrator),
                                scaled_tolerance,
@@ -180,13 +201,15 @@ void bind_options(py::module_& m) {
                                capacity,
                                std::move(channels),
                                std::move(extremes),
+                               std::move(trail),
                                RunOptions{}.ask_every};
            }),
            py::kw_only(), py::arg("formulation") = "redundant", py::arg("integrator"),
            py::arg("scaled_tolerance") = RunOptions{}.scaled_tolerance, py::arg("fixed_step") = py::none(),
            py::arg("max_step") = py::none(), py::arg("spectral_radius") = py::none(),
            py::arg("energy_limit") = py::none(), py::arg("output_times"), py::arg("channels"),
-           py::arg("extremes") = std::set<std::string>(), py::arg("capacity") = py::none());
+           py::arg("extremes") = std::set<std::string>(), py::arg("trail") = std::set<std::string>(),
+           py::arg("capacity") = py::none());
 }
 
 py::module_ state_file() { return py::module_::import("seacrane.inputs.state"); }
@@ -366,6 +389,9 @@ void bind_simulation(py::module_& m) {
           },
           py::arg("most") = std::numeric_limits<std::ptrdiff_t>::max(),
           "Least and largest values by channel, at each output those since the output before (copies).")
+      .def("trail", alone([](Simulation& s) { return trail(s.trail()); }),
+           "Values of the channels of RunOptions.trail at the middle and the end of every step, time first "
+           "(copies).")
       .def_property_readonly("recorded", alone([](Simulation& s) { return s.recording().count(); }),
                              "Outputs recorded.")
       .def(

@@ -3546,9 +3546,9 @@ class RecordHistory:
         """
 class RunOptions:
     """
-    Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs. `extremes`: those of the channels of which least and largest values between outputs are kept, where the core has them (Channel.has_extremes).
+    Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs. `extremes`: those of the channels of which least and largest values between outputs are kept, where the core has them (Channel.has_extremes). `trail`: those whose values at every step are kept, where they follow from a state.
     """
-    def __init__(self, *, formulation: str = 'redundant', integrator: str, scaled_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, fixed_step: typing.SupportsFloat | typing.SupportsIndex | None = None, max_step: typing.SupportsFloat | typing.SupportsIndex | None = None, spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], extremes: collections.abc.Set[str] = set(), capacity: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+    def __init__(self, *, formulation: str = 'redundant', integrator: str, scaled_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, fixed_step: typing.SupportsFloat | typing.SupportsIndex | None = None, max_step: typing.SupportsFloat | typing.SupportsIndex | None = None, spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], extremes: collections.abc.Set[str] = set(), trail: collections.abc.Set[str] = set(), capacity: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -3670,6 +3670,10 @@ class Simulation:
         """
     def statistics(self) -> dict:
         ...
+    def trail(self) -> dict:
+        """
+        Values of the channels of RunOptions.trail at the middle and the end of every step, time first (copies).
+        """
     @property
     def adaptive(self) -> bool:
         """

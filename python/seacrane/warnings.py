@@ -630,10 +630,11 @@ class LostMembersWarning(SeaWarning):
 
 
 class FailedMembersWarning(SeaWarning):
-    """All members of an ensemble failed: its dataset holds nothing of what was to be kept.
+    """Members of an ensemble failed, some or all: its dataset holds nothing of them.
 
-    The message gives the first failure, `Ensemble.failures` all: most often a function of `keep` that raises,
-    or a name that no result has. Try it on one result of `simulate`, or give `on_error="raise"`.
+    The message gives how many and the first failure, `Ensemble.failures` all. Where all fail it is most often
+    a function of `keep` that raises, or a name that no result has: try it on one result of `simulate`. Where
+    some do, it may be those that load the lift most: what is kept of the others says too little.
     """
 
 
@@ -651,14 +652,6 @@ class FewSeedsWarning(SeaWarning):
     seeds.
 
     Run more: the message tells about how many (`docs/statistics.md`).
-    """
-
-
-class CoarseOutputsWarning(SeaWarning):
-    """Outputs of a lift in stages are further apart than a sixth of the period in which a load bounces on its
-    hoist, and largest values between them are missed.
-
-    Leave `dt_out` out, or give the one that the message names.
     """
 
 

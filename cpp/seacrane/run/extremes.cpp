@@ -14,12 +14,12 @@ constexpr int kLoose = -1, kNotKnown = -2;
 
 void Extremes::Group::begin() {
   for (const RecordedChannel* c : channels) {
-    for (std::size_t i = 0; i < c->size; ++i) curves.push_back({c, i});
+    for (std::size_t i = 0; c->least && i < c->size; ++i) curves.push_back({c, i});
   }
   window = PeakWindow(curves.size());
 }
 
-Extremes::Extremes(const Model& model, Recording& recording)
+Extremes::Extremes(const Model& model, Recording& recording, const std::set<std::string>& trail)
     : model_(model),
       recording_(recording),
       bodies_(idx(model.layout.size), 0.0),
@@ -27,12 +27,18 @@ Extremes::Extremes(const Model& model, Recording& recording)
       coordinates_(model.coordinates.size()),
       one_load_(idx(model.body_count() + 1)) {
   for (const RecordedChannel& c : recording.channels()) {
-    if (!c.least) continue;
     const Peaks peaks = c.channel->peaks;
-    const bool of_lines = peaks == Peaks::of_lines, settles = of_lines && model.inertial_tensions > 0;
-    if (peaks == Peaks::of_states || (of_lines && !settles)) {
+    const bool of_lines = peaks == Peaks::of_lines, settles = of_lines && model.inertial_tensions > 0,
+               of_states = peaks == Peaks::of_states || peaks == Peaks::of_poses || (of_lines && !settles),
+               is_followed = of_states && trail.count(c.channel->name) > 0;
+    if (is_followed) trail_.channels.push_back(&c);
+    if (!c.least && !is_followed) continue;
+    if (of_states) {
       states_.channels.push_back(&c);
       needs_coordinates_ |= c.channel->needs.coordinates;
+    } else if (peaks == Peaks::of_ends) {
+      ends_.channels.push_back(&c);
+      needs_of_ends_ |= c.channel->needs;
     } else if (peaks == Peaks::of_limits) {
       limits_.channels.push_back(&c);
     } else {
@@ -43,8 +49,12 @@ Extremes::Extremes(const Model& model, Recording& recording)
   std::ranges::stable_partition(evaluations_.channels, [](const RecordedChannel* c) {
     return c->channel->peaks != Peaks::of_accelerations;  // which place bodies anew
   });
-  for (Group* group : {&states_, &evaluations_, &limits_}) group->begin();
-  row_.resize(states_.curves.size());
+  // Those of a trail alone behind what has curves.
+  std::ranges::stable_partition(states_.channels,
+                                [](const RecordedChannel* c) { return c->least.has_value(); });
+  for (Group* group : groups()) group->begin();
+  for (const RecordedChannel* c : states_.channels) row_.resize(row_.size() + c->size);
+  end_.resize(ends_.curves.size());
   evaluation_.resize(evaluations_.curves.size());
 }
 
@@ -111,16 +121,16 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
 }
 
 void Extremes::take_end(Stepper& at, double from, double to, const StateAt& state_at) {
-  if (!(to > from) || states_.curves.empty()) return;
+  if (!(to > from) || states_.channels.empty()) return;
   if (states_.window.empty()) take_state(at, from, state_at);
   take_state(at, to, state_at);
 }
 
 void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces) {
   if (!(to > from)) return;
-  if (!states_.curves.empty() && states_.window.empty()) take_state(at, from, state_at);
+  if (!states_.channels.empty() && states_.window.empty()) take_state(at, from, state_at);
   // What lies within a step of a given length costs an evaluation.
-  if (!states_.curves.empty() && at.integrator->is_adaptive()) take_state(at, 0.5 * (from + to), state_at);
+  if (!states_.channels.empty() && at.integrator->is_adaptive()) take_state(at, 0.5 * (from + to), state_at);
   take_end(at, from, to, state_at);
   if (!evaluations_.curves.empty() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
   if (!limits_.curves.empty() && forces != nullptr) {
@@ -136,9 +146,20 @@ void Extremes::take_state(Stepper& at, double t, const StateAt& state_at) {
   double* out = row_.data();
   for (const RecordedChannel* c : states_.channels) {
     c->channel->write(output(at, t, bodies_.data(), at.system.terms()), out);
+    if (std::ranges::count(trail_.channels, c) > 0) trail_.rows.insert(trail_.rows.end(), out, out + c->size);
     out += c->size;
   }
+  if (!trail_.channels.empty()) trail_.times.push_back(t);
   add(states_, t, row_.data());
+}
+
+void Extremes::see_end(const Output& output) {
+  double* out = end_.data();
+  for (const RecordedChannel* c : ends_.channels) {
+    c->channel->write(output, out);
+    out += c->size;
+  }
+  add(ends_, output.time, end_.data());
 }
 
 /// The kinematics of the described bodies at a state that is stepped, and its part behind these.
@@ -167,22 +188,22 @@ void Extremes::add(Group& group, double t, const double* values) {
 std::vector<double> Extremes::save() const {
   std::vector<double> out;
   recording_.save_pending(out);
-  for (const Group* group : {&states_, &evaluations_, &limits_}) group->window.save(out);
+  for (const Group* group : groups()) group->window.save(out);
   return out;
 }
 
 void Extremes::load(const std::vector<double>& saved) {
   if (saved.size() != save().size()) return;  // of other channels
   const double* next = recording_.load_pending(saved.data());
-  for (Group* group : {&states_, &evaluations_, &limits_}) next = group->window.load(next);
+  for (Group* group : groups()) next = group->window.load(next);
 }
 
 void Extremes::forget_stretch() {
-  for (Group* group : {&states_, &evaluations_, &limits_}) group->window.forget();
+  for (Group* group : groups()) group->window.forget();
 }
 
 void Extremes::end_stretch() {
-  for (Group* group : {&states_, &evaluations_, &limits_}) group->window.end(seeing(*group));
+  for (Group* group : groups()) group->window.end(seeing(*group));
 }
 
 }  // namespace seacrane

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "seacrane/run/peak_window.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepper.hpp"
+#include "seacrane/run/trail.hpp"
 
 namespace seacrane {
 
@@ -17,8 +21,9 @@ class Extremes {
  public:
   using StateAt = std::function<void(double t, double* y)>;
 
-  /// Of the channels of a recording that have least and largest values, which outlives this.
-  Extremes(const Model& model, Recording& recording);
+  /// Of the channels of a recording that have least and largest values, which outlives this. `trail`: those
+  /// of them whose values are kept at every step, as far as they follow from a state.
+  Extremes(const Model& model, Recording& recording, const std::set<std::string>& trail);
 
   /// Takes what the last evaluation tells right after a step, before anything else is evaluated.
   void read_evaluation(Stepper& at, double from, double t, const double* y);
@@ -30,6 +35,13 @@ class Extremes {
   void load(const std::vector<double>& saved);
   /// Takes the end of a step alone: of a run that is stepped beside others.
   void take_end(Stepper& at, double from, double to, const StateAt& state_at);
+  /// What is evaluated at the ends of steps as at outputs: nothing where no channel is.
+  bool has_ends() const { return !ends_.curves.empty(); }
+  bool begins_ends() const { return ends_.window.empty(); }
+  const Needs& needs_of_ends() const { return needs_of_ends_; }
+  void see_end(const Output& output);
+  const Trail& trail() const { return trail_; }
+  void drop_trail(double until) { trail_.drop(until); }
   /// The next step begins on the other side of a kink, or the run ends.
   void end_stretch();
   /// The step has kinks inside: no curve goes through its values.
@@ -49,6 +61,8 @@ class Extremes {
     void begin();
   };
 
+  std::array<Group*, 4> groups() { return {&states_, &evaluations_, &limits_, &ends_}; }
+  std::array<const Group*, 4> groups() const { return {&states_, &evaluations_, &limits_, &ends_}; }
   void take_state(Stepper& at, double t, const StateAt& state_at);
   void place(Stepper& at, double t, const double* y);
   Output output(Stepper& at, double t, const double* state, const Terms& terms);
@@ -64,14 +78,16 @@ class Extremes {
 
   const Model& model_;
   Recording& recording_;
-  Group states_, evaluations_, limits_;
+  Group states_, evaluations_, limits_, ends_;
+  Needs needs_of_ends_;
+  Trail trail_;
   bool needs_coordinates_ = false, has_accelerations_ = false;
   std::vector<Vec6d> accelerations_;  // of the described bodies, at the last evaluation
   double evaluated_ = 0.0;            // time of evaluation_
   std::vector<double> evaluation_;    // of the last step
   const Stepper* links_of_ = nullptr;
   std::vector<int> links_;  // elements of what is stepped, of links, then of drivers
-  std::vector<double> row_, state_, bodies_, stepped_, rate_;
+  std::vector<double> row_, end_, state_, bodies_, stepped_, rate_;
   std::vector<CoordinateRow<double>> coordinates_;
   std::vector<BodyLoad<double>> one_load_;
 };

@@ -39,7 +39,7 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
       times_(options.output_times),
       recording_(model, options.channels, options.capacity.value_or(options.output_times.size()),
                  options.extremes),
-      extremes_(model, recording_),
+      extremes_(model, recording_, options.trail),
       bodies_(idx(model.layout.size), 0.0),
       rate_(idx(model.layout.size), 0.0),
       coordinates_(model.coordinates.size()),
@@ -151,11 +151,32 @@ OutputSampler::StateAt OutputSampler::state_of(const Stepper& at) {
 void OutputSampler::take_step(Stepper& at, double from, double to, const StateAt& state_at,
                               const double* forces) {
   extremes_.take(at, from, to, state_at, forces);
+  take_ends(at, from, to, state_at);
   if (next_ == times_.size()) extremes_.end_stretch();
+}
+
+/// What is not known without an evaluation as at outputs.
+void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt& state_at) {
+  if (!extremes_.has_ends() || !(to > from)) return;
+  state_.resize(at.stepped.size());
+  const Needs& needs = extremes_.needs_of_ends();
+  const auto take = [&](double t) {
+    state_at(t, state_.data());
+    take_residual(at);
+    at.stepped.project(t, state_.data(), false);
+    at.stepped.take_residual_before_projection();  // what is interpolated is no residual of the steps
+    evaluate(at, t, needs);
+    if (needs.coordinates) evaluate_coordinates(at.system.terms());
+    extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(),
+                       coordinates_, one_load_, rate_.data() + model_.layout.loads});
+  };
+  if (extremes_.begins_ends()) take(from);
+  take(to);
 }
 
 void OutputSampler::take_step_beside(Stepper& at, double from, double to, const StateAt& state_at) {
   extremes_.take_end(at, from, to, state_at);
+  take_ends(at, from, to, state_at);
   if (next_ == times_.size()) extremes_.end_stretch();
 }
 

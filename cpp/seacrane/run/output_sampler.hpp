@@ -53,11 +53,16 @@ class OutputSampler {
   void take_residual(Stepper& at);
 
   const Recording& recording() const { return recording_; }
-  void drop_rows(std::size_t count) { recording_.drop(count); }
+  const Trail& trail() const { return extremes_.trail(); }
+  void drop_rows(std::size_t count) {
+    if (count > 0 && count <= recording_.count()) extremes_.drop_trail(recording_.times()[count - 1]);
+    recording_.drop(count);
+  }
 
  private:
   double project(Stepper& at, double t);
   ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs);
+  void take_ends(Stepper& at, double from, double to, const StateAt& state_at);
   void write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out);
   void evaluate_coordinates(const Terms& terms);
   void watch_rank(Stepper& at, double t);

@@ -29,16 +29,11 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
     for (const std::size_t n : recorded.shape) recorded.size *= n;
     width += recorded.size;
     channels_.push_back(recorded);
-    needs_.residual |= channel->needs.residual;
-    needs_.loads |= channel->needs.loads;
-    needs_.energy |= channel->needs.energy;
-    needs_.solution |= channel->needs.solution;
-    needs_.reactions |= channel->needs.reactions;
-    needs_.coordinates |= channel->needs.coordinates;
+    needs_ |= channel->needs;
   }
   row_.assign(width, 0.0);
   for (RecordedChannel& c : channels_) {
-    if (extremes.count(c.channel->name) == 0 || c.channel->peaks == Peaks::of_none) continue;
+    if (extremes.count(c.channel->name) == 0 || !has_extremes(*c.channel)) continue;
     c.least = row_.size();
     row_.resize(row_.size() + c.size, kNothing);
     row_.resize(row_.size() + c.size, -kNothing);

@@ -23,6 +23,7 @@ struct RunOptions {
   std::optional<std::size_t> capacity;    // outputs to take memory for; none: all
   std::set<std::string> channels;
   std::set<std::string> extremes;  // channels of which least and largest values between outputs are kept
+  std::set<std::string> trail;     // channels whose values at every step are kept, see Trail
   std::chrono::milliseconds ask_every{20};  // of wall time: how often advance() asks whether to go on
 };
 

@@ -102,17 +102,20 @@ Sight from(const SeabedNode& load, const Input& in, int side) {
 
 /// A slack line may snatch; one on a winch comes to its end.
 Sight from(const Line& load, const Input& in, int side) {
+  const bool is_slack = (side & kSlack) == kSlack, winds = load.winch && (side & kHauledIn) == 0;
+  if (!is_slack && !winds) return {};
+  const Line::Motion<double> now = load.motion(in);
   Sight out;
-  if ((side & kSlack) == kSlack) {
-    const Line::Motion<double> now = load.motion(in);
+  if (is_slack) {
     out = {.watched = kSlack,
            .clear = std::max(0.0, -now.stretch()),
            .pace = std::abs(now.straining()),
            .strikes = true};
     out.at[0] = now.stretch();
   }
-  if (!load.winch || (side & kHauledIn) != 0) return out;
+  if (!winds) return out;
   out.watched |= kHauledIn;
+  out.pace = std::max(out.pace, std::abs(load.winch->rate(in, now.elastic)));
   out.at[1] = load.winch->length(in);
   out.clear = std::min(out.clear, std::max(0.0, out.at[1] - load.d.minimum_length));
   return out;

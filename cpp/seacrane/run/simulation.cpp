@@ -155,13 +155,10 @@ bool Simulation::steps_over_kinks() const {
 /// for what they step over.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  const bool is_left = steps_over_kinks();
-  if (is_left && integrator_of(options_.integrator).residual_form) {  // which cannot restart there
-    switches_->watch(stepper(), time(), integrator().state());
-    return false;
-  }
-  const std::optional<double> found =
-      is_left ? switches_->find_between(stepper(), integrator()) : switches_->find(stepper(), integrator());
+  const bool starts_anywhere = !integrator_of(options_.integrator).residual_form;
+  const std::optional<double> found = steps_over_kinks()
+                                          ? switches_->find_between(stepper(), integrator(), !starts_anywhere)
+                                          : switches_->find(stepper(), integrator());
   if (!found) return false;
   switch_at_ = *found;
   const double* const before = integrator().previous_state();

@@ -44,6 +44,7 @@ class Simulation {
   /// One row of all channels the model offers, at the present time.
   Recording snapshot() { return outputs_.snapshot(stepper(), energy_lost()); }
   const Recording& recording() const { return outputs_.recording(); }
+  const Trail& trail() const { return outputs_.trail(); }
   /// Drops the first `count` rows recorded.
   void drop_rows(std::size_t count) { outputs_.drop_rows(count); }
   RunStatistics statistics() const;

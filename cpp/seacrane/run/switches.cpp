@@ -25,10 +25,15 @@ constexpr double kNear = 1e-3;
 /// A way within a step that is not looked at: what is met and left on it is shallower, m or rad; and a part
 /// of the longest way that the step may have led, and of what is thin.
 constexpr double kShallow = 1e-4, kPart = 0.01, kPartOfThin = 0.125;
+constexpr double kGolden = 0.381966;  // of an interval, to close in on a least value in it
 /// m or rad, into what is struck: the first step there, where steps would lead that many times as far.
 constexpr double kFirst = 0.01, kFar = 4.0;
 double first_way(double thin) { return std::min(kFirst, 0.25 * thin); }
 bool leads_far(double way, double thin) { return way > kFar * first_way(thin); }
+/// Of half of what is thin: the longest way of a step of a given length where it presses.
+constexpr double kLongest = 0.5;
+/// Of the first way into what is struck: so far before it a step ends that may not end there.
+constexpr double kBefore = 0.1;
 
 /// The fastest that a load came near to something within a step of length h: what its speeds at both ends
 /// tell, and in the middle the parabola that leads through these and over its way. Speeds have no direction
@@ -55,6 +60,26 @@ void for_each_switch(const Model& model, F&& f) {
 const Contact* contact_of(const LoadList& list, std::size_t i) {
   if (&list.kind != &load_kind<Contact>()) return nullptr;
   return &static_cast<const LoadsOf<Contact>&>(list).items[i];
+}
+
+bool presses(const Contact& contact, int side) {
+  bool out = false;
+  for (std::size_t i = 0; i < contact.points.size(); ++i) out = out || (side & Contact::closed(i)) != 0;
+  return out;
+}
+
+/// Closes in on the time between two at which something is nearest, until it is met there, or is not. Looks
+/// lie far apart beside an edge or the side of a post, which are thinner than the rest.
+template <class F, class Met>
+void look_into_dip(double first, double last, double pace, F&& clear_at, const Met& met) {
+  while (last - first > std::max(kShallow / pace, 100.0 * smallest_step(last))) {
+    const double part = kGolden * (last - first);
+    const double early = clear_at(first + part);
+    if (met) return;
+    const double late = clear_at(last - part);
+    if (met || std::min(early, late) > pace * part) return;
+    (early < late ? last : first) = early < late ? last - part : first + part;
+  }
 }
 
 const char* kind_of(Contact::Change change) {
@@ -141,13 +166,20 @@ void Switches::watch(Stepper& at, double t, const double* y) {
   begin_from(at, t, y);
 }
 
-/// From the sides just found there.
-void Switches::begin_from(Stepper& at, double t, const double* y) {
+/// From the sides just found there, behind a step.
+void Switches::begin_from(Stepper& at, double t, const double* y, LastStep* step) {
   refuse(at, t, after_);
   const bool begins = before_.empty();
   if (begins) before_.assign(after_.size(), 0);
   if (before_.size() != after_.size()) before_ = after_;  // of another set of limits
   instants_.assign(after_.size(), t);
+  for (std::size_t i = 0; step != nullptr && i < after_.size(); ++i) {
+    if (after_[i] == before_[i]) continue;
+    const auto margin_at = [&](double now, const double* state) {
+      return across(at, read(at, now, state), i, before_[i], after_[i]);
+    };
+    instants_[i] = step->locate(std::cref(margin_at)).value_or(t);
+  }
   note(at);
   if (!begins) note_contacts(at, t, y);  // what stands as a run begins has not touched
   turn();
@@ -327,10 +359,11 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
   return first;
 }
 
-std::optional<double> Switches::find_between(Stepper& at, LastStep& step) {
+std::optional<double> Switches::find_between(Stepper& at, LastStep& step, bool ends_before) {
+  ends_before_ = ends_before;
   find_sides(at, step.time(), step.state(), after_, seen_after_);
   const std::optional<double> found = look_between(at, step);
-  if (!found) begin_from(at, step.time(), step.state());
+  if (!found) begin_from(at, step.time(), step.state(), ends_before ? &step : nullptr);
   return found;
 }
 
@@ -339,7 +372,10 @@ std::optional<double> Switches::find_between(Stepper& at, LastStep& step) {
 /// there. A method whose dense output takes evaluations of its own may have lost its way there by what they
 /// met: steps that lead far are looked at on the cubic of their ends too.
 std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
-  if (!at.integrator->is_adaptive()) return std::nullopt;  // its steps are as long as was asked for
+  if (!at.integrator->is_adaptive()) {
+    refuse_long(at, step);
+    return std::nullopt;
+  }
   std::optional<double> first;
   std::size_t k = 0;
   bool has_slopes = false;
@@ -359,6 +395,30 @@ std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
     if (met) end_on(at, step, *met, load, first);
   });
   return first;
+}
+
+/// Steps of a given length are as long as was asked for, whatever they meet. What they meet and leave again
+/// is of the size of their errors, but where they lead through what is thin.
+void Switches::refuse_long(Stepper& at, const LastStep& step) {
+  const double h = step.time() - step.previous_time();
+  std::size_t k = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    const std::size_t load = k++;
+    const Contact* const contact = contact_of(list, i);
+    if (contact == nullptr || !(h > 0.0)) return;
+    const Sight& from = seen_before_[load];
+    if (!(from.pace * h > kLongest * from.thin)) return;
+    const double pace = pace_between(step, load);
+    const bool passes = presses(*contact, from.side) ||
+                        (pace > 0.0 && look_between(at, step, list, i, load, pace, false).has_value());
+    if (!passes) return;
+    throw std::domain_error("contact '" + contact->d.name + "': a step of " + to_text(h) + " s leads " +
+                            to_text(from.pace * h) + " m, where it is " + to_text(2.0 * from.thin) +
+                            " m thick, at t = " + to_text(step.previous_time()) +
+                            " s: a point would pass through it; give a dt of at most " +
+                            to_text(kLongest * from.thin / from.pace) +
+                            " s, or a method that chooses its steps, such as 'dopri5'");
+  });
 }
 
 /// The fastest that a load came near to what it saw within the last step; 0 where it could not reach it.
@@ -381,17 +441,25 @@ void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size
   const auto margin_at = [&](double t, const double* y) {
     return t >= met.time ? met.across : across(at, read(at, t, y), load, before_[load], met.side);
   };
-  const double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
+  double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
+  if (ends_before_) found = before_touch(step, found, load);
   if (end - found <= margin || (first && *first <= found)) return;
-  leads_across_ = found <= start + margin;
+  leads_across_ = !ends_before_ && found <= start + margin;
   first = leads_across_ ? found + 10.0 * smallest_step(end) : found;
   aim_ = {};
-  if (leads_across_) return;
+  if (leads_across_ || ends_before_) return;
   aim_ = {.time = found,
           .length = end - start,
           .load = load,
           .to = met.side,
           .from_start = margin_at(start, step.previous_state())};
+}
+
+/// Just before a load meets something at time `found`; from there, on the first way into it.
+double Switches::before_touch(const LastStep& step, double found, std::size_t load) const {
+  const double pace = fastest(seen_before_[load], seen_after_[load], step.time() - step.previous_time());
+  const double into = first_way(seen_before_[load].thin) / pace, short_of = found - kBefore * into;
+  return short_of - step.previous_time() > kBefore * into ? short_of : found + into;
 }
 
 /// On the dense output, or on the cubic of both ends' states and slopes.
@@ -415,21 +483,31 @@ std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastS
                                                         const LoadList& list, std::size_t i, std::size_t load,
                                                         double pace, bool on_cubic) {
   const Sight& from = seen_before_[load];
-  const double end = step.time(), whole = pace * (end - step.previous_time());
+  const double start = step.previous_time(), end = step.time(), whole = pace * (end - start);
   const double least = std::min(kPartOfThin * from.thin, std::max(kPart * whole, kShallow));
-  double t = step.previous_time(), clear = from.clear;
-  while (t += std::max(clear, least) / pace, t < end) {
+  std::optional<Between> met;
+  const auto clear_at = [&](double t) {
     const LoadInput<double> in = read_within(at, step, t, on_cubic);
     const Sight now = look(list, i, in);
-    const int changed = (now.side ^ before_[load]) & from.watched;
-    if (changed != 0) {
-      const int side = before_[load] ^ changed;
-      return Between{t, side, list.across(i, in, before_[load], side)};
-    }
-    clear = now.clear;
-    if (clear + clear_at_end(load) > pace * (end - t)) return std::nullopt;
+    const int changed = (now.side ^ before_[load]) & from.watched, side = before_[load] ^ changed;
+    if (changed != 0) met = Between{t, side, list.across(i, in, before_[load], side)};
+    return now.clear;
+  };
+  struct {
+    double time, clear;
+  } before{start, from.clear}, here = before, next = before;
+  while (true) {
+    next.time = here.time + std::max(here.clear, least) / pace;
+    const bool ends = next.time >= end;
+    next = ends ? decltype(next){end, clear_at_end(load)} : decltype(next){next.time, clear_at(next.time)};
+    if (met) return met;
+    const bool is_over = ends || next.clear + clear_at_end(load) > pace * (end - next.time);
+    const bool dips = here.clear <= before.clear && (here.clear <= next.clear || is_over);
+    if (dips && here.clear < least) look_into_dip(before.time, next.time, pace, clear_at, met);
+    if (met || is_over) return met;
+    before = here;
+    here = next;
   }
-  return std::nullopt;
 }
 
 }  // namespace seacrane

@@ -48,9 +48,9 @@ class Switches {
   /// just after the step's start. If the step came no nearer to its crossing, it is made longer, to lead
   /// across. Nothing, if the step stands: the next one starts from the sides at its end.
   std::optional<double> find(Stepper& at, LastStep& step);
-  /// As find(), of a step whose own crossings are left to the step control: where it is to end before what it
-  /// would step over. Nothing: the step stands.
-  std::optional<double> find_between(Stepper& at, LastStep& step);
+  /// As find(), of a step whose own crossings are left to the step control: where it is to end on what it
+  /// would step over, or a little before, and from there a little behind. Nothing: the step stands.
+  std::optional<double> find_between(Stepper& at, LastStep& step, bool ends_before);
   /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
   /// on kinks.
   static bool any_jumps(const Model& model);
@@ -87,13 +87,15 @@ class Switches {
 
   void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
                   std::vector<Sight>& sights);
-  void begin_from(Stepper& at, double t, const double* y);
+  void begin_from(Stepper& at, double t, const double* y, LastStep* step = nullptr);
   void turn();
   std::optional<double> look_between(Stepper& at, LastStep& step);
   std::optional<Between> look_between(Stepper& at, const LastStep& step, const LoadList& list, std::size_t i,
                                       std::size_t load, double pace, bool on_cubic);
   void end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
               std::optional<double>& first);
+  double before_touch(const LastStep& step, double found, std::size_t load) const;
+  void refuse_long(Stepper& at, const LastStep& step);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
@@ -116,6 +118,7 @@ class Switches {
   double strike_pace_ = 0.0, strike_thin_ = Sight::kFar;  // of what the last step ended on, as of Sight
   std::vector<double> instants_;                          // of their change, likewise
   Aim aim_;                                               // of the step that is taken again
+  bool ends_before_ = false;                              // of a method that cannot restart where it touches
   bool leads_across_ = false;                             // the step under way, a jump: it is not taken again
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.contact_places import beside_surface
 from seacrane.description.description import GROUND
-from seacrane.description.welded import welded_mass
+from seacrane.description.welded import borne_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
@@ -38,7 +38,8 @@ class ContactHit:
     impulse : float
         Of that force by the trapezoidal rule over the outputs, N s.
     dynamic_factor : float
-        Peak over the point's share of the body's weight; not a number without gravity.
+        Peak over the point's share of the body's weight, of the other body where this one is the ground or a
+        ship whose motion is given; not a number without gravity.
     undamped : float
         Share of the weight onto the surface + speed sqrt(stiffness mass), N, with the share of the mass: the
         peak of a hit by that mass alone, without damping, which may raise it. A bumper on a wall bears no
@@ -85,8 +86,7 @@ def contact_hits(result: Result, contact: str) -> tuple[ContactHit, ...]:
     if "contact_press" not in result:
         raise SceneError('contact_hits: the result has no channel "contact_press"; record it')
     count = len(element.points)
-    body = element.body if element.body in result.scene.bodies else element.on
-    mass = welded_mass(result.scene, body) / count
+    mass = borne_mass(result.scene, element.body, element.on) / count
     weight = mass * result.scene.gravity
     stiffness = np.nan if len(element.forces) else element.stiffness
     found: list[ContactHit] = []

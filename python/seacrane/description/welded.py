@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from seacrane.description.given import given_vessels
+
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
@@ -26,3 +28,15 @@ def welded_to(scene: Description, body: str) -> list[str]:
         beside = {other for pair in ends for other in pair} & (scene.bodies.keys() - vessels)
         found += sorted(beside - set(found))
     return found
+
+
+def with_mass(scene: Description, *bodies: str) -> list[str]:
+    """Those whose mass counts: not the ground, nor one that stands for a ship whose motion is given."""
+    led = given_vessels(scene)
+    return [one for one in bodies if one in scene.bodies and one not in led]
+
+
+def borne_mass(scene: Description, body: str, on: str) -> float:
+    """Mass of a body and what is welded to it, kg; of what it stands on where its own does not count."""
+    known = [one for one in (body, on) if one in scene.bodies]
+    return welded_mass(scene, [*with_mass(scene, *known), *known][0])

@@ -253,7 +253,7 @@ def ensemble(
     Warns
     -----
     FailedMembersWarning
-        Where all members failed.
+        Where members failed.
     FailedSeedsWarning
         Where seeds of an ensemble with `until` failed.
     FewSeedsWarning
@@ -315,21 +315,28 @@ def ensemble(
             packs = Packs(order=order_of(study, members), size=size)
             _run(study, members, packs, kept, executor, raises=raises, progress=progress)
             done = _ensemble(members, kept.dataset(members), study.lanes)
-        _warn_if_all_failed(done)
+        _warn_of_failures(done)
     if accuracy is None:
         return done
     ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]
     return replace(done, accuracy=checked(study, done.members, accuracy, probes, ran, executor))
 
 
-def _warn_if_all_failed(done: Ensemble) -> None:
-    if len(done.failures) == len(done.members):
-        warn_caller(
-            f"ensemble: all {len(done.members)} members failed, and nothing is kept; the first by "
-            f"{next(iter(done.failures.values()))}. Try what is kept on one result of simulate, or give "
-            'on_error="raise"',
-            FailedMembersWarning,
-        )
+def _warn_of_failures(done: Ensemble) -> None:
+    if not done.failures:
+        return
+    failed, every = len(done.failures), len(done.members)
+    member, why = next(iter(done.failures.items()))
+    told = (
+        f"all {every} members failed, and nothing is kept"
+        if failed == every
+        else f"{failed} of {every} members failed, and what is kept leaves them out"
+    )
+    warn_caller(
+        f"ensemble: {told}; the first, member {member}, by {why}. `failures` has all of them; try what is "
+        'kept on one result of simulate, or give on_error="raise"',
+        FailedMembersWarning,
+    )
 
 
 def _checked_start(start: Any) -> Start:

@@ -23,7 +23,6 @@ from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.ensembles.stage_values import Stages, checked_stages_of
 from seacrane.ensembles.study import Start
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
@@ -33,7 +32,6 @@ from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
-from seacrane.operability.output_interval import OF_THE_SHIP, fastest_bounce, resolving
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.time_domain import Cell, Storms
 from seacrane.result import Result
@@ -42,7 +40,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.staged_run import StagedRun, simulate_stages
+from seacrane.run.staged_run import simulate_stages
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -129,8 +127,7 @@ def allowable_hs(
     progress : bool
         Show progress of what takes more than two seconds.
     **shorthand
-        Parts of the method, and `dt_out` (s), as of `simulate`. Default: 0.5; of lifts in stages less, an
-        eighth of the shortest period in which a load bounces on its hoist in calm water.
+        Parts of the method, and `dt_out` (s), as of `simulate`; default 0.5.
 
     Raises
     ------
@@ -140,11 +137,6 @@ def allowable_hs(
         a duration, an exposure time, "significant", motion=True, domain="frequency".
     KeyboardInterrupt
         On Ctrl-C; runs that came back before are in the store.
-
-    Warns
-    -----
-    CoarseOutputsWarning
-        A `dt_out` at which a lift in stages misses the peaks of what bounces.
     """
     asked = _Asked.of(
         criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages
@@ -158,8 +150,8 @@ def allowable_hs(
     outputs = Outputs(
         dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
     )
-    still = _Still.of(scene, asked, number_of("time", time), how, outputs, as_given="dt_out" in shorthand)
-    study = _Study(asked=asked, still=still, method=how, outputs=still.outputs)
+    still = _Still.of(scene, asked, number_of("time", time), how, outputs)
+    study = _Study(asked=asked, still=still, method=how, outputs=outputs)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
     failures: dict[int, str] = {}
     if asked.stages:
@@ -228,20 +220,14 @@ class _Asked:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Still:
-    """The scene with its references held, its sea, its state at rest and the criteria's values there.
-
-    And what runs of it record.
-    """
+    """The scene with its references held, its sea, its state at rest and the criteria's values there."""
 
     scene: Scene
     state: Any
     rest: Array
-    outputs: Outputs
 
     @classmethod
-    def of(
-        cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs, *, as_given: bool
-    ) -> _Still:
+    def of(cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
         if scene.waves is None:
@@ -255,20 +241,14 @@ class _Still:
         state = equilibrium(calm, time=time)
         if asked.stages:
             stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-            if any(one.channel not in OF_THE_SHIP for one in asked.criteria):
-                with silently():
-                    lift = StagedRun(calm, stages, start=state, method=method, outputs=outputs)
-                    bounce = fastest_bounce(lift)
-                outputs = resolving(outputs, bounce, asked=as_given)
             result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
-            rest = _extremes(result, asked.criteria)
-            return cls(scene=scene, state=state, rest=rest, outputs=outputs)
+            return cls(scene=scene, state=state, rest=_extremes(result, asked.criteria))
         calm = held(calm, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
         rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
         moving = {name: scene.drivers[name].curve for name in given_drivers(scene)}
         moved = led_by(calm, moving).copy(waves=scene.waves)
-        return cls(scene=moved, state=state, rest=rest, outputs=outputs)
+        return cls(scene=moved, state=state, rest=rest)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -362,8 +342,8 @@ def _extremes(calm: Result, criteria: Sequence[Criterion]) -> Array:
     """What each criterion reaches in a lift in calm water, given ships at rest."""
     found = []
     for one in criteria:
-        values = calm.curve(one.channel, **one.names)[calm.part(stage=one.stage or None)]
-        found.append(values.max() if one.minimum is None else values.min())
+        least, largest = calm.reached(one.channel, part=calm.part(stage=one.stage or None), **one.names)
+        found.append(largest.max() if one.minimum is None else least.min())
     return np.array(found)
 
 

@@ -17,14 +17,16 @@ def core_options(
     times: Any,
     capacity: int | None = None,
     extremes: Set[str] = frozenset(),
+    trail: Set[str] = frozenset(),
 ) -> _core.RunOptions:
     """The options of the core for a method, with the channels that it records and when (s).
 
-    `extremes`: those of the channels of which it keeps least and largest values between outputs.
+    `extremes`: those of the channels of which it keeps least and largest values between outputs. `trail`:
+    those whose values at every step it keeps.
     """
     return _core.RunOptions(
         formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
         fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels,
-        extremes=extremes, capacity=capacity,
+        extremes=extremes, trail=trail, capacity=capacity,
     )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Callable, Mapping, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.result.extremes import Extremes
 from seacrane.run.channel_names import named_channels
+from seacrane.run.own import with_sources
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -28,13 +29,63 @@ MONOTONE = (
 POSES = ("position", "quaternion")  # with which the others are taken along
 
 
+def _limited(scene: Description) -> tuple[str, ...]:
+    return tuple(state.channel for state in scene.limit_states.values())
+
+
 def wanted_extremes(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> set[str]:
     """Those of the core's recorded channels, for the channels that are asked for; None: the usual ones."""
-    limited = tuple(state.channel for state in scene.limit_states.values())
-    names = (*USUAL, *limited) if asked is None else asked
+    names = (*USUAL, *_limited(scene)) if asked is None else asked
     made_of = {source for name in names if name in MONOTONE for source in DERIVED[name].made_of}
     wanted = {*names, *(made_of - {*POSES})}
     return {name for name in recorded & wanted if CHANNELS[name].has_extremes}
+
+
+def followed(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> dict[str, set[str]]:
+    """Derived channels that are made anew at every step: of what recorded channels."""
+    names = _limited(scene) if asked is None else asked
+    found = {}
+    for name in names:
+        if name not in DERIVED or name in MONOTONE or DERIVED[name].turns:
+            continue
+        parts = with_sources(scene, [name])
+        made_of = {
+            source for part in parts for source in (DERIVED[part].made_of if part in DERIVED else (part,))
+        }
+        found[name] = made_of & recorded
+    return found
+
+
+def followed_extremes(
+    trail: Mapping[str, Array],
+    outputs: Mapping[str, Array],
+    made_of: Mapping[str, set[str]],
+    named: Callable[[Mapping[str, Array], set[str]], Mapping[str, Array]],
+) -> dict[str, tuple[Array, Array]]:
+    """Least and largest values of derived channels, from their values at every step.
+
+    Parameters
+    ----------
+    trail : What the core has kept of every step.
+    outputs : The channels at outputs.
+    made_of : Of `followed`.
+    named : Makes channels of those of the core.
+    """
+    names = {
+        name for name, sources in made_of.items() if name in outputs and sources and sources <= trail.keys()
+    }
+    if not names:
+        return {}
+    at = np.searchsorted(outputs["time"], trail["time"])
+    seen = at < len(outputs["time"])
+    found = {}
+    for name, values in named(trail, names).items():
+        if name in names:
+            least, largest = outputs[name].copy(), outputs[name].copy()
+            np.fmin.at(least, at[seen], values[seen])
+            np.fmax.at(largest, at[seen], values[seen])
+            found[name] = least, largest
+    return found
 
 
 def derived_extremes(

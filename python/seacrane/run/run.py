@@ -42,7 +42,7 @@ from seacrane.run.channel_names import (
     require_names,
 )
 from seacrane.run.core_options import core_options
-from seacrane.run.extremes import derived_extremes, wanted_extremes
+from seacrane.run.extremes import derived_extremes, followed, followed_extremes, wanted_extremes
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
@@ -218,7 +218,7 @@ class Run:
         out.settings = {**self.settings, "t_end": out.t_end}
         out._own_modes, out.start_modes = Modes(out.model, list(out.scene.bodies), [out.start]), None
         inputs = frozenset(steered(out.scene, out.model, out.start.inputs))
-        out._lasting = replace(self._lasting, options=_options(out), steered=inputs)
+        out._lasting = replace(self._lasting, options=_options(out, self._lasting.followed), steered=inputs)
         out._prepare()
         return out
 
@@ -456,6 +456,9 @@ class Run:
     ) -> dict[str, tuple[Array, Array]]:
         """Least and largest values of the channels, as far as the core has kept them."""
         derived = derived_extremes(self.scene, arrays, extremes, channels)
+        if self._lasting.followed and len(arrays["time"]):
+            outputs = {**channels, "time": arrays["time"]}
+            derived |= followed_extremes(self.core.trail(), outputs, self._lasting.followed, self.named)
         return {name: both for name, both in {**extremes, **derived}.items() if name in channels}
 
     def _recorded(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
@@ -480,6 +483,7 @@ class _Lasting:
     ----------
     options : Of the core.
     coords : Names along the dimensions of channels.
+    followed : Channels that are made anew at every step, and of what.
     steered : Actuators whose inputs are not zero at the start.
     stats : Of `lasting_stats`.
     about : Of the scene; the settings differ by sea.
@@ -487,6 +491,7 @@ class _Lasting:
 
     options: _core.RunOptions
     coords: Mapping[str, list[str]]
+    followed: Mapping[str, set[str]]
     steered: frozenset[str]
     stats: Mapping[str, Any]
     about: About
@@ -494,8 +499,11 @@ class _Lasting:
     @classmethod
     def of(cls, run: Run) -> _Lasting:
         scene, model = run.scene, run.model
+        asked = None if run.outputs.channels is None else tuple(run.outputs.channels)
+        made_of = followed(scene, recorded_channels(scene, model, asked), asked)
         return cls(
-            options=_options(run),
+            options=_options(run, made_of),
+            followed=made_of,
             coords=all_names(scene, model),
             steered=frozenset(steered(scene, model, run.start.inputs)),
             stats=lasting_stats(scene, model, run.formulation, run.method),
@@ -503,8 +511,8 @@ class _Lasting:
         )
 
 
-def _options(run: Run) -> _core.RunOptions:
-    """How the core steps a run, and what it records."""
+def _options(run: Run, followed: Mapping[str, set[str]]) -> _core.RunOptions:
+    """How the core steps a run, and what it records; `followed`: see `_Lasting`."""
     model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
     asked = None if outputs.channels is None else tuple(outputs.channels)
     channels = recorded_channels(run.scene, model, asked)
@@ -514,7 +522,7 @@ def _options(run: Run) -> _core.RunOptions:
     )  # fmt: skip
     return core_options(
         method, run.formulation, channels=channels, times=times, capacity=capacity,
-        extremes=wanted_extremes(run.scene, channels, asked),
+        extremes=wanted_extremes(run.scene, channels, asked), trail=set().union(*followed.values()),
     )  # fmt: skip
 
 

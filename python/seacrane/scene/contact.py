@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import GROUND, Description
 from seacrane.description.forces import add_load
-from seacrane.description.given import given_vessels
-from seacrane.description.welded import welded_mass
+from seacrane.description.welded import borne_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, rows_of, shaped_of, text_of
@@ -102,7 +101,7 @@ def add_contact(
         raise SceneError(f"{what}: points is empty; give at least one")
     shape = text_of(f"{what}: surface", surface)
     extent = _extent(what, shape, size)
-    share = _mass(scene, owner, other) / len(rows)
+    share = borne_mass(scene, owner, other) / len(rows)
     weight = share * scene.gravity
     steps = None if table is None else rows_of(f"{what}: table", table, 2)
     mu, give = not_negative_of(f"{what}: friction", friction), positive_of(f"{what}: hold", hold, "m")
@@ -161,14 +160,6 @@ def add_seabed(
         SeabedWarning,
     )
     return made
-
-
-def _mass(scene: Description, body: str, on: str) -> float:
-    """Of the body whose points they are, with what is welded to it; of the other where it is the ground, or
-    a light one that stands for a ship whose motion is given."""
-    known = [one for one in (body, on) if one in scene.bodies]
-    heavy = [one for one in known if one not in given_vessels(scene)]
-    return welded_mass(scene, [*heavy, *known][0])
 
 
 def _extent(what: str, surface: str, size: Any) -> Array:

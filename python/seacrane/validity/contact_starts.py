@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.contact_places import beside_surface, elastic_force
 from seacrane.description.line_path import described_poses
-from seacrane.description.welded import welded_mass
+from seacrane.description.welded import borne_mass, welded_mass, with_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import ContactStartWarning
@@ -32,7 +32,7 @@ def warn_of_contact_starts(scene: Description) -> None:
         return
     pose = described_poses(scene)
     places = {one.name: [beside_surface(one, i, pose) for i in range(len(one.points))] for one in contacts}
-    for body in dict.fromkeys(one.body for one in contacts if one.body in scene.bodies):
+    for body in with_mass(scene, *dict.fromkeys(one.body for one in contacts)):
         mass = welded_mass(scene, body)
         of_body = [one for one in contacts if one.body == body]
         total = np.array([0.0, 0.0, -mass * scene.gravity if scene.bodies[body].gravity else 0.0])
@@ -66,8 +66,7 @@ def check_contact_connected(
     gaps = np.ravel(measured["contact_gap"])[before : before + count]
     worst = int(np.argmin(gaps))
     force = elastic_force(contact, -float(gaps[worst]))
-    body = contact.body if contact.body in scene.bodies else contact.on
-    share = scene.bodies[body].mass * scene.gravity / count
+    share = borne_mass(scene, contact.body, contact.on) * scene.gravity / count
     if -gaps[worst] <= DEEP or force <= CRUSHED * share:
         return
     raise SceneError(

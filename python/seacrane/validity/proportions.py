@@ -18,7 +18,7 @@ from seacrane.description.loads import whole_of
 from seacrane.description.places import placed
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import line_weights, suspensions, weights_on
-from seacrane.description.welded import welded_mass
+from seacrane.description.welded import borne_mass, welded_mass, with_mass
 from seacrane.description.wet_parts import displaced_volume, immersed_parts
 
 if TYPE_CHECKING:
@@ -103,9 +103,8 @@ class _Around:
 
     def mass(self, *bodies: str) -> float:
         """The smallest of these bodies', kg; infinite of the ground, and of a ship whose motion is given."""
-        moved = self.scene.bodies.keys() - self.led
-        there = [self.scene.bodies[body].mass for body in bodies if body in moved]
-        return min(there, default=math.inf)
+        there = with_mass(self.scene, *bodies)
+        return min((self.scene.bodies[body].mass for body in there), default=math.inf)
 
     def weight(self, *bodies: str) -> float:
         return self.mass(*bodies) * abs(self.scene.gravity)
@@ -316,10 +315,8 @@ def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Propo
 
 def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
     """Each point counts with its share of the lighter body."""
-    count = len(contact.points)
-    bodies = [one for one in (contact.body, contact.on) if one in around.scene.bodies]
-    heavy = [one for one in bodies if one not in around.led] or bodies
-    mass = min(welded_mass(around.scene, one) for one in heavy) / count
+    count, ends = len(contact.points), (contact.body, contact.on)
+    mass = min(borne_mass(around.scene, *pair) for pair in (ends, ends[::-1])) / count
     weight = mass * abs(around.scene.gravity)
     if len(contact.forces):
         deepest = float(contact.compressions[-1])

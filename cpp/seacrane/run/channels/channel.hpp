@@ -35,6 +35,16 @@ struct Needs {
   bool solution = false;   // accelerations and multipliers
   bool reactions = false;  // the shortest multipliers, where those of joints are not unique
   bool coordinates = false;
+
+  Needs& operator|=(const Needs& other) {
+    residual |= other.residual;
+    loads |= other.loads;
+    energy |= other.energy;
+    solution |= other.solution;
+    reactions |= other.reactions;
+    coordinates |= other.coordinates;
+    return *this;
+  }
 };
 
 /// One output: the state of the described bodies, the system evaluated there as far as its channels need, and
@@ -57,12 +67,14 @@ struct Output {
 /// Where least and largest values of a channel between outputs come from.
 enum class Peaks {
   of_none,           // none are kept
+  of_poses,          // none are kept; what follows from it has them
   of_states,         // the states at the ends and in the middle of every step: it follows from these
   of_lines,          // likewise; where lines are quasi-static the last evaluation of every step
   of_links,          // the last evaluation of every step, see Formulation::tension()
   of_drivers,        // likewise
   of_accelerations,  // likewise, with the kinematics of its state
   of_limits,         // what the search for events has evaluated there
+  of_ends,           // an evaluation at the end of every step, as at an output
 };
 
 /// A quantity that can be recorded.
@@ -71,12 +83,16 @@ struct Channel {
   std::vector<const Axis*> axes;
   std::string unit, text;
   Needs needs = {};
-  Peaks peaks = Peaks::of_none;
+  Peaks peaks = Peaks::of_ends;
   bool by_default = true;
   bool (*offered)(const Model& model) = nullptr;  // whether a scene has it; null: where no axis is empty
   /// Writes the values, the last axis fastest, over those of the output before (zeros at the first).
   void (*write)(const Output& output, double* values) = nullptr;
 };
+
+inline bool has_extremes(const Channel& channel) {
+  return channel.peaks != Peaks::of_none && channel.peaks != Peaks::of_poses;
+}
 
 /// Shape of an output of the channel.
 std::vector<std::size_t> shape_of(const Channel& channel, const Model& model);

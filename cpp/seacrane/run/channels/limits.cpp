@@ -31,6 +31,7 @@ std::vector<Channel> limit_channels() {
        .axes = {},
        .unit = "J",
        .text = "mechanical energy lost in impacts of limits since the start",
+       .peaks = Peaks::of_none,
        .offered = has_limits,
        .write = write_impact_loss},
   };
