@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from seacrane.accuracy.case import case_of_run
 from seacrane.accuracy.choice import run_to_accuracy
 from seacrane.inputs.keywords import named
 from seacrane.result.result import Result
@@ -52,7 +53,8 @@ def simulate(
         Called at their periods from the start on.
     accuracy : mapping of str to float, optional
         Largest error over the outputs by quantity, such as ``{"payload_position": 0.01}``, in its unit; the
-        quantities are those of `seacrane.trade`. Integrator and tolerance are then chosen, and a second,
+        quantities are those of `seacrane.trade`, extremes such as "hook_load.max", and "event_times" (s).
+        Integrator and tolerance are then chosen, and a second,
         cheap run tells the error: leave integrator, rtol, dt and controllers out. The estimate of what is
         left of the integration error is in `stats`, as "error_estimate_<quantity>".
     progress : bool
@@ -98,8 +100,10 @@ def simulate(
     called = checked_controllers(controllers)
     if accuracy is not None:
         return run_to_accuracy(
-            scene, t_end, accuracy, method=method, outputs=outputs, start=start, controllers=called,
-            progress=progress, shorthand=shorthand,
+            lambda recorded: case_of_run(
+                scene, t_end, accuracy, outputs=recorded, start=start, progress=progress
+            ),
+            method=method, outputs=outputs, shorthand=shorthand, controllers=called,
         )  # fmt: skip
     run = Run(scene, t_end, method=method, outputs=outputs, start=start, controlled=bool(called), **shorthand)
     return finished(run, called, progress=progress)

@@ -32,7 +32,7 @@ BESIDE, BESIDE_STIFFEST = "tsit5", "cvode-bdf"  # what is run beside it
 TIGHTER = 0.1  # tolerance of the latter over its own
 LOOSEST, TIGHTEST = 1e-2, 1e-12  # from 1e-2 on stability sets the steps: a looser tolerance saves nothing
 HIGH = 1e-5  # expected error, over the scale, below which the method of order 7 is the cheaper one
-SCALE = {"m": 0.05, "m/s": 0.15, "rad": 2e-4, "rad/s": 2e-4}
+SCALE = {"m": 0.05, "m/s": 0.15, "rad": 2e-4, "rad/s": 2e-4, "s": 0.1}
 FORCE_SCALE = 0.125  # of the weight that the force carries
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +15,10 @@ from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
 from seacrane.description.pick import pick_of
 from seacrane.description.suspension import hung_loads
+from seacrane.ensembles.kept import Kept, StageTime
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
+from seacrane.run.channel_names import require_channels
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -36,13 +38,23 @@ class Quantity:
     channels : Channels that it is made of.
     values : callable
         Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
-        the items.
+        the items. Of numbers, such as extremes, n is 1.
+    of_numbers : callable or None
+        Of numbers, how far what they are taken of goes in a result, in the unit; None: it is a curve.
     """
 
     name: str
     unit: str
     channels: tuple[str, ...]
     values: Callable[[Result], Array]
+    of_numbers: Callable[[Result], float] | None = None
+
+    def motion(self, result: Result) -> float:
+        """Largest distance from its start, in its unit."""
+        if self.of_numbers is not None:
+            return self.of_numbers(result)
+        values = self.values(result)
+        return float(np.nanmax(np.linalg.norm(values - values[:1], axis=-1), initial=0.0))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +84,12 @@ def compare(reference: Array, values: Array) -> ErrorMeasures:
     )
 
 
-def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None) -> dict[str, Quantity]:
+def quantities_of(
+    scene: Scene, model: _core.Model | None, names: Iterable[str] | None
+) -> dict[str, Quantity]:
     """The quantities asked for; by default what the scene has of the named ones.
+
+    Without a model, of a lift in stages, channels are looked for in everything that is ever connected.
 
     Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
@@ -82,22 +98,30 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
         return offered or {name: _picked(name) for name in GENERIC}
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise SceneError(f"quantities is {names!r}; give a list of names")
-    known = model.channel_names(defaults_only=False)
-    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
     out = {}
     for name in names:
-        found = offered[name] if name in offered else _picked(name)
-        if name not in offered and not set(found.channels) <= set(channels):
-            raise SceneError(
-                f"quantity {name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
-            )
-        out[name] = found
+        out[name] = offered[name] if name in offered else _of_text(name)
+        if name not in offered:
+            _require_known(scene, model, out[name], offered)
     if not out:
         raise SceneError("quantities is empty; name at least one, or leave it out")
     return out
 
 
-def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -> dict[str, float]:
+def _require_known(scene: Scene, model: _core.Model | None, found: Quantity, offered: Iterable[str]) -> None:
+    """SceneError for a quantity of a channel that the scene has not."""
+    if model is None:
+        require_channels(scene, found.channels)
+        return
+    known = model.channel_names(defaults_only=False)
+    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
+    if not set(found.channels) <= set(channels):
+        raise SceneError(
+            f"quantity {found.name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
+        )
+
+
+def limits_of(quantities: Collection[str], accuracy: Mapping[str, Any]) -> dict[str, float]:
     """Accuracies as positive numbers; raises SceneError for what is none or is not measured."""
     if not accuracy:
         raise SceneError("accuracy is empty; give at least one quantity and its largest error")
@@ -137,6 +161,34 @@ def _stacked(name: str, channel: str, items: Sequence[Mapping[str, str]]) -> Qua
         return np.stack(picked, axis=1).reshape(result.time.size, len(items), -1)
 
     return Quantity(name=name, unit=CHANNELS[channel].unit, channels=(channel,), values=values)
+
+
+def _of_text(text: str) -> Quantity:
+    """A curve, an extreme such as "hook_load.max", or the time of a stage such as "stage[lift].end"."""
+    time = StageTime.of_text(text) if isinstance(text, str) else None
+    if time is not None:
+        return Quantity(
+            name=text, unit="s", channels=(), values=lambda result: np.full((1, 1, 1), time(result)),
+            of_numbers=lambda result: float(np.ptp(result.time)),
+        )  # fmt: skip
+    kept = Kept.of_text(text)
+    return _picked(text) if kept.what == "series" else _number(text, kept)
+
+
+def _number(text: str, kept: Kept) -> Quantity:
+    """What is kept of a curve, each for itself."""
+
+    def values(result: Result) -> Array:
+        return np.asarray(kept.of(result).values, dtype=float).reshape(1, -1, 1)
+
+    def motion(result: Result) -> float:
+        curves = np.asarray(result.select(kept.channel, **kept.names)).reshape(result.time.size, -1)
+        return float(np.nanmax(np.abs(curves - curves[:1]), initial=0.0))
+
+    return Quantity(
+        name=text, unit=CHANNELS[kept.channel].unit, channels=(kept.channel,), values=values,
+        of_numbers=motion,
+    )  # fmt: skip
 
 
 def _picked(text: str) -> Quantity:

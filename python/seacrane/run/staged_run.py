@@ -465,6 +465,7 @@ def simulate_stages(
     method: Method | None = None,
     outputs: Outputs | None = None,
     controllers: Sequence[SampledController] = (),
+    accuracy: Mapping[str, float] | None = None,
     **shorthand: Unpack[Shorthand],
 ) -> Result:
     """Carry out a lift stage by stage and return one result.
@@ -489,6 +490,10 @@ def simulate_stages(
     controllers : sequence of SampledController
         As `simulate`; their periods count from the first start, through all stages. Inputs of elements that
         are absent in a stage are left out there.
+    accuracy : mapping of str to float, optional
+        As `simulate`; also the times of a stage, such as ``{"stage[lift].end": 0.01}``, s. Curves are
+        compared at equal phase of a stage, and "error_estimate_event_times" in `stats` tells how far events
+        are off in time; docs/trade.md says what is promised.
 
     Returns
     -------
@@ -510,6 +515,16 @@ def simulate_stages(
     -----
     As `simulate`, each kind once.
     """
+    if accuracy is not None:
+        from seacrane.accuracy.case import case_of_stages  # which carries lifts out by this module
+        from seacrane.accuracy.choice import run_to_accuracy
+
+        return run_to_accuracy(
+            lambda recorded: case_of_stages(
+                scene, stages, accuracy, outputs=recorded, start=start, first=first
+            ),
+            method=method, outputs=outputs, shorthand=shorthand, controllers=controllers,
+        )  # fmt: skip
     run = StagedRun(
         scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=controllers,
         **shorthand,
