@@ -90,6 +90,10 @@ class Case:
         """Of the errors over their limits the largest."""
         return max(errors[name] / limit for name, limit in self.limits.items())
 
+    def is_curve(self, name: str) -> bool:
+        """Whether a quantity is one; extremes and times are not."""
+        return name != EVENT_TIMES and self.quantities[name].of_numbers is None
+
     def unit(self, name: str) -> str:
         """Of a quantity."""
         return "s" if name == EVENT_TIMES else self.quantities[name].unit

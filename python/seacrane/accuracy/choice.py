@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
+SAFETY_OF_STAGES = 15.0  # of lifts whose stages end where a condition is met, inside a step
 CHOSEN = ("integrator", "rtol", "dt", "spectral_radius")
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
@@ -217,7 +218,8 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
     """Estimated errors of the last run.
 
     Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them. But
-    where one took the same course, those that took another have none.
+    where one took the same course, those that took another have none. Extremes, and times of events, are
+    found inside steps, where errors obey another order: of these the whole difference counts.
     """
     tight = done[-1]
     motions = case.motions(tight.result)
@@ -232,16 +234,22 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
     pairs = [(one, case.difference(tight.result, one.result)) for one in looser]
     pairs = [(one, apart) for one, apart in pairs if not apart.course] or pairs
     ratios = [tight.expected / one.expected for one, _ in pairs]
-    factors = [SAFETY * ratio / (1.0 - ratio) for ratio in ratios]
+    safety = SAFETY_OF_STAGES if case.staged else SAFETY
+    factors = [safety * ratio / (1.0 - ratio) for ratio in ratios]
     near, last = pairs[-1]
     errors = {
         name: max(f * apart.by_name[name] for f, (_, apart) in zip(factors, pairs, strict=True))
         for name in last.by_name
     }
-    linear = {name: not last.course and d <= COARSE * motions[name] for name, d in last.by_name.items()}
+    linear = {
+        name: not last.course and case.is_curve(name) and d <= COARSE * motions[name]
+        for name, d in last.by_name.items()
+    }
     by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
     whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
-    errors |= {name: max(errors[name], d) for name, d in whole.items()}
+    errors |= {
+        name: max(errors[name], d * (1.0 if case.is_curve(name) else BESIDE)) for name, d in whole.items()
+    }
     known = all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
     return _Estimate(errors=errors, known=known, course=last.course)
 

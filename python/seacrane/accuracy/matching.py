@@ -13,10 +13,9 @@ if TYPE_CHECKING:
     from seacrane.result import Result
 
 Array = NDArray[np.float64]
-Key = tuple[int, str, str]  # a stage by its place, a kind of event, a name
+Key = tuple[str, str]  # a kind of event and its name
 BY_FRICTION = ("slip", "stick")  # of a load that stands: rounding says how often, and no course hangs on it
 APART = 1e-9  # s: marks nearer than that are one
-ENDING = 2e-5  # s: an event that ends a stage is seen before the next one begins, or so soon after that
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +36,7 @@ class Matching:
 
 
 def matched(one: Result, other: Result) -> Matching:
-    """Each event with that of the same stage, kind, name and place in the row of these."""
+    """Each event with that of the same kind, name and place in the row of these."""
     left, right = _by_key(one), _by_key(other)
     pairs = list(zip(_bounds(one), _bounds(other), strict=False))
     course = ""
@@ -46,7 +45,7 @@ def matched(one: Result, other: Result) -> Matching:
         if len(mine) == len(its):
             pairs += zip(mine, its, strict=True)
         elif not course:
-            course = _words(one, key, len(mine), len(its))
+            course = f"{key[0]} of {key[1]!r} {len(mine)} times in one run, {len(its)} in another"
     pairs.sort()
     shift = max(abs(a - b) for a, b in pairs)
     kept = pairs[:1]
@@ -84,13 +83,11 @@ def extremes_apart(values: Array, other_values: Array) -> float:
 
 
 def _by_key(result: Result) -> dict[Key, list[float]]:
-    """Times of the events that make a course."""
-    begins = np.array([span.start for span in result.stages]) + ENDING
+    """Times of the events that make a course; an event that ends a stage may be seen in the next one."""
     found: dict[Key, list[float]] = defaultdict(list)
     for event in result.events:
         if event.kind not in ("stage", *BY_FRICTION):
-            stage = max(int(np.searchsorted(begins, event.time)) - 1, 0)
-            found[stage, event.kind, event.name].append(event.time)
+            found[event.kind, event.name].append(event.time)
     return found
 
 
@@ -98,12 +95,6 @@ def _bounds(result: Result) -> list[float]:
     """Times at which stages begin, and the last output."""
     begins = [span.start for span in result.stages] or [float(result.time[0])]
     return [*begins, float(result.time[-1])]
-
-
-def _words(result: Result, key: Key, mine: int, its: int) -> str:
-    stage, kind, name = key
-    where = f" in stage {result.stages[stage].name!r}" if result.stages else ""
-    return f"{kind} of {name!r}{where} {mine} times in one run, {its} in another"
 
 
 def _segments(marks: Array, time: Array) -> NDArray[np.int64]:
