@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from stage_scenes import MASS, G, heaving
 
-from seacrane import Criterion, Stage, Until, allowable_hs, equilibrium
+from seacrane import Criterion, SceneError, Stage, Until, allowable_hs, equilibrium
 from seacrane.description.given import in_calm_water
 from seacrane.operability.output_interval import fastest_bounce
 from seacrane.run import StagedRun
@@ -70,3 +70,12 @@ def test_outputs_that_miss_bounces_are_told() -> None:
 def test_outputs_may_be_far_apart_where_no_bounce_counts() -> None:
     heave = Criterion(channel="vessel_motion[heave]", maximum=5.0)
     assert not allowable_hs(heaving(1.0), stages=STAGES, dt_out=0.5, **ASKED | {"criteria": [heave]}).failures
+
+
+def test_an_accuracy_chooses_the_method_of_all_storms() -> None:
+    usual = allowable_hs(heaving(1.0), stages=STAGES, **ASKED)
+    found = allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 1e-3 * MASS * G}, **ASKED)
+    heights = [table.dataset["allowable_hs"].item() for table in (usual, found)]
+    assert heights[0] == pytest.approx(heights[1], rel=0.01) and heights[0] != heights[1]
+    with pytest.raises(SceneError, match="rtol=0.001 is given too"):
+        allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 1e3}, rtol=1e-3, **ASKED)

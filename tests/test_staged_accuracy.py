@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from accuracy_scenes import hung
 from staged_accuracy import told, word
 
-from seacrane import Result, Scene, SceneError, Stage, Until, ensemble, simulate, simulate_stages
+from seacrane import (
+    FileFormatError,
+    Lift,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    Until,
+    ensemble,
+    simulate,
+    simulate_stages,
+)  # fmt: skip
 from seacrane.accuracy.matching import Matching, curve_apart, extremes_apart, matched
+from seacrane.cli import main
 
 G, MASS, HEIGHT, STIFFNESS = 9.80665, 2e3, 0.8, 4e6  # m/s2, kg, m above the surface, N/m
 TOUCHES = np.sqrt(2.0 * HEIGHT / G)  # s
@@ -148,3 +162,59 @@ def test_an_ensemble_of_stages_chooses_its_method_by_its_members() -> None:
 def test_an_accuracy_of_a_random_staged_lift_holds(number: int) -> None:
     one = word(number)
     assert one.end in ("held", "not judgeable"), told([one])
+
+
+LIFT = """format = "seacrane lift"
+version = 2
+[[body]]
+name = "load"
+mass_kg = 2000.0
+inertia_kg_m2 = [1e3, 1e3, 1e3]
+position_m = [0.0, 0.0, 0.8]
+[[contact]]
+body = "load"
+on = "ground"
+points_m = [[0.0, 0.0, 0.0]]
+name = "foot"
+[[stage]]
+name = "fall"
+until = [{contact = "foot"}]
+maximum_duration_s = 2.0
+[[stage]]
+name = "press"
+duration_s = 0.2
+[run]
+accuracy = {"stage[fall].end" = 1e-3, "contact_press.max" = 100.0}
+"""
+
+
+def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "drop.toml"
+    path.write_text(LIFT)
+    lift = Lift.load(path)
+    assert lift.accuracy == {"stage[fall].end": 1e-3, "contact_press.max": 100.0}
+    result = lift.simulate()
+    assert abs(result.stages[0].end - TOUCHES) <= 1e-3
+    assert result.stats["accuracy_contact_press.max"] == 100.0
+    lift.save(tmp_path / "again.toml")
+    assert Lift.load(tmp_path / "again.toml").accuracy == lift.accuracy
+    assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
+    assert "error of contact_press.max: " in capsys.readouterr().out
+    assert Result.load(tmp_path / "out" / "drop.nc").stages == result.stages
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "says"),
+    [
+        ("= 1e-3,", '= "small",', r"line 21: stage\[fall\].end in .*; give a number"),
+        ("[run]", "[method]\nrtol = 1e-3\n[run]", "rtol=0.001 is given too"),
+        ("contact_press.max", "hook_load.max", "'hook_load' is unknown to this scene"),
+    ],
+)
+def test_a_lift_whose_accuracy_makes_no_sense_is_refused(
+    before: str, after: str, says: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "drop.toml"
+    path.write_text(LIFT.replace(before, after))
+    with pytest.raises((SceneError, FileFormatError), match=says):
+        Lift.load(path).simulate()

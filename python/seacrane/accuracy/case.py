@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from seacrane.scene.scene import Scene
 
 EVENT_TIMES = "event_times"  # a quantity: the largest shift of an event, s
+BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 STABLE = 3.0  # steps of an explicit method times the fastest mode
 
 
@@ -93,6 +94,10 @@ class Case:
     def is_curve(self, name: str) -> bool:
         """Whether a quantity is one; extremes and times are not."""
         return name != EVENT_TIMES and self.quantities[name].of_numbers is None
+
+    def over_difference(self, name: str) -> float:
+        """The error of a quantity at most, over its difference from a looser run."""
+        return BESIDE if self.staged or not self.is_curve(name) else 1.0
 
     def unit(self, name: str) -> str:
         """Of a quantity."""

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.case import Case, Done
+from seacrane.accuracy.case import BESIDE, Case, Done
 from seacrane.accuracy.expected import STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from seacrane.run.sampled_controller import SampledController
     from seacrane.scene.scene import Scene
 
-BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
 SAFETY_OF_STAGES = 15.0  # of lifts whose stages end where a condition is met, inside a step
@@ -247,9 +246,7 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
     }
     by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
     whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
-    errors |= {
-        name: max(errors[name], d * (1.0 if case.is_curve(name) else BESIDE)) for name, d in whole.items()
-    }
+    errors |= {name: max(errors[name], case.over_difference(name) * d) for name, d in whole.items()}
     known = all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
     return _Estimate(errors=errors, known=known, course=last.course)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,6 @@ from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
 from seacrane.description.pick import pick_of
 from seacrane.description.suspension import hung_loads
-from seacrane.ensembles.kept import Kept, StageTime
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
 from seacrane.run.channel_names import require_channels
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 GENERIC = ("position", "velocity")
+STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end)")
+ENDS = {"min": 0, "max": 1}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,28 +167,41 @@ def _stacked(name: str, channel: str, items: Sequence[Mapping[str, str]]) -> Qua
 
 def _of_text(text: str) -> Quantity:
     """A curve, an extreme such as "hook_load.max", or the time of a stage such as "stage[lift].end"."""
-    time = StageTime.of_text(text) if isinstance(text, str) else None
-    if time is not None:
-        return Quantity(
-            name=text, unit="s", channels=(), values=lambda result: np.full((1, 1, 1), time(result)),
-            of_numbers=lambda result: float(np.ptp(result.time)),
-        )  # fmt: skip
-    kept = Kept.of_text(text)
-    return _picked(text) if kept.what == "series" else _number(text, kept)
+    stage = STAGE.fullmatch(text) if isinstance(text, str) else None
+    if stage is not None:
+        return _stage_time(text, stage[1], stage[2])
+    selector, _, end = text.rpartition(".") if isinstance(text, str) else ("", "", "")
+    return _extreme(text, selector, ENDS[end]) if selector and end in ENDS else _picked(text)
 
 
-def _number(text: str, kept: Kept) -> Quantity:
-    """What is kept of a curve, each for itself."""
+def _stage_time(text: str, stage: str, end: str) -> Quantity:
+    def values(result: Result) -> Array:
+        span = next((one for one in result.stages if one.name == stage), None)
+        if span is None:
+            known = ", ".join(one.name for one in result.stages) or "none"
+            raise SceneError(f"accuracy: there is no stage {stage!r}; the lift has {known}")
+        return np.full((1, 1, 1), getattr(span, end))
+
+    return Quantity(
+        name=text, unit="s", channels=(), values=values, of_numbers=lambda result: float(np.ptp(result.time))
+    )
+
+
+def _extreme(text: str, selector: str, end: int) -> Quantity:
+    """The least or the largest of each curve that is picked, also between outputs."""
+    pick = pick_of("quantity", selector)
 
     def values(result: Result) -> Array:
-        return np.asarray(kept.of(result).values, dtype=float).reshape(1, -1, 1)
+        part = result.part(after=pick.after, stage=pick.stage)
+        reached = result.reached(pick.channel, part=part, **pick.names)[end]
+        return np.asarray((np.fmin, np.fmax)[end].reduce(reached, axis=0)).reshape(1, -1, 1)
 
     def motion(result: Result) -> float:
-        curves = np.asarray(result.select(kept.channel, **kept.names)).reshape(result.time.size, -1)
+        curves = np.asarray(result.select(pick.channel, **pick.names)).reshape(result.time.size, -1)
         return float(np.nanmax(np.abs(curves - curves[:1]), initial=0.0))
 
     return Quantity(
-        name=text, unit=CHANNELS[kept.channel].unit, channels=(kept.channel,), values=values,
+        name=text, unit=CHANNELS[pick.channel].unit, channels=(pick.channel,), values=values,
         of_numbers=motion,
     )  # fmt: skip
 

@@ -43,8 +43,9 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.staged_run import StagedRun, simulate_stages
+from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
+from seacrane.simulation import simulate_stages
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
