@@ -74,8 +74,8 @@ def test_outputs_may_be_far_apart_where_no_bounce_counts() -> None:
 
 def test_an_accuracy_chooses_the_method_of_all_storms() -> None:
     usual = allowable_hs(heaving(1.0), stages=STAGES, **ASKED)
-    found = allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 1e-3 * MASS * G}, **ASKED)
+    found = allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 0.01 * MASS * G}, **ASKED)
     heights = [table.dataset["allowable_hs"].item() for table in (usual, found)]
-    assert heights[0] == pytest.approx(heights[1], rel=0.01) and heights[0] != heights[1]
-    with pytest.raises(SceneError, match="rtol=0.001 is given too"):
+    assert heights[0] == pytest.approx(heights[1], rel=0.02) and heights[0] != heights[1]
+    with pytest.raises(SceneError, match=r"rtol=0\.001 is given too"):
         allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 1e3}, rtol=1e-3, **ASKED)

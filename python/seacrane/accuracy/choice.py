@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from seacrane.accuracy.case import BESIDE, Case, Done
-from seacrane.accuracy.expected import STIFF, TIGHTEST, expected_error, method_for, probe_of
+from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError, SimulationError
@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     from seacrane.scene.scene import Scene
 
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
-SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
-SAFETY_OF_STAGES = 15.0  # of lifts whose stages end where a condition is met, inside a step
+OF_STAGES = 3.0  # times the margin, of lifts whose stages end where a condition is met, inside a step
 CHOSEN = ("integrator", "rtol", "dt", "spectral_radius")
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
@@ -201,7 +200,7 @@ def first_method(case: Case) -> Method:
     """What met such limits in measured trades."""
     asked = {name: limit for name, limit in case.limits.items() if math.isfinite(limit)}
     smallest = min(limit / case.scale(name) for name, limit in asked.items())
-    return method_for(smallest / (SAFETY * PESSIMISM), stiff=any_stiff(case.scene.loads))
+    return method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,8 +232,8 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
     pairs = [(one, case.difference(tight.result, one.result)) for one in looser]
     pairs = [(one, apart) for one, apart in pairs if not apart.course] or pairs
     ratios = [tight.expected / one.expected for one, _ in pairs]
-    safety = SAFETY_OF_STAGES if case.staged else SAFETY
-    factors = [safety * ratio / (1.0 - ratio) for ratio in ratios]
+    margin = OF_STAGES * MARGIN if case.staged else MARGIN
+    factors = [margin * ratio / (1.0 - ratio) for ratio in ratios]
     near, last = pairs[-1]
     errors = {
         name: max(f * apart.by_name[name] for f, (_, apart) in zip(factors, pairs, strict=True))
@@ -266,7 +265,7 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
             return other
         apart = case.difference(last.result, other).by_name
         unexplained = {name: max(apart[name] - error, 0.0) for name, error in errors.items()}
-        errors = _added(errors, unexplained, SAFETY)
+        errors = _added(errors, unexplained, MARGIN)
         runs.append(other)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, DERIVED
+from seacrane.description.channels import CHANNELS, DERIVED, unit_of
 from seacrane.description.crane_parts import cylinders, payloads
 from seacrane.description.given import given_vessels
 from seacrane.description.holding import with_holds
@@ -201,8 +201,8 @@ def _extreme(text: str, selector: str, end: int) -> Quantity:
         return float(np.nanmax(np.abs(curves - curves[:1]), initial=0.0))
 
     return Quantity(
-        name=text, unit=CHANNELS[pick.channel].unit, channels=(pick.channel,), values=values,
-        of_numbers=motion,
+        name=text, unit=unit_of(pick.channel, list(pick.names.values())), channels=(pick.channel,),
+        values=values, of_numbers=motion,
     )  # fmt: skip
 
 
@@ -218,4 +218,5 @@ def _picked(text: str) -> Quantity:
         array = np.asarray(result.select(pick))
         return array.reshape(len(array), -1, array.shape[-1] if vector else 1)
 
-    return Quantity(name=text, unit=channel.unit, channels=(pick.channel,), values=values)
+    unit = unit_of(pick.channel, list(pick.names.values()))
+    return Quantity(name=text, unit=unit, channels=(pick.channel,), values=values)
