@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib.resources import files
@@ -37,7 +38,7 @@ BESIDE, BESIDE_STIFFEST = "tsit5", "cvode-bdf"  # what is run beside it
 TIGHTER = 0.1  # tolerance of the latter over its own
 LOOSEST, TIGHTEST = 1e-2, 1e-12  # from 1e-2 on stability sets the steps: a looser tolerance saves nothing
 HIGH = 1e-5  # expected error, over the scale, below which the method of order 7 is the cheaper one
-EITHER = " or "  # between the units of a channel of displacements and angles
+EITHER = r" or | \("  # behind the first unit of a channel of displacements and angles
 FORCE, UNITS = "force", ("m", "m/s", "rad", "rad/s", "s")
 
 
@@ -79,7 +80,7 @@ def unit_error(scene: Scene, quantity: Quantity) -> float:
 
 def scale_of(quantity: Quantity) -> str:
     """What a quantity's scale goes by: its unit, or that it is a force."""
-    unit = quantity.unit.partition(EITHER)[0]
+    unit = re.split(EITHER, quantity.unit)[0]
     return unit if unit in UNITS else FORCE
 
 
