@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from accuracy_scenes import hung
-from staged_accuracy import told, word
+from staged_accuracy import DT_OUT, lift_of, told, word
 
 from seacrane import (
     FileFormatError,
@@ -23,6 +23,7 @@ from seacrane import (
 )  # fmt: skip
 from seacrane.accuracy.matching import Matching, curve_apart, extremes_apart, matched
 from seacrane.cli import main
+from seacrane.warnings import AnotherCourseWarning
 
 G, MASS, HEIGHT, STIFFNESS = 9.80665, 2e3, 0.8, 4e6  # m/s2, kg, m above the surface, N/m
 TOUCHES = np.sqrt(2.0 * HEIGHT / G)  # s
@@ -123,6 +124,17 @@ def test_a_hit_more_is_another_course() -> None:
     assert extremes_apart(*heights) < 0.02
 
 
+def test_a_lift_that_takes_another_course_at_every_tolerance_says_so() -> None:
+    """Four feet graze the bed: rounding says which of them touches again."""
+    scene, stages = lift_of(10)
+    with pytest.warns(
+        AnotherCourseWarning, match=r"another course: (contact|release) of 'feet\.\d' \d+ times in one run, "
+    ):
+        result = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
+    assert "errors of curves are those of their extremes" in str(result.stats["accuracy_course"])
+    assert 0.0 < float(result.stats["error_estimate_position"]) <= 0.006
+
+
 def test_what_no_course_has_is_not_compared() -> None:
     result = simulate_stages(dropped(), FALL, dt_out=0.01, accuracy={"event_times": 1e-3})
     assert not [name for name in result.stats if name.startswith("model_error")]
@@ -162,6 +174,16 @@ def test_an_ensemble_of_stages_chooses_its_method_by_its_members() -> None:
 def test_an_accuracy_of_a_random_staged_lift_holds(number: int) -> None:
     one = word(number)
     assert one.end in ("held", "not judgeable"), told([one])
+
+
+@pytest.mark.slow("hundreds of random lifts")
+def test_accuracies_hold_on_400_random_staged_lifts(capsys: pytest.CaptureFixture[str]) -> None:
+    words = [word(number) for number in range(400)]
+    with capsys.disabled():
+        print("\n" + told(words))
+    assert sum(one.end == "beyond" for one in words) <= 4, told(words)
+    assert sum(one.end == "refused" for one in words) <= 20, told(words)
+    assert sum(one.end == "not judgeable" for one in words) <= 40, told(words)
 
 
 LIFT = """format = "seacrane lift"

@@ -20,10 +20,12 @@ from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, 
 from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.caller import warn_caller
 from seacrane.run.method import Method
 from seacrane.run.shorthand import settled
 from seacrane.validity.after_run import Finding, tried
 from seacrane.validity.left_range import warn_of
+from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:
     from seacrane.result import Result
@@ -40,6 +42,7 @@ COARSE = 0.1  # of the motion: a difference above it is no error that linearised
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
 MOST_COURSES = 3  # runs, from which on another course is taken for what the lift does
 OTHER_COURSE = "another course"
+OF_EXTREMES = "errors of curves are those of their extremes"
 CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a run
 SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
@@ -284,7 +287,10 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
         stats |= {f"accuracy_{name}": limit} if math.isfinite(limit) else {}
         stats[f"error_estimate_{name}"] = errors[name]
     if told.course:
-        stats["accuracy_course"] = f"{OTHER_COURSE}: {told.course}; errors are those of extremes"
+        stats["accuracy_course"] = (
+            f"{OTHER_COURSE}: {told.course}; errors of curves are those of their extremes"
+        )
+        warn_caller(f"accuracy: a tighter run takes {stats['accuracy_course']}", AnotherCourseWarning)
     return replace(last.result, stats=stats | _by_model(case, last.result))
 
 
