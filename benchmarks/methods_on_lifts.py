@@ -235,7 +235,7 @@ def main() -> None:
             "run, median",
             "run, 95 %",
             "all runs, median",
-            "95 %",
+            "all, 95 %",
         ]
         write(folder / "cost-of-accuracy.csv", head, cost_table(options.promises))
 
