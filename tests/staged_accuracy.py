@@ -1,15 +1,17 @@
 """Random lifts in stages, and what an accuracy promises of each, judged by two other methods.
 
-As a program: python tests/staged_accuracy.py [COUNT] [FIRST].
+As a program: python tests/staged_accuracy.py [COUNT [FIRST [TABLE.csv]]].
 """
 
 from __future__ import annotations
 
+import csv
 import sys
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -25,6 +27,7 @@ CURVES = ("position", "line_tension")
 ASKED = (*CURVES, "line_tension.max", "position.min", "event_times")
 OTHERS = ("dop853", "verner65", "verner76")  # judges, the first two that the run did not take
 AGREED = 0.1  # of the limit, between both judges
+ENDS = ("held", "beyond", "refused", "not judgeable")
 DT_OUT = 0.2  # s
 
 Lift = tuple[Scene, list[Stage]]
@@ -190,16 +193,42 @@ def told(words: Sequence[Word]) -> str:
     return "\n".join(lines)
 
 
-def main(count: int = 400, first: int = 0) -> int:
-    """Judge so many; the exit status is 1 where more than 1 % are beyond their promise."""
+def table(words: Sequence[Word]) -> list[list[str]]:
+    """Counts by kind of lift."""
+    out = [
+        [
+            "lifts",
+            "number",
+            *ENDS,
+            "above their estimate",
+            "of another course",
+            "all runs over the returned one",
+        ]
+    ]
+    for kind in (*(one.__name__.replace("_", " ") for one in KINDS), "all"):
+        own = [one for one in words if kind in (one.kind.replace("_", " "), "all")]
+        counts = [sum(one.end == end for one in own) for end in ENDS]
+        low = sum(one.error > one.told for one in own if one.end in ("held", "beyond"))
+        cost = float(np.median([one.cost for one in own if one.cost] or [0.0]))
+        courses = sum(one.other_course for one in own)
+        out.append([kind, *map(str, (len(own), *counts, low, courses)), f"{cost:.2f}"])
+    return out
+
+
+def main(count: int = 400, first: int = 0, file: str = "out/accuracy-of-staged-lifts.csv") -> int:
+    """Judge so many and write the table; the exit status is 1 where more than 1 % are beyond their promise."""
     words = []
     for number in range(first, first + count):
         words.append(word(number))
-        if words[-1].end != "held" or len(words) % 20 == 0:
-            print(told(words if words[-1].end == "held" else words[-1:]).splitlines()[-1], flush=True)
+        if words[-1].end != "held":
+            print(told(words[-1:]).splitlines()[-1], flush=True)
+        if len(words) % 20 == 0 or len(words) == count:
+            Path(file).parent.mkdir(parents=True, exist_ok=True)
+            with Path(file).open("w", newline="", encoding="utf-8") as target:
+                csv.writer(target, lineterminator="\n").writerows(table(words))
     print(told(words))
     return int(sum(one.end == "beyond" for one in words) > 0.01 * count)
 
 
 if __name__ == "__main__":
-    sys.exit(main(*(int(text) for text in sys.argv[1:])))
+    sys.exit(main(*(int(text) for text in sys.argv[1:3]), *sys.argv[3:]))

