@@ -216,7 +216,7 @@ def table(words: Sequence[Word]) -> list[list[str]]:
 
 
 def main(count: int = 400, first: int = 0, file: str = "out/accuracy-of-staged-lifts.csv") -> int:
-    """Judge so many and write the table; the exit status is 1 where more than 1 % are beyond their promise."""
+    """Judge so many and write the table; the exit status is 1 where more than 1 % are beyond."""
     words = []
     for number in range(first, first + count):
         words.append(word(number))
