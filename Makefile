@@ -3,8 +3,8 @@
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  all that takes longer, row by row (tools/nightly.py); the table goes to docs/nightly.md
 #                  (NIGHTLY_ROWS='site wheel': only these)
-# make campaign NAME=atlas|fuzz|lifts|peers|tables  what takes hours: the whole stability atlas, hostile files, rival programs,
-#                  every measured table
+# make campaign NAME=atlas|fuzz|lifts|peers|stages|tables  what takes hours: the whole stability atlas, hostile files, rival programs,
+#                  what an accuracy promises of lifts in stages, every measured table
 # make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
 # make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
 #                  (BITS_ARGS=--record writes the file)
@@ -28,7 +28,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly campaign no-such-campaign random-lifts sanitized bench bench-peers bits release-check docs extremes \
+.PHONY: demo test build nightly campaign no-such-campaign random-lifts staged-accuracy sanitized bench bench-peers bits release-check docs extremes \
         notebooks stubs viewer wheel wheel-trial format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
@@ -150,10 +150,11 @@ campaign_faults := seeded-faults
 campaign_fuzz := fuzz
 campaign_peers := bench-peers
 campaign_lifts := random-lifts
+campaign_stages := staged-accuracy
 campaign_tables := bench
 campaign: $(or $(campaign_$(NAME)),no-such-campaign)
 no-such-campaign:
-	@echo "make campaign NAME=atlas|faults|fuzz|lifts|peers|tables; there is none called '$(NAME)'" >&2; exit 1
+	@echo "make campaign NAME=atlas|faults|fuzz|lifts|peers|stages|tables; there is none called '$(NAME)'" >&2; exit 1
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
@@ -185,6 +186,10 @@ seeded-faults: build .venv/.installed-dev
 LIFTS ?= 1000
 random-lifts: build .venv/.installed-dev
 	$(BIN)/python tests/random_lifts.py $(LIFTS)
+
+STAGED ?= 400
+staged-accuracy: build .venv/.installed-dev
+	$(BIN)/python tests/staged_accuracy.py $(STAGED)
 
 CASES ?= 1000000
 fuzz: build .venv/.installed-dev

@@ -88,13 +88,13 @@ def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) ->
     return scene
 
 
-def heaving(hs: float, ramp: float = 5.0) -> Scene:
+def heaving(hs: float, ramp: float = 5.0, duration: float = 60.0) -> Scene:
     """A load that hangs from a ship that heaves with the waves."""
     scene = Scene(name="heaving")
     values = np.zeros((2, 4, 6), dtype=complex)
     values[:, :, 2] = 1.0
     raos = MotionRaos(omega=[0.3, 0.6, 1.5, 4.0], heading=[0.0, np.pi], values=values)
-    scene.add_given_vessel(raos, ramp=ramp, duration=60.0)
+    scene.add_given_vessel(raos, ramp=ramp, duration=duration)
     scene.add_sea(hs=hs, tp=8.0, direction_deg=0.0, count=40, seed=2)
     scene.add_body("load", mass=MASS, size=(3.0, 3.0, 3.0), position=(20.0, 0.0, 10.0))
     scene.add_line(

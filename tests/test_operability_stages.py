@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from stage_scenes import MASS, G, heaving
 
-from seacrane import Criterion, Stage, Until, allowable_hs
+from seacrane import Criterion, SceneError, Stage, Until, allowable_hs
 
 STAGES = [
     Stage(name="hang", duration=8.0),
@@ -49,3 +49,12 @@ def test_what_a_lift_in_stages_allows_does_not_depend_on_its_outputs() -> None:
     """The load bounces on its hoist in 0.7 s: outputs 0.5 s apart see hardly any of its peaks."""
     near, far = (allowable_hs(heaving(1.0), stages=STAGES, dt_out=dt_out, **ASKED) for dt_out in (0.02, 0.5))
     assert far.dataset["allowable_hs"].item() == pytest.approx(near.dataset["allowable_hs"].item(), rel=2e-3)
+
+
+def test_an_accuracy_chooses_the_method_of_all_storms() -> None:
+    usual = allowable_hs(heaving(1.0), stages=STAGES, **ASKED)
+    found = allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 0.01 * MASS * G}, **ASKED)
+    heights = [table.dataset["allowable_hs"].item() for table in (usual, found)]
+    assert heights[0] == pytest.approx(heights[1], rel=0.02) and heights[0] != heights[1]
+    with pytest.raises(SceneError, match=r"rtol=0\.001 is given too"):
+        allowable_hs(heaving(1.0), stages=STAGES, accuracy={"line_tension.max": 1e3}, rtol=1e-3, **ASKED)

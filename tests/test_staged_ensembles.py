@@ -228,8 +228,6 @@ def test_what_contradicts_is_refused_by_name() -> None:
         match=r"no parameter 'stages.lift.commands.hoist.rat'; nearest: 'stages.lift.commands.hoist.rate'",
     ):
         ensemble(feeder(), stages=STAGES, over={"stages.lift.commands.hoist.rat": [1.0]}, keep=KEEP)
-    with pytest.raises(SceneError, match="accuracy is for runs without stages"):
-        ensemble(feeder(), stages=STAGES, accuracy={"roll": 0.01}, **given)
     told = ensemble(
         feeder(), stages=STAGES, over={"seed": [1]}, keep={"x": "hook_load[stage=down].max"}, **HOW
     )

@@ -12,6 +12,7 @@ from reference_problems import four_bars
 from trade_scenes import pendulum, promise, shares, summary
 
 from seacrane import SampledController, Scene, SceneError, cases, simulate
+from seacrane.accuracy.expected import scale_of
 from seacrane.accuracy.quantities import compare, quantities_of
 
 
@@ -28,8 +29,21 @@ def test_promises_hold_on_200_random_scenes(capsys: pytest.CaptureFixture[str]) 
     found = [promise(rng, t_end=40.0) for _ in range(200)]
     with capsys.disabled():
         print("\n" + summary(found))
-    held = {name: share for name, share in shares(found).items() if name.startswith("error")}
-    assert len(held) == 2 and min(held.values()) >= 0.95, held  # what it costs is printed, not judged
+    held = shares(found)
+    del held["all runs within twice the cheapest"]  # is printed, not judged
+    assert held.pop("returned run within twice the cheapest") >= 0.9
+    assert len(held) == 2 and min(held.values()) >= 0.95, held
+
+
+@pytest.mark.warns("ModelErrorWarning")
+def test_a_roll_has_the_scale_of_an_angle() -> None:
+    """By the unit of its channel, "m or rad", it had that of a force, and was run at 1e-12 at any limit."""
+    scene = cases.case1()
+    named = quantities_of(scene, scene.compile(), ["roll", "vessel_motion[roll].max", "vessel_motion"])
+    assert [one.unit for one in named.values()][:2] == ["rad", "rad"]
+    assert [scale_of(one) for one in named.values()] == ["rad", "rad", "m"]
+    result = simulate(scene, 20.0, accuracy={"roll": 1e-5})
+    assert float(result.settings["rtol"]) >= 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -41,7 +41,7 @@ from seacrane import run as run
 from seacrane.run.stage import Stage as Stage
 from seacrane.run.move import Move as Move
 from seacrane.run.until import Until as Until
-from seacrane.run.staged_run import simulate_stages as simulate_stages
+from seacrane.simulation import simulate_stages as simulate_stages
 
 # Look at what came of it
 from seacrane.result.result import Result as Result

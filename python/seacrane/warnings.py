@@ -113,6 +113,13 @@ class ModelErrorWarning(RunWarning):
     """
 
 
+class AnotherCourseWarning(RunWarning):
+    """Runs of a lift in stages that differ in tolerance alone differ in their events, such as by a re-hit.
+
+    The accuracy of curves is that of their extremes. Ask for extremes, or judge the lift over many seeds.
+    """
+
+
 class OutsideDatabaseWarning(RunWarning):
     """More than a fifth of the energy of a motion's velocity lies above the highest frequency of the
     database, where added mass and damping are a guess.

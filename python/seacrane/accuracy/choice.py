@@ -15,107 +15,54 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.expected import (
-    STIFF,
-    TIGHTEST,
-    expected_error,
-    method_for,
-    probe_of,
-    unit_error,
-)
+from seacrane.accuracy.case import BESIDE, Case, Done
+from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
-from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
-from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.loads import any_stiff
-from seacrane.errors import SceneError
-from seacrane.run.advance import finished
+from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.caller import warn_caller
 from seacrane.run.method import Method
-from seacrane.run.outputs import Outputs
-from seacrane.run.run import Run
 from seacrane.run.shorthand import settled
-from seacrane.run.start import Start, start_state
-from seacrane.validity.after_run import Finding, require_finite, tried
+from seacrane.validity.after_run import Finding, tried
 from seacrane.validity.left_range import warn_of
+from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.result import Result
+    from seacrane.run.outputs import Outputs
     from seacrane.run.sampled_controller import SampledController
     from seacrane.scene.scene import Scene
 
-BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
-STABLE = 3.0  # its step times that mode
-SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
+OF_STAGES = 3.0  # times the margin, of lifts whose stages end where a condition is met, inside a step
 CHOSEN = ("integrator", "rtol", "dt", "spectral_radius")
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
+MOST_COURSES = 3  # runs, from which on another course is taken for what the lift does
+OTHER_COURSE = "another course"
+OF_EXTREMES = "errors of curves are those of their extremes"
 CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a run
 SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Case:
-    """What is asked for, and how to run it."""
-
-    scene: Scene
-    quantities: Mapping[str, Quantity]
-    limits: Mapping[str, float]
-    run: Callable[[Scene, Method], Result]
-    explicit_steps: float
-
-    def differences(self, one: Result, other: Result) -> dict[str, float]:
-        return {name: compare(q.values(one), q.values(other)).largest for name, q in self.quantities.items()}
-
-    def motions(self, result: Result) -> dict[str, float]:
-        """Largest distance of each quantity from its start."""
-        values = {name: q.values(result) for name, q in self.quantities.items()}
-        return {name: compare(v[:1].repeat(len(v), axis=0), v).largest for name, v in values.items()}
-
-    def excess(self, errors: Mapping[str, float]) -> float:
-        return max(errors[name] / limit for name, limit in self.limits.items())
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Done:
-    """A finished run and its method."""
-
-    method: Method
-    result: Result
-
-    @property
-    def expected(self) -> float:
-        """Its expected error over the scale of a quantity."""
-        return expected_error(self.method)
-
-    @property
-    def tolerance(self) -> float:
-        return self.method.used_rtol
-
-
 def run_to_accuracy(
-    scene: Scene,
-    t_end: float,
-    accuracy: Mapping[str, Any],
+    make: Callable[[Outputs], Case],
     *,
     method: Method | None,
     outputs: Outputs | None,
     shorthand: Mapping[str, Any],
-    start: Start,
-    controllers: Sequence[SampledController],
-    progress: bool,
+    controllers: Sequence[SampledController] = (),
 ) -> Result:
     """The run whose estimated error meets all limits.
 
     Parameters
     ----------
-    t_end : s.
-    accuracy : mapping of str to float
-        Largest error over the outputs by quantity, in its unit.
-    method, outputs, shorthand, start, controllers, progress
+    make : callable
+        From what is recorded to what is asked for, and of what.
+    method, outputs, shorthand, controllers
         As `simulate`; the integrator and its tolerance are chosen here, and no controllers can be.
 
     Returns
@@ -129,25 +76,24 @@ def run_to_accuracy(
     """
     refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)
-    case = _case_of(
-        scene, t_end, accuracy, outputs=outputs, start=start_state(scene, start), progress=progress
-    )
+    case = make(outputs)
     result = _converged(case, kept)
+    case.warn()
     asked = outputs.channels
     if asked is None:
         return result
-    return replace(result, channels={name: result.channels[name] for name in asked})
+    return replace(
+        result, channels={name: result.channels[name] for name in asked if name in result.channels}
+    )
 
 
-def error_of(
-    scene: Scene, t_end: float, accuracy: Mapping[str, Any], *, method: Method, outputs: Outputs
-) -> tuple[dict[str, float], int, int]:
+def error_of(case: Case, method: Method) -> tuple[dict[str, float], int, int]:
     """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
 
     Returns
     -------
     errors : dict of str to float
-        By quantity of `accuracy`, in its unit.
+        By quantity that has a limit, in its unit.
     run, other : int
         Evaluations of the run, and of the cheap one that tells its error.
 
@@ -158,46 +104,18 @@ def error_of(
     KeyboardInterrupt
         Where Ctrl-C stopped a run.
     """
-    case = _case_of(scene, t_end, accuracy, outputs=outputs, start=None, progress=False)
-    done = [_run(case, _cheap(case, method)), _run(case, method)]
+    done = [_beside(case, method), _run(case, method)]
     if any(one.result.interrupted for one in done):
         raise KeyboardInterrupt
     other, run = (int(one.result.stats["evaluations"]) for one in done)
-    return _errors(case, done)[0], run, other
+    return _estimate(case, done).errors, run, other
 
 
-def _cheap(case: _Case, method: Method) -> Method:
+def _cheap(case: Case, method: Method) -> Method:
     """What tells the error of a method."""
     if method.used_rtol <= ROUNDING:
         return _looser(method)
     return probe_of(method, stiffest=method.integrator == STIFF and case.explicit_steps > MOST_STEPS)
-
-
-def _case_of(
-    scene: Scene,
-    t_end: float,
-    accuracy: Mapping[str, Any],
-    *,
-    outputs: Outputs,
-    start: _core.State | None,
-    progress: bool,
-) -> _Case:
-    if not isinstance(accuracy, Mapping):
-        raise SceneError(f"accuracy is {accuracy!r}; give a mapping such as {{'payload_position': 0.01}}")
-    model = scene.compile()
-    measured = quantities_of(scene, model, list(accuracy) or None)
-    limits = limits_of(measured, accuracy)
-    needed = {channel for quantity in measured.values() for channel in quantity.channels}
-    asked = outputs.channels
-    recorded = outputs if asked is None else replace(outputs, channels=sorted({*asked, *needed}))
-
-    def run(changed: Scene, chosen: Method) -> Result:
-        compiled = model if changed is scene else None
-        one = Run(changed, t_end, method=chosen, outputs=recorded, start=start, model=compiled)
-        return require_finite(finished(one, progress=progress))
-
-    steps = (fastest_mode(model) or 0.0) * t_end / STABLE if any_stiff(scene.loads) else 0.0
-    return _Case(scene=scene, quantities=measured, limits=limits, run=run, explicit_steps=steps)
 
 
 def refuse_what_is_chosen(
@@ -226,30 +144,42 @@ def without_what_is_chosen(method: Method) -> Method:
     return replace(method, **{name: getattr(usual, name) for name in CHOSEN})
 
 
-def _converged(case: _Case, kept: Method) -> Result:
+def _converged(case: Case, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
-    first = first_method(case.scene, case.quantities, case.limits)
-    method = _with_setting(kept, first)
-    done = [_run(case, _cheap(case, method))]
+    method = _with_setting(kept, first_method(case))
+    done = [_beside(case, method)]
     while not done[-1].result.interrupted:
         done.append(_run(case, method))
         if done[-1].result.interrupted:
             break
-        errors, known = _errors(case, done)
-        if case.excess(errors) <= 1.0:
-            return _with_estimate(case, done, errors)
+        told = _estimate(case, done)
+        settled_course = not told.course or len(done) > MOST_COURSES
+        if case.excess(told.errors) <= 1.0 and settled_course:
+            return _with_estimate(case, done, told)
         if method.used_rtol <= TIGHTEST:
-            raise SceneError(_unreachable(case, errors))
-        method = _tighter(method, case.excess(errors) if known else STEP)
+            raise SceneError(
+                _unreachable(case, told.errors, told.course and f"{OTHER_COURSE}: {told.course}")
+            )
+        method = _tighter(method, case.excess(told.errors) if told.known else STEP)
         if method.integrator == STIFF:
-            done.append(_run(case, _cheap(case, method)))
+            done.append(_beside(case, method))
         elif method.used_rtol < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_rtol:
             done.append(_run(case, _looser(method)))
     return done[-1].result
 
 
-def _run(case: _Case, method: Method) -> _Done:
-    return _Done(method=method, result=case.run(case.scene, method))
+def _run(case: Case, method: Method) -> Done:
+    return Done(method=method, result=case.run(case.scene, method))
+
+
+def _beside(case: Case, method: Method) -> Done:
+    """The run that tells the error of a method; of a lift that it does not carry out one that is nearer."""
+    try:
+        return _run(case, _cheap(case, method))
+    except (SceneError, SimulationError):
+        if not case.staged:
+            raise
+        return _run(case, _looser(method))
 
 
 def _with_setting(method: Method, chosen: Method) -> Method:
@@ -269,33 +199,58 @@ def _tighter(method: Method, factor: float) -> Method:
     return replace(found, rtol=max(found.used_rtol, TIGHTEST))
 
 
-def first_method(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:
+def first_method(case: Case) -> Method:
     """What met such limits in measured trades."""
-    smallest = min(limit / unit_error(scene, quantities[name]) for name, limit in limits.items())
-    return method_for(smallest / (SAFETY * PESSIMISM), stiff=any_stiff(scene.loads))
+    asked = {name: limit for name, limit in case.limits.items() if math.isfinite(limit)}
+    smallest = min(limit / case.scale(name) for name, limit in asked.items())
+    return method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))
 
 
-def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]:
-    """Estimated errors of the last run, and whether they tell which setting would do.
+@dataclass(frozen=True, kw_only=True)
+class _Estimate:
+    """Errors of the last run; whether they tell which setting would do; how courses differ, if they do."""
 
-    Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them.
+    errors: dict[str, float]
+    known: bool
+    course: str
+
+
+def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
+    """Estimated errors of the last run.
+
+    Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them. But
+    where one took the same course, those that took another have none. Extremes, and times of events, are
+    found inside steps, where errors obey another order: of these the whole difference counts.
     """
     tight = done[-1]
     motions = case.motions(tight.result)
     if tight.method.integrator == STIFF:
-        apart = case.differences(tight.result, done[-2].result)
-        near = all(d <= COARSE * motions[name] for name, d in apart.items())
-        return {name: BESIDE * d for name, d in apart.items()}, near and tight.tolerance > ROUNDING
+        apart = case.difference(tight.result, done[-2].result)
+        linear_all = all(d <= COARSE * motions[name] for name, d in apart.by_name.items())
+        return _Estimate(
+            errors={name: BESIDE * d for name, d in apart.by_name.items()},
+            known=linear_all and not apart.course and tight.tolerance > ROUNDING, course=apart.course,
+        )  # fmt: skip
     looser = [one for one in done[:-1] if one.expected > tight.expected]
-    differences = [case.differences(tight.result, one.result) for one in looser]
-    ratios = [tight.expected / one.expected for one in looser]
-    factors = [SAFETY * ratio / (1.0 - ratio) for ratio in ratios]
-    last = differences[-1]
-    errors = {name: max(f * d[name] for f, d in zip(factors, differences, strict=True)) for name in last}
-    linear = {name: d <= COARSE * motions[name] for name, d in last.items()}
-    by_tolerance = not (_cut_short(looser[-1].result) or _cut_short(tight.result))
-    errors |= {name: max(errors[name], d) for name, d in last.items() if not (linear[name] and by_tolerance)}
-    return errors, all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
+    pairs = [(one, case.difference(tight.result, one.result)) for one in looser]
+    pairs = [(one, apart) for one, apart in pairs if not apart.course] or pairs
+    ratios = [tight.expected / one.expected for one, _ in pairs]
+    margin = OF_STAGES * MARGIN if case.staged else MARGIN
+    factors = [margin * ratio / (1.0 - ratio) for ratio in ratios]
+    near, last = pairs[-1]
+    errors = {
+        name: max(f * apart.by_name[name] for f, (_, apart) in zip(factors, pairs, strict=True))
+        for name in last.by_name
+    }
+    linear = {
+        name: not last.course and case.is_curve(name) and d <= COARSE * motions[name]
+        for name, d in last.by_name.items()
+    }
+    by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
+    whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
+    errors |= {name: max(errors[name], case.over_difference(name) * d) for name, d in whole.items()}
+    known = all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
+    return _Estimate(errors=errors, known=known, course=last.course)
 
 
 def _cut_short(result: Result) -> bool:
@@ -303,17 +258,17 @@ def _cut_short(result: Result) -> bool:
     return int(result.stats["restarts"]) > CUT_SHORT * int(result.stats["steps"])
 
 
-def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, float]) -> Result:
+def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
     """The last run, with what differences of tolerance do not tell added to its errors."""
-    last = done[-1]
+    last, errors = done[-1], told.errors
     runs = [one.result for one in done]
     if last.result.stats.get("rank_changed"):
         other = _other_formulation(case, last)
         if other.interrupted:
             return other
-        apart = case.differences(last.result, other)
+        apart = case.difference(last.result, other).by_name
         unexplained = {name: max(apart[name] - error, 0.0) for name, error in errors.items()}
-        errors = _added(errors, unexplained, SAFETY)
+        errors = _added(errors, unexplained, MARGIN)
         runs.append(other)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))
@@ -321,7 +276,7 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
         exact = case.run(_with_exact_waves(case.scene), last.method)
         if exact.interrupted:
             return exact
-        errors = _added(errors, case.differences(last.result, exact), 1.0)
+        errors = _added(errors, case.difference(last.result, exact).by_name, 1.0)
         runs.append(exact)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, _bound_of_table(case.scene)))
@@ -329,30 +284,42 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     stats["accuracy_wall_s"] = sum(float(result.stats["wall_s"]) for result in runs)
     stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
     for name, limit in case.limits.items():
-        stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
+        stats |= {f"accuracy_{name}": limit} if math.isfinite(limit) else {}
+        stats[f"error_estimate_{name}"] = errors[name]
+    if told.course:
+        stats["accuracy_course"] = (
+            f"{OTHER_COURSE}: {told.course}; errors of curves are those of their extremes"
+        )
+        warn_caller(f"accuracy: a tighter run takes {stats['accuracy_course']}", AnotherCourseWarning)
+    return replace(last.result, stats=stats | _by_model(case, last.result))
+
+
+def _by_model(case: Case, result: Result) -> dict[str, float]:
+    """What the fit of the memory leaves, of a run whose scene stays what it is."""
+    if case.staged:
+        return {}
     failed: list[Finding] = []
     nothing: dict[str, float] = {}
-    by_model = tried(
+    found = tried(
         "estimating the error of the model",
-        lambda: model_errors(case.scene, last.result.time, case.limits), nothing, failed,
+        lambda: model_errors(case.scene, result.time, case.limits), nothing, failed,
     )  # fmt: skip
     warn_of(failed)
-    stats |= {f"model_error_{name}": error for name, error in by_model.items()}
-    return replace(last.result, stats=stats)
+    return {f"model_error_{name}": error for name, error in found.items()}
 
 
 def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float) -> dict[str, float]:
     return {name: error + factor * more[name] for name, error in errors.items()}
 
 
-def _other_formulation(case: _Case, done: _Done) -> Result:
+def _other_formulation(case: Case, done: Done) -> Result:
     """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
     rows of their own, and what that does to the motion no tolerance changes."""
     other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
     return case.run(case.scene, replace(done.method, formulation=other))
 
 
-def _table_may_show(case: _Case, result: Result) -> bool:
+def _table_may_show(case: Case, result: Result) -> bool:
     """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
     waves = case.scene.waves
     if waves is None or waves.evaluation != "table" or not waves.has_tables():
@@ -371,10 +338,9 @@ def _bound_of_table(scene: Scene) -> str:
     return f"the wave table, whose relative_bound is {scene.waves.relative_bound:g}: tighten it"
 
 
-def _unreachable(case: _Case, errors: Mapping[str, float], term: str = "") -> str:
+def _unreachable(case: Case, errors: Mapping[str, float], term: str = "") -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
-    quantity = case.quantities[name]
-    expected = expected_error(method_for(0.0)) * unit_error(case.scene, quantity)
+    expected = expected_error(method_for(0.0)) * case.scale(name)
     if not term and errors[name] > AMPLIFIED * expected:
         term = (
             "the motion itself, which amplifies the smallest differences: ask for statistics, or a shorter "
@@ -382,6 +348,6 @@ def _unreachable(case: _Case, errors: Mapping[str, float], term: str = "") -> st
         )
     term = term or f"rounding at the tightest tolerance, {TIGHTEST:g}"
     return (
-        f"accuracy: {name} of {case.limits[name]:g} {quantity.unit} cannot be reached: the limit is "
-        f"{errors[name]:.3g} {quantity.unit}, set by {term}"
+        f"accuracy: {name} of {case.limits[name]:g} {case.unit(name)} cannot be reached: the limit is "
+        f"{errors[name]:.3g} {case.unit(name)}, set by {term}"
     )

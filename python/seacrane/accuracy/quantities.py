@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ from seacrane.description.pick import pick_of
 from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of
+from seacrane.run.channel_names import require_channels
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 GENERIC = ("position", "velocity")
+STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end)")
+ENDS = {"min": 0, "max": 1}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,13 +40,23 @@ class Quantity:
     channels : Channels that it is made of.
     values : callable
         Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
-        the items.
+        the items. Of numbers, such as extremes, n is 1.
+    of_numbers : callable or None
+        Of numbers, how far what they are taken of goes in a result, in the unit; None: it is a curve.
     """
 
     name: str
     unit: str
     channels: tuple[str, ...]
     values: Callable[[Result], Array]
+    of_numbers: Callable[[Result], float] | None = None
+
+    def motion(self, result: Result) -> float:
+        """Largest distance from its start, in its unit."""
+        if self.of_numbers is not None:
+            return self.of_numbers(result)
+        values = self.values(result)
+        return float(np.nanmax(np.linalg.norm(values - values[:1], axis=-1), initial=0.0))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +86,12 @@ def compare(reference: Array, values: Array) -> ErrorMeasures:
     )
 
 
-def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None) -> dict[str, Quantity]:
+def quantities_of(
+    scene: Scene, model: _core.Model | None, names: Iterable[str] | None
+) -> dict[str, Quantity]:
     """The quantities asked for; by default what the scene has of the named ones.
+
+    Without a model, of a lift in stages, channels are looked for in everything that is ever connected.
 
     Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
@@ -82,22 +100,30 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
         return offered or {name: _picked(name) for name in GENERIC}
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise SceneError(f"quantities is {names!r}; give a list of names")
-    known = model.channel_names(defaults_only=False)
-    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
     out = {}
     for name in names:
-        found = offered[name] if name in offered else _picked(name)
-        if name not in offered and not set(found.channels) <= set(channels):
-            raise SceneError(
-                f"quantity {name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
-            )
-        out[name] = found
+        out[name] = offered[name] if name in offered else _of_text(name)
+        if name not in offered:
+            _require_known(scene, model, out[name], offered)
     if not out:
         raise SceneError("quantities is empty; name at least one, or leave it out")
     return out
 
 
-def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -> dict[str, float]:
+def _require_known(scene: Scene, model: _core.Model | None, found: Quantity, offered: Iterable[str]) -> None:
+    """SceneError for a quantity of a channel that the scene has not."""
+    if model is None:
+        require_channels(scene, found.channels)
+        return
+    known = model.channel_names(defaults_only=False)
+    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
+    if not set(found.channels) <= set(channels):
+        raise SceneError(
+            f"quantity {found.name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
+        )
+
+
+def limits_of(quantities: Collection[str], accuracy: Mapping[str, Any]) -> dict[str, float]:
     """Accuracies as positive numbers; raises SceneError for what is none or is not measured."""
     if not accuracy:
         raise SceneError("accuracy is empty; give at least one quantity and its largest error")
@@ -139,6 +165,47 @@ def _stacked(name: str, channel: str, items: Sequence[Mapping[str, str]]) -> Qua
     return Quantity(name=name, unit=CHANNELS[channel].unit, channels=(channel,), values=values)
 
 
+def _of_text(text: str) -> Quantity:
+    """A curve, an extreme such as "hook_load.max", or the time of a stage such as "stage[lift].end"."""
+    stage = STAGE.fullmatch(text) if isinstance(text, str) else None
+    if stage is not None:
+        return _stage_time(text, stage[1], stage[2])
+    selector, _, end = text.rpartition(".") if isinstance(text, str) else ("", "", "")
+    return _extreme(text, selector, ENDS[end]) if selector and end in ENDS else _picked(text)
+
+
+def _stage_time(text: str, stage: str, end: str) -> Quantity:
+    def values(result: Result) -> Array:
+        span = next((one for one in result.stages if one.name == stage), None)
+        if span is None:
+            known = ", ".join(one.name for one in result.stages) or "none"
+            raise SceneError(f"accuracy: there is no stage {stage!r}; the lift has {known}")
+        return np.full((1, 1, 1), getattr(span, end))
+
+    return Quantity(
+        name=text, unit="s", channels=(), values=values, of_numbers=lambda result: float(np.ptp(result.time))
+    )
+
+
+def _extreme(text: str, selector: str, end: int) -> Quantity:
+    """The least or the largest of each curve that is picked, also between outputs."""
+    pick = pick_of("quantity", selector)
+
+    def values(result: Result) -> Array:
+        part = result.part(after=pick.after, stage=pick.stage)
+        reached = result.reached(pick.channel, part=part, **pick.names)[end]
+        return np.asarray((np.fmin, np.fmax)[end].reduce(reached, axis=0)).reshape(1, -1, 1)
+
+    def motion(result: Result) -> float:
+        curves = np.asarray(result.select(pick.channel, **pick.names)).reshape(result.time.size, -1)
+        return float(np.nanmax(np.abs(curves - curves[:1]), initial=0.0))
+
+    return Quantity(
+        name=text, unit=unit_of(pick.channel, list(pick.names.values())), channels=(pick.channel,),
+        values=values, of_numbers=motion,
+    )  # fmt: skip
+
+
 def _picked(text: str) -> Quantity:
     """What a text picks, every entry of its last dimension for itself unless that is an axis."""
     pick = pick_of("quantity", text)
@@ -151,5 +218,5 @@ def _picked(text: str) -> Quantity:
         array = np.asarray(result.select(pick))
         return array.reshape(len(array), -1, array.shape[-1] if vector else 1)
 
-    unit = unit_of(pick.channel, pick.names.values())
+    unit = unit_of(pick.channel, list(pick.names.values()))
     return Quantity(name=text, unit=unit, channels=(pick.channel,), values=values)

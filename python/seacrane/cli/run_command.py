@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 KEPT = ("constraint_error", "energy_balance", "absolute_work")
 SPANS = ("t_end", "checkpoint_every", "resume", "progress")
+ESTIMATE = "error_estimate_"
 SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
@@ -31,7 +32,10 @@ def run(arguments: argparse.Namespace) -> int:
         _require_no_span(arguments)
     folder = output_folder(arguments.out)
     path = folder / f"{source.name}.nc"
-    result, saved = _staged(arguments, source, path) if source.stages else _whole(arguments, source, path)
+    if source.accuracy is not None:
+        result, saved = _exactly(arguments, source, path)
+    else:
+        result, saved = _staged(arguments, source, path) if source.stages else _whole(arguments, source, path)
     try:
         found = result()
         print(told(found))
@@ -69,6 +73,32 @@ def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[
         source.scene, source.stages, path, start=source.start, method=method, outputs=outputs,
         overwrite=arguments.overwrite,
     )  # fmt: skip
+    return lambda: result, path
+
+
+def _exactly(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
+    """What an accuracy chooses after more than one run, written at its end."""
+    from seacrane.simulation import simulate, simulate_stages
+
+    given = [name for name in ("checkpoint_every", "resume") if getattr(arguments, name) not in (None, False)]
+    if given:
+        raise SceneError(
+            f"--{given[0].replace('_', '-')} does not go with accuracy, which runs a lift more than once and "
+            "writes it at its end; leave one out"
+        )
+    if path.exists() and not arguments.overwrite:
+        raise FileExistsError(f"{path.name} is there already; give another name, or --overwrite")
+    method, outputs = _settings(arguments, source)
+    how: dict[str, Any] = {
+        "start": source.start, "method": method, "outputs": outputs, "accuracy": source.accuracy
+    }  # fmt: skip
+    if source.stages:
+        result = simulate_stages(source.scene, source.stages, **how)
+    else:
+        t_end = source.t_end if arguments.t_end is None else arguments.t_end
+        how |= {} if t_end is None else {"t_end": t_end}
+        result = simulate(source.scene, **how, progress=arguments.progress)
+    result.save(path)
     return lambda: result, path
 
 
@@ -128,6 +158,11 @@ def costs(result: Result) -> str:
         lost = stats.get("impact_energy_lost_J")
         impacts = "" if lost is None else f", energy lost in impacts {float(lost):.3g} J"
         lines.append(f"events of limits {stats['events']}{impacts}")
+    lines += [
+        f"error of {name.removeprefix(ESTIMATE)}: {float(value):.2g} at most, estimated"
+        for name, value in stats.items()
+        if name.startswith(ESTIMATE)
+    ]
     if result.interrupted:
         lines.append(f"interrupted: outputs end at {result.time[-1]:g} s; --resume goes on from there")
     return "\n".join(lines)

@@ -7,7 +7,7 @@ import contextlib
 import runpy
 import sys
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -37,6 +37,7 @@ class Source:
     outputs: Outputs | None = None
     stages: Sequence[Stage] = ()
     start: Literal["rest"] | None = None
+    accuracy: Mapping[str, float] | None = None
 
 
 def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
@@ -84,7 +85,7 @@ def _lift(path: Path) -> Source:
     lift = Lift.load(path)
     return Source(
         name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
-        outputs=lift.outputs, stages=lift.stages, start=lift.start,
+        outputs=lift.outputs, stages=lift.stages, start=lift.start, accuracy=lift.accuracy,
     )  # fmt: skip
 
 

@@ -272,8 +272,6 @@ def ensemble(
     how, recorded = settled(method, outputs, shorthand)
     wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
     starts, members = _start_times(over, in_stages)
-    if in_stages and accuracy is not None:
-        raise SceneError("ensemble: accuracy is for runs without stages; give rtol")
     targets = () if until is None else targets_of(until, wanted)
     wanted = with_static_parts(wanted, targets)
     study = Study(

@@ -174,15 +174,20 @@ class Prepared:
         assert waves is not None
         return first.in_sea(waves)
 
-    def _in_stages(self, values: Values) -> StagedRun:
+    def lift(self, values: Values) -> tuple[Scene, list[Stage], _core.State | None, Sequence[Finding]]:
+        """The scene and stages of a member, where it begins, and what was out of range until then."""
         study = self._study
         scene = study.scene(values)
         stages = study.stages_of(scene, values)
         start = study.start_of(scene)
-        before: Sequence[Finding] = ()
-        if START_TIME in values:
-            carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
-            start, before = carrier.at(time), carrier.found(time)
+        if START_TIME not in values:
+            return scene, stages, start, ()
+        carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
+        return scene, stages, carrier.at(time), carrier.found(time)
+
+    def _in_stages(self, values: Values) -> StagedRun:
+        study = self._study
+        scene, stages, start, before = self.lift(values)
         return StagedRun(
             scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
             alike=self._alike_with(scene, values),

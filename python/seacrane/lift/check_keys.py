@@ -129,6 +129,9 @@ class Checker:
         if key.type == "names":
             items = value.items() if isinstance(value, Mapping) else node.fail("give a table of names")
             return MappingProxyType({name: self._node((*path, name), one).text() for name, one in items})
+        if key.type == "limits":
+            items = value.items() if isinstance(value, Mapping) else node.fail("give a table of numbers")
+            return MappingProxyType({name: self._node((*path, name), one).number() for name, one in items})
         return _checked(node, key, self.folder)
 
     def _node(self, path: Place, value: Any) -> Node:

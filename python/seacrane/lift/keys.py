@@ -32,7 +32,7 @@ class Key:
     Attributes
     ----------
     name : The keyword.
-    type : text, texts, number, whole, flag, array, curve, file, table, tables, names or notes.
+    type : text, texts, number, whole, flag, array, curve, file, table, tables, names, limits or notes.
     unit : As in `FIELDS` of the core's classes.
     shapes : tuple of tuple of int
         That an array may have; -1: any length, (): a number alone.

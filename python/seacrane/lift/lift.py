@@ -23,9 +23,8 @@ from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
-from seacrane.run.staged_run import simulate_stages
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate
+from seacrane.simulation import simulate, simulate_stages
 
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 LIFTS = ("case1", "case2", "case3", "vessel")
@@ -52,6 +51,8 @@ class Lift:
         End time, s; without stages.
     start : "rest" or None
         Where the run or the first stage begins; None: as the scene is described.
+    accuracy : mapping of str to float, or None
+        Largest errors by quantity, as of `simulate`, which choose integrator and tolerance.
     stages : tuple of Stage
         In their order; none where one run is the whole lift.
 
@@ -65,6 +66,7 @@ class Lift:
     outputs: Outputs
     t_end: float
     start: Literal["rest"] | None
+    accuracy: Mapping[str, float] | None
     stages: tuple[Stage, ...]
     _document: Document
     _folder: Path
@@ -79,7 +81,7 @@ class Lift:
         checked: dict[str, Any] = {"_document": document, "_folder": folder, "_entries": entries}
         checked["method"] = made(document, entries, "method", Method)
         checked["outputs"] = made(document, entries, "outputs", Outputs)
-        checked["t_end"], checked["start"] = made(document, entries, "run", _span)
+        checked["t_end"], checked["start"], checked["accuracy"] = made(document, entries, "run", _span)
         checked["stages"] = stages_of(document, entries)
         if checked["stages"] and "t_end_s" in document.data.get("run", {}):
             document.fail(
@@ -134,11 +136,12 @@ class Lift:
         """
         if self.stages:
             return simulate_stages(
-                self.scene(), self.stages, start=self.start, method=self.method, outputs=self.outputs
-            )
+                self.scene(), self.stages, start=self.start, method=self.method, outputs=self.outputs,
+                accuracy=self.accuracy,
+            )  # fmt: skip
         return simulate(
             self.scene(), self.t_end, start=self.start, method=self.method, outputs=self.outputs,
-            progress=progress,
+            progress=progress, accuracy=self.accuracy,
         )  # fmt: skip
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -175,8 +178,10 @@ class Lift:
         return lift_of, (self._document, self._folder)
 
 
-def _span(t_end: float = T_END, start: Literal["rest"] | None = None) -> tuple[float, Literal["rest"] | None]:
-    return t_end, start
+def _span(
+    t_end: float = T_END, start: Literal["rest"] | None = None, accuracy: Mapping[str, float] | None = None
+) -> tuple[float, Literal["rest"] | None, Mapping[str, float] | None]:
+    return t_end, start, accuracy
 
 
 def lift_of(document: Document, folder: Path) -> Lift:

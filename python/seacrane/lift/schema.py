@@ -110,6 +110,12 @@ def _kind(key: Key, number: Json) -> Json:
             return {"type": "string", "minLength": 1}
         case "names":
             return {"type": "object", "additionalProperties": {"type": "string"}}
+        case "limits":
+            return {
+                "type": "object",
+                "minProperties": 1,
+                "additionalProperties": number | {"exclusiveMinimum": 0},
+            }
         case "table":
             return object_of(key.keys)
         case "tables":

@@ -10,6 +10,7 @@ from typing import Any, Literal, NoReturn
 
 import numpy as np
 
+from seacrane.accuracy.case import EVENT_TIMES
 from seacrane.accuracy.choice import refuse_what_is_chosen, without_what_is_chosen
 from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.ensembles.growing import growth_of
@@ -123,11 +124,13 @@ class StudyFile:
             self._document.fail(("method",), str(error))
         return without_what_is_chosen(chosen.method)
 
-    def require_accuracy(self, scene: Scene) -> None:
+    def require_accuracy(self, scene: Scene, *, staged: bool) -> None:
         """Raise FileFormatError for a quantity that the scene does not offer, or a limit that is none."""
         for name, limit in (self.accuracy or {}).items():
             try:
-                limits_of(quantities_of(scene, scene.compile(), [name]), {name: limit})
+                model = None if staged else scene.compile()
+                known = [] if name == EVENT_TIMES else quantities_of(scene, model, [name])
+                limits_of([EVENT_TIMES, *known], {name: limit})
             except SceneError as error:
                 self._document.fail(("accuracy", name), str(error))
 

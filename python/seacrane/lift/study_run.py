@@ -55,7 +55,7 @@ def run_study(
     text = read_whole(Path(path), LARGEST_FILE, "no study file is")
     _claim(target, text)
     done = ensemble(
-        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy,
+        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy or lift.accuracy,
         stages=lift.stages, start=start, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
         executor=executor, store=target / MEMBERS, progress=progress,
     )  # fmt: skip
@@ -66,7 +66,7 @@ def run_study(
 def _source(study: StudyFile, lift: Lift) -> Source:
     """The scene of the lift, or what makes scenes where keys of the lift vary."""
     scene = lift.scene()
-    study.require_accuracy(scene)
+    study.require_accuracy(scene, staged=bool(lift.stages))
     tables, axes = lift.tables, study.members.axes
     keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():

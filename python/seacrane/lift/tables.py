@@ -409,7 +409,10 @@ _ALL = (
     Table(name="stage", text=_summary(Stage), keys=STAGE),
     Table(
         name="run", several=False, text="How long a run takes, and where it begins.",
-        keys=keys_of(simulate, more={"t_end": TIME, "start": START}, only=("t_end", "start")),
+        keys=keys_of(
+            simulate, more={"t_end": TIME, "start": START, "accuracy": {"type": "limits"}},
+            only=("t_end", "start", "accuracy"),
+        ),
     ),
     Table(
         name="method", several=False, text=_summary(Method),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
@@ -40,8 +41,8 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.staged_run import simulate_stages
 from seacrane.scene.scene import Scene
+from seacrane.simulation import simulate_stages
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -77,6 +78,7 @@ def allowable_hs(
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     method: Method | None = None,
+    accuracy: Mapping[str, float] | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> AllowableHs:
@@ -124,6 +126,9 @@ def allowable_hs(
         are resumed.
     method : Method, optional
         Of the runs.
+    accuracy : mapping of str to float, optional
+        As of `ensemble`: integrator and tolerance of the runs of all seeds, and of a lift in calm water, are
+        chosen by it.
     progress : bool
         Show progress of what takes more than two seconds.
     **shorthand
@@ -139,13 +144,15 @@ def allowable_hs(
         On Ctrl-C; runs that came back before are in the store.
     """
     asked = _Asked.of(
-        criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages
+        criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages, accuracy
     )
     factor = alpha_of(alpha)
     period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
+    if accuracy is not None:
+        refuse_what_is_chosen(method, shorthand, ())
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
     outputs = Outputs(
         dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
@@ -181,11 +188,12 @@ class _Asked:
     start_up: float
     linear_within: float
     stages: Stages
+    accuracy: Mapping[str, float] | None
 
     @classmethod
     def of(
         cls, criteria: Any, tp: Any, directions: Any, hs: Any, seeds: Any, duration: Any, start_up: Any,
-        linear_within: Any, domain: Any, stages: Any,
+        linear_within: Any, domain: Any, stages: Any, accuracy: Any,
     ) -> _Asked:  # fmt: skip
         if domain not in ("auto", "frequency", "time"):
             raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
@@ -215,6 +223,7 @@ class _Asked:
             start_up=begin,
             linear_within=positive_of("linear_within", linear_within),
             stages=in_stages,
+            accuracy=accuracy,
         )
 
 
@@ -241,7 +250,9 @@ class _Still:
         state = equilibrium(calm, time=time)
         if asked.stages:
             stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-            result = simulate_stages(calm, stages, start=state, method=method, outputs=outputs)
+            result = simulate_stages(
+                calm, stages, start=state, method=method, outputs=outputs, accuracy=asked.accuracy
+            )
             return cls(scene=scene, state=state, rest=_extremes(result, asked.criteria))
         calm = held(calm, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
@@ -309,7 +320,7 @@ class _Study:
             start=self._start(),
             start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
             seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
-            outputs=self.outputs, stages=self.asked.stages,
+            outputs=self.outputs, stages=self.asked.stages, accuracy=self.asked.accuracy,
         )  # fmt: skip
         places = cells.wanted
         of_cells: list[Cell] = [(self.asked.tp[i], self.asked.directions[j]) for i, j in places]

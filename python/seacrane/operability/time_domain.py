@@ -72,6 +72,7 @@ class Storms:
     method: Method
     outputs: Outputs
     stages: Stages = ()
+    accuracy: Mapping[str, float] | None = None
 
     def run(
         self,
@@ -99,7 +100,7 @@ class Storms:
             self.scene, over=over, keep=keep, stages=self.stages,
             t_end=None if self.duration is None else after + self.duration, method=self.method,
             outputs=self.outputs, start=self.start, executor=executor,
-            store=store, progress=progress,
+            store=store, progress=progress, accuracy=self.accuracy,
         )  # fmt: skip
 
     def allowable(self, storms: Ensemble, cells: Sequence[Cell]) -> list[list[ByTime]]:

@@ -12,6 +12,6 @@ from seacrane._core import integrator_names as integrator_names
 from seacrane.run.stage import Stage as Stage
 from seacrane.run.move import Move as Move
 from seacrane.run.until import Until as Until
-from seacrane.run.staged_run import simulate_stages as simulate_stages
+from seacrane.simulation import simulate_stages as simulate_stages
 from seacrane.run.stages_to_file import simulate_stages_to_file as simulate_stages_to_file
 from seacrane.run.staged_run import StagedRun as StagedRun

@@ -214,6 +214,8 @@ def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
     out.pop("kept_apart", None)
     out |= joined_lanes(every)
+    if any(one.get("rank_changed") for one in every):
+        out["rank_changed"] = 1
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
     for key, first in (("described", ""), ("validity", before)):

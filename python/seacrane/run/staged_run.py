@@ -1,4 +1,4 @@
-"""A lift carried out stage by stage, as one result."""
+"""A lift carried out stage by stage."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from seacrane.description.loads import length_at, lines_of
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import keeping, silently
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.keywords import named
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -453,68 +452,3 @@ def _named(stage: Stage) -> Iterator[None]:
 
 def _loads(scene: Scene) -> set[str]:
     return {name for table in LOADS for name in getattr(scene, table)}
-
-
-@named
-def simulate_stages(
-    scene: Scene,
-    stages: Sequence[Stage],
-    *,
-    start: Start = None,
-    first: str | None = None,
-    method: Method | None = None,
-    outputs: Outputs | None = None,
-    controllers: Sequence[SampledController] = (),
-    **shorthand: Unpack[Shorthand],
-) -> Result:
-    """Carry out a lift stage by stage and return one result.
-
-    The clock and the waves go on through the stages. An element that a stage connects is absent until then.
-    See docs/stages.md.
-
-    Parameters
-    ----------
-    scene : Scene
-        With everything that is ever connected.
-    stages : sequence of Stage
-        In their order.
-    start : State or "rest", optional
-        Where the first of them begins, or the word for the state at rest; default: the assembled start of the
-        scene.
-    first : str, optional
-        Name of a stage to begin with. Those before it are carried out in calm water, and it starts from the
-        static state there, unless a state is given as `start`.
-    method, outputs, **shorthand
-        As `simulate`. Channels are recorded in the stages that have them.
-    controllers : sequence of SampledController
-        As `simulate`; their periods count from the first start, through all stages. Inputs of elements that
-        are absent in a stage are left out there.
-
-    Returns
-    -------
-    Result
-        With `stages`, an event for each stage, connection and release, and `interrupted` set when Ctrl-C
-        stopped it. In stages without an element, its forces and powers are 0 and its other channels
-        are NaN.
-
-    Raises
-    ------
-    SceneError
-        For stages that do not fit the scene or one another, by their names; for one before `first` that is
-        not over in calm water.
-    SimulationError
-        As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
-        holds the outputs until then.
-
-    Warns
-    -----
-    As `simulate`, each kind once.
-    """
-    run = StagedRun(
-        scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=controllers,
-        **shorthand,
-    )  # fmt: skip
-    while run.advance():
-        pass
-    run.warn()
-    return run.result()

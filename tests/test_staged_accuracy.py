@@ -1,0 +1,242 @@
+"""Accuracies of lifts in stages: closed forms, courses that differ, and random lifts against two judges."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from accuracy_scenes import hung
+from staged_accuracy import DT_OUT, lift_of, told, word
+
+from seacrane import (
+    FileFormatError,
+    Lift,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    Until,
+    ensemble,
+    simulate,
+    simulate_stages,
+)  # fmt: skip
+from seacrane.accuracy.matching import Matching, curve_apart, extremes_apart, matched
+from seacrane.cli import main
+from seacrane.warnings import AnotherCourseWarning
+
+G, MASS, HEIGHT, STIFFNESS = 9.80665, 2e3, 0.8, 4e6  # m/s2, kg, m above the surface, N/m
+TOUCHES = np.sqrt(2.0 * HEIGHT / G)  # s
+WEIGHT = MASS * G
+PEAK = WEIGHT + np.sqrt(WEIGHT**2 + 2.0 * STIFFNESS * WEIGHT * HEIGHT)  # N, in the lowest point
+OMEGA = 2.0  # rad/s
+
+
+def dropped(height: float = HEIGHT) -> Scene:
+    """A load that falls onto an elastic surface."""
+    scene = Scene(name="dropped", gravity=G)
+    scene.add_body("load", mass=MASS, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, height))
+    scene.add_contact(
+        "load", on="ground", points=[(0.0, 0.0, 0.0)], stiffness=STIFFNESS, damping=0.0, name="foot"
+    )
+    return scene
+
+
+FALL = [
+    Stage(name="fall", until=Until.contact("foot"), maximum_duration=2.0),
+    Stage(name="press", duration=0.06),
+]
+
+
+@pytest.mark.parametrize("limit", [1e-2, 1e-4])
+def test_a_drop_onto_a_surface_is_as_exact_as_told(limit: float) -> None:
+    asked = {"stage[fall].end": limit, "contact_press.max": limit * PEAK, "event_times": limit}
+    result = simulate_stages(dropped(), FALL, dt_out=0.002, accuracy=asked)
+    errors = {
+        "stage[fall].end": abs(result.stages[0].end - TOUCHES),
+        "contact_press.max": abs(float(result.reached("contact_press")[1].max()) - PEAK),
+        "event_times": abs(next(e.time for e in result.events if e.kind == "contact") - TOUCHES),
+    }
+    for name, allowed in asked.items():
+        assert errors[name] <= float(result.stats[f"error_estimate_{name}"]) + 1e-9 * max(allowed, 1.0)
+        assert result.stats[f"error_estimate_{name}"] <= allowed == result.stats[f"accuracy_{name}"]
+
+
+def swinging_mass() -> Scene:
+    """On a spring, from 1 m beside its rest."""
+    scene = Scene(name="harmonic", gravity=0.0)
+    scene.add_body("load", mass=MASS, inertia=(1.0, 1.0, 1.0), position=(1.0, 0.0, 0.0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", axis=(1.0, 0.0, 0.0))
+    scene.add_spring(
+        name="hold", first="ground", second="load", first_point=(-20.0, 0.0, 0.0), natural_length=20.0,
+        stiffness=MASS * OMEGA**2,
+    )  # fmt: skip
+    return scene
+
+
+def test_curves_of_an_oscillation_that_ends_at_a_place_are_as_exact_as_told() -> None:
+    stages = [
+        Stage(
+            name="in",
+            until=Until.channel("position", body="load", axis="x", maximum=0.5),
+            maximum_duration=2.0,
+        ),
+        Stage(name="on", duration=3.0),
+    ]
+    for limit in (1e-2, 1e-5):
+        result = simulate_stages(swinging_mass(), stages, dt_out=0.1, accuracy={"position": limit})
+        time = result.time - (result.stages[0].end - np.arccos(0.5) / OMEGA)  # at equal phase of "on"
+        error = np.abs(result.select("position", body="load", axis="x") - np.cos(OMEGA * time)).max()
+        estimate = float(result.stats["error_estimate_position"])
+        shift = abs(result.stages[0].end - np.arccos(0.5) / OMEGA)
+        assert error <= estimate + OMEGA * shift <= 3.0 * limit
+        assert estimate <= limit
+        assert shift <= float(result.stats["error_estimate_event_times"])
+        assert "accuracy_event_times" not in result.stats
+
+
+def test_a_jump_that_is_late_by_4_ms_is_an_error_of_time_alone() -> None:
+    def tension(time: np.ndarray, taut: float) -> np.ndarray:
+        return np.where(time > taut, 25e3 + 1e4 * np.sin(3.0 * (time - taut)), 0.0)[:, None, None]
+
+    time, late = np.arange(0.0, 2.001, 0.05), 0.004
+    matching = Matching(
+        one=np.array([0.0, 0.998, 2.0]), other=np.array([0.0, 0.998 + late, 2.0]), course="", shift=late
+    )
+    one, other = tension(time, 0.998), tension(time, 0.998 + late)
+    assert np.abs(one - other).max() > 20e3
+    assert curve_apart(time, one, time, other, matching) < 3.5 * 1e4 * late
+    assert curve_apart(time, one, time, other + 50.0, matching) == pytest.approx(50.0, abs=3.5 * 1e4 * late)
+
+
+def bounced(height: float, duration: float) -> Result:
+    stages = [Stage(name="bounce", duration=duration)]
+    return simulate_stages(dropped(height), stages, dt_out=0.01, rtol=1e-9, integrator="dop853")
+
+
+def test_a_hit_more_is_another_course() -> None:
+    once, again = bounced(0.8, 1.0), bounced(0.8, 1.35)
+    same, other = matched(once, bounced(0.801, 1.0)), matched(once, again)
+    assert same.course == ""
+    assert same.shift == pytest.approx(np.sqrt(2.0 * 0.801 / G) - TOUCHES, rel=0.1)
+    assert other.course == "contact of 'foot.1' 1 times in one run, 2 in another"
+    heights = [run.select("position", body="load")[:, None] for run in (once, again)]
+    assert extremes_apart(*heights) < 0.02
+
+
+def test_a_lift_that_takes_another_course_at_every_tolerance_says_so() -> None:
+    """Four feet graze the bed: rounding says which of them touches again."""
+    scene, stages = lift_of(10)
+    with pytest.warns(
+        AnotherCourseWarning, match=r"another course: (contact|release) of 'feet\.\d' \d+ times in one run, "
+    ):
+        result = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
+    assert "errors of curves are those of their extremes" in str(result.stats["accuracy_course"])
+    assert 0.0 < float(result.stats["error_estimate_position"]) <= 0.006
+
+
+def test_what_no_course_has_is_not_compared() -> None:
+    result = simulate_stages(dropped(), FALL, dt_out=0.01, accuracy={"event_times": 1e-3})
+    assert not [name for name in result.stats if name.startswith("model_error")]
+    with pytest.raises(SceneError, match="'hook_load' is unknown to this scene"):
+        simulate_stages(dropped(), FALL, accuracy={"hook_load": 1.0})
+    with pytest.raises(SceneError, match="no stage 'lift'"):
+        simulate_stages(dropped(), FALL, accuracy={"stage[lift].end": 1.0})
+    with pytest.raises(SceneError, match="rtol=1e-05 is given too"):
+        simulate_stages(dropped(), FALL, accuracy={"position": 1.0}, rtol=1e-5)
+
+
+@pytest.mark.warns("LineLengthWarning")
+def test_one_run_takes_extremes_and_times_too() -> None:
+    scene, mass, place = hung(np.random.default_rng(3), drop=0.1)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=mass * G * 50.0,
+        length=float(np.linalg.norm(place)), damping_ratio=0.1,
+    )  # fmt: skip
+    truth = simulate(scene, 3.0, dt_out=0.01, integrator="dop853", rtol=1e-11)
+    peak = float(truth.reached("line_tension")[1].max())
+    result = simulate(scene, 3.0, dt_out=0.01, accuracy={"line_tension.max": 1e-3 * peak})
+    assert abs(float(result.reached("line_tension")[1].max()) - peak) <= 1e-3 * peak
+
+
+def test_an_ensemble_of_stages_chooses_its_method_by_its_members() -> None:
+    found = ensemble(
+        dropped, over={"height": [0.5, 0.8, 1.1]}, stages=FALL, keep={"end": "stage[fall].end"},
+        accuracy={"stage[fall].end": 1e-4}, dt_out=0.01,
+    )  # fmt: skip
+    assert found.accuracy is not None
+    assert found.accuracy.held
+    ends = found.dataset.end.to_numpy().ravel()
+    assert np.abs(ends - np.sqrt(2.0 * np.array([0.5, 0.8, 1.1]) / G)).max() <= 1e-4
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_an_accuracy_of_a_random_staged_lift_holds(number: int) -> None:
+    one = word(number)
+    assert one.end in ("held", "not judgeable"), told([one])
+
+
+@pytest.mark.slow("hundreds of random lifts")
+def test_accuracies_hold_on_400_random_staged_lifts(capsys: pytest.CaptureFixture[str]) -> None:
+    words = [word(number) for number in range(400)]
+    with capsys.disabled():
+        print("\n" + told(words))
+    assert sum(one.end == "beyond" for one in words) <= 4, told(words)
+    assert sum(one.end == "refused" for one in words) <= 20, told(words)
+    assert sum(one.end == "not judgeable" for one in words) <= 40, told(words)
+
+
+LIFT = """format = "seacrane lift"
+version = 2
+[[body]]
+name = "load"
+mass_kg = 2000.0
+inertia_kg_m2 = [1e3, 1e3, 1e3]
+position_m = [0.0, 0.0, 0.8]
+[[contact]]
+body = "load"
+on = "ground"
+points_m = [[0.0, 0.0, 0.0]]
+name = "foot"
+[[stage]]
+name = "fall"
+until = [{contact = "foot"}]
+maximum_duration_s = 2.0
+[[stage]]
+name = "press"
+duration_s = 0.2
+[run]
+accuracy = {"stage[fall].end" = 1e-3, "contact_press.max" = 100.0}
+"""
+
+
+def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "drop.toml"
+    path.write_text(LIFT)
+    lift = Lift.load(path)
+    assert lift.accuracy == {"stage[fall].end": 1e-3, "contact_press.max": 100.0}
+    result = lift.simulate()
+    assert abs(result.stages[0].end - TOUCHES) <= 1e-3
+    assert result.stats["accuracy_contact_press.max"] == 100.0
+    lift.save(tmp_path / "again.toml")
+    assert Lift.load(tmp_path / "again.toml").accuracy == lift.accuracy
+    assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
+    assert "error of contact_press.max: " in capsys.readouterr().out
+    assert Result.load(tmp_path / "out" / "drop.nc").stages == result.stages
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "says"),
+    [
+        ("= 1e-3,", '= "small",', r"line 21: stage\[fall\].end in .*; give a number"),
+        ("[run]", "[method]\nrtol = 1e-3\n[run]", "rtol=0.001 is given too"),
+        ("contact_press.max", "hook_load.max", "'hook_load' is unknown to this scene"),
+    ],
+)
+def test_a_lift_whose_accuracy_makes_no_sense_is_refused(
+    before: str, after: str, says: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "drop.toml"
+    path.write_text(LIFT.replace(before, after))
+    with pytest.raises((SceneError, FileFormatError), match=says):
+        Lift.load(path).simulate()
