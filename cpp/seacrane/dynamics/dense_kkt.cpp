@@ -74,16 +74,16 @@ void DenseKkt::solve(const Vec6d* load, const double* right, Vec6d* acceleration
     right_.tail(rows_) = given;
   }
   right_.array() *= scale_.array();
-  right_ = lu_.solve(right_);
-  right_.array() *= scale_.array();
-  for (int b = 0; b < bodies; ++b) acceleration[b] = right_.segment<6>(6 * b);
+  solved_ = lu_.solve(right_);  // in place it would allocate
+  solved_.array() *= scale_.array();
+  for (int b = 0; b < bodies; ++b) acceleration[b] = solved_.segment<6>(6 * b);
   Eigen::Map<VecXd> out(lambda, rows_);
   if (independent_) {
-    out.noalias() = independent_->basis() * right_.segment(n, independent_->rank());
+    out.noalias() = independent_->basis() * solved_.segment(n, independent_->rank());
     const MatXd& null_space = independent_->null_space();
     out -= null_space * (null_space.transpose() * out).eval();
   } else {
-    out = right_.tail(rows_);
+    out = solved_.tail(rows_);
   }
 }
 

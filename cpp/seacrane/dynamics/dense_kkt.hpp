@@ -26,7 +26,7 @@ class DenseKkt {
  private:
   int velocities_, rows_;
   MatXd matrix_, d_, reduced_;
-  VecXd right_, scale_;
+  VecXd right_, solved_, scale_;
   const RowSpace* independent_ = nullptr;
   Eigen::PartialPivLU<MatXd> lu_;
 };

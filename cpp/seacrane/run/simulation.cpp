@@ -41,6 +41,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const State& start, R
   if (Switches::any(*model_)) {
     switches_ = std::make_unique<Switches>();
     kept_sides_ = std::make_unique<Switches>();
+    ends_before_kinks_ = integrator_of(options_.integrator).residual_form;
   }
   put_on_constraints(start.time);
   end_of_smooth_stretch(start.time);
@@ -155,10 +156,9 @@ bool Simulation::steps_over_kinks() const {
 /// for what they step over.
 bool Simulation::retake_to_switch() {
   if (!switches_) return false;
-  const bool starts_anywhere = !integrator_of(options_.integrator).residual_form;
-  const std::optional<double> found = steps_over_kinks()
-                                          ? switches_->find_between(stepper(), integrator(), !starts_anywhere)
-                                          : switches_->find(stepper(), integrator());
+  const std::optional<double> found =
+      steps_over_kinks() ? switches_->find_between(stepper(), integrator(), ends_before_kinks_)
+                         : switches_->find(stepper(), integrator());
   if (!found) return false;
   switch_at_ = *found;
   const double* const before = integrator().previous_state();

@@ -122,6 +122,7 @@ class Simulation {
   OutputSampler outputs_;
   std::unique_ptr<Contacts> contacts_;                          // null: the scene has no limits
   std::unique_ptr<Switches> switches_, kept_sides_;             // null: no load has a kink in the state
+  bool ends_before_kinks_ = false;                              // the method cannot begin anew on one
   double switch_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end on one
   double event_time_ = 0.0;                                     // with bodies_, of the last event
   std::vector<double> bodies_, state_;                          // of the described bodies, of what is stepped

@@ -26,10 +26,9 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
-from seacrane.run.staged_run import simulate_stages
 from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate
+from seacrane.simulation import simulate, simulate_stages
 
 TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the numbers are known
 SHORTER = 0.5  # times the step, likewise
