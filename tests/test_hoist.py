@@ -243,7 +243,6 @@ def test_a_load_described_inside_or_below_its_deck_is_named(height: float, words
     assert "bad seat" not in scene.loads
 
 
-@pytest.mark.warns("QuasiStaticLineWarning")
 def test_slings_take_a_rung() -> None:
     """Quasi-static ones carry the same load by no motion of their own."""
     pulls = {}

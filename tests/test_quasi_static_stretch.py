@@ -257,7 +257,6 @@ def test_a_line_that_goes_slack_ends_the_run_by_name() -> None:
         simulate(settled(hung(stretch=-0.1)), 1.0)
 
 
-@pytest.mark.warns("QuasiStaticLineWarning")
 def test_hauling_in_to_the_end_is_refused_by_name() -> None:
     scene = hung(length=3.0)
     scene.add_winch(line="hoist", rate=-0.5, lag=0.2, minimum_length=2.5)
