@@ -52,6 +52,7 @@ def test_few_frequencies_are_checked_without_a_memory(supply: HydroDatabase) -> 
     ],
     ids=["no tanks", "no roll damping", "conjugated forces", "sign of x", "C35 lost"],
 )
+@pytest.mark.slow("closes a ship for each kind of damage")
 def test_closure_notices_damage(supply: HydroDatabase, damage: dict[str, Any], motions: set[str]) -> None:
     changes = dict(damage)
     if changes.get("force") == "conjugate":

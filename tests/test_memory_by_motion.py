@@ -104,6 +104,7 @@ def test_the_tanker_keeps_the_limit(shared: Path) -> None:
     assert model.states <= 32
 
 
+@pytest.mark.slow("fits")
 def test_what_stops_a_fit_is_named(shared: Path) -> None:
     """The supply ship's tanks break the Kramers-Kronig relation: a convolution is 4 % off."""
     database = load_database(shared / "veres" / "supply")

@@ -189,6 +189,7 @@ def test_forms_agree_in_head_seas() -> None:
 
 @pytest.mark.warns(sometimes=["LargeSwingWarning"])
 @pytest.mark.parametrize("name", ["case1", "case2", "case3"])
+@pytest.mark.slow("the paper's form of three cases")
 def test_cases_run_in_the_papers_form(name: str) -> None:
     """Constraints close as in the default; the energy balance is not defined and not offered."""
     paper, default = motions(name, "paper"), motions(name, "yaw_following")

@@ -106,6 +106,7 @@ def build(site: Path, *more: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=site, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow("builds a site")
 def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -> None:
     done = build(small_site)
     assert done.returncode == 0, done.stderr
@@ -207,6 +208,7 @@ def test_the_search_finds_without_a_network(small_site: Path) -> None:
         assert all(one.startswith(("file:", "data:")) for one in tab.requests), tab.requests
 
 
+@pytest.mark.slow("builds a site")
 def test_a_link_that_leads_nowhere_fails_the_build(small_site: Path) -> None:
     (small_site / "docs" / "page.md").write_text("# Page\n\n[Gone](gone.md)\n", encoding="utf-8")
     done = build(small_site)

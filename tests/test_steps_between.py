@@ -53,7 +53,13 @@ def test_a_load_dropped_onto_a_deck_hits_it_as_it_falls(method: str, formulation
     assert np.abs(result["energy_balance"]).max() < 1e-3 * 5e3 * GRAVITY * height
 
 
-@pytest.mark.parametrize("method", FIXED)
+@pytest.mark.parametrize(
+    "method",
+    [
+        pytest.param(one, marks=pytest.mark.slow("many stages")) if one == "rk-low-storage" else one
+        for one in FIXED
+    ],
+)
 def test_a_given_step_that_leads_through_a_deck_is_refused_and_a_short_one_holds(method: str) -> None:
     given: dict[str, Any] = {"integrator": method, "formulation": "redundant", "dt_out": 0.1}
     with pytest.raises(

@@ -93,6 +93,7 @@ def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> Non
 
 
 @pytest.mark.warns("FullTurnWarning")
+@pytest.mark.slow("long runs")
 def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -> None:
     whole = simulate(spinner(), t_end=4000.0, dt_out=0.2)
     assert whole["slew_angle"][-1] > 250.0
@@ -105,6 +106,7 @@ def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -
 
 @pytest.mark.warns("LargeSwingWarning")
 @pytest.mark.parametrize("memory", ["per-pair", "convolution"])
+@pytest.mark.slow("long runs")
 def test_a_stopped_run_goes_on_to_the_same_file(
     memory: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -129,6 +129,7 @@ def test_errors_that_are_alike_by_chance_do_not_hide_each_other() -> None:
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.NearSingularWarning")
+@pytest.mark.slow("measures many methods")
 def test_what_a_singular_position_costs_is_told_and_not_promised_away() -> None:
     """Rows left out there shift the motion by 1e-7 m at every tolerance alike, so that runs agree."""
     with pytest.raises(

@@ -19,7 +19,8 @@ from seacrane.warnings import InfiniteFrequencyWarning
 
 Complex = NDArray[np.complex128]
 AMPLITUDE = 1e-4  # m: adrift the heading wanders in proportion
-POINTS = [(5, 10), (5, 20), (7, 26), (13, 14), (16, 29)]  # heading and frequency of the file
+SLOW = pytest.mark.slow("a long regular wave; one of them runs by day")
+POINTS = [(7, 26), *(pytest.param(*at, marks=SLOW) for at in ((5, 10), (5, 20), (13, 14), (16, 29)))]
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +69,7 @@ def test_irregular_run_keeps_its_books(shared: Path) -> None:
     assert np.max(np.abs(run["energy_balance"])) < 1e-6 * run["absolute_work"][-1]
 
 
-@pytest.mark.parametrize(("heading", "frequency"), POINTS)
+@pytest.mark.parametrize(("heading", "frequency"), POINTS)  # of the file
 def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: int, frequency: int) -> None:
     """The run is on the fitted frequency-domain solution; its distance from the file is the fit's."""
     database = at_file_damping(supply, heading, frequency)

@@ -56,6 +56,7 @@ def read_elf(*options: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow("makes an sdist")
 def test_sdist_holds_all_that_the_build_needs(sdist: set[str]) -> None:
     wanted = {"LICENSE", "README.md", "pyproject.toml", "CMakeLists.txt", "PKG-INFO"}
     for folder in ("cpp", "cmake", "python", "examples", "licenses", "tools/wheel"):

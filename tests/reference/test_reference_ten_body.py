@@ -140,6 +140,7 @@ def test_floating_crane_in_zero_gravity_keeps_its_momentum() -> None:
     np.testing.assert_allclose(angular.sum(axis=1), 0.0, atol=1e-5 * size)
 
 
+@pytest.mark.slow("an engine in Python")
 def test_the_crane_reaches_its_references() -> None:
     system = System.from_records(ten_body.records(vessel=False, payload=False, case=2))
     out = simulate(system, 50.0, [25.0, 50.0], rtol=1e-4)

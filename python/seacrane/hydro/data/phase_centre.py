@@ -15,6 +15,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 FEWEST = 3  # headings
+FOLLOWED = 0.02  # changes from heading to heading, squared, of the squares themselves: a spline follows them
 BETTER = 0.5  # of the changes from heading to heading that are left; a shielded hull has 0.67 aside
 STEP = 0.5  # rad of the shortest wave between two places that are tried
 FARTHEST, MOST = 1.5, 400  # rad of the longest wave, and places on either side
@@ -44,6 +45,8 @@ def phase_centre(k: FloatArray, circle: FloatArray, heave: ComplexArray) -> Floa
         return float(-2.0 * np.sum((together * turned).real))
 
     whole = float(np.sum(np.abs(heave[after]) ** 2 + np.abs(heave[before]) ** 2))
+    if whole + left(here) < FOLLOWED * whole:
+        return here
     reach = min(FARTHEST / k[0], MOST * STEP / k[-1])
     places = np.arange(-reach, reach, STEP / k[-1])
     best = here
