@@ -240,6 +240,11 @@ def test_orders_of_names_change_neither_numbers_nor_neighbours() -> None:
             assert other.attrs["side_by_side"] == found[0].attrs["side_by_side"]
 
 
+def test_a_stage_without_a_sling_begins_with_extremes_of_its_own() -> None:
+    """What the stage before had left of others is as long as what this one keeps."""
+    assert staged_told_of(1044) == ("apart", "")
+
+
 @pytest.mark.slow("hundreds of random lifts")
 def test_many_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
     how, wrong = judged(range(1000, 1200), staged_told_of)

@@ -1,6 +1,7 @@
 #include "seacrane/run/extremes.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "seacrane/elements/joints/distance.hpp"
@@ -185,16 +186,29 @@ void Extremes::add(Group& group, double t, const double* values) {
   group.window.add(t, values, seeing(group));
 }
 
+/// Tells channels, how many values each has, and where they come from (FNV-1a): what was saved of others may
+/// be as long.
+double Extremes::layout() const {
+  std::string text;
+  for (const RecordedChannel& c : recording_.channels()) {
+    if (c.least) text += c.channel->name + " " + std::to_string(c.size) + " ";
+  }
+  for (const Group* group : groups()) text += std::to_string(group->curves.size()) + " ";
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return static_cast<double>(hash >> 11);
+}
+
 std::vector<double> Extremes::save() const {
-  std::vector<double> out;
+  std::vector<double> out = {layout()};
   recording_.save_pending(out);
   for (const Group* group : groups()) group->window.save(out);
   return out;
 }
 
 void Extremes::load(const std::vector<double>& saved) {
-  if (saved.size() != save().size()) return;  // of other channels
-  const double* next = recording_.load_pending(saved.data());
+  if (saved.size() != save().size() || saved.front() != layout()) return;  // of other channels
+  const double* next = recording_.load_pending(saved.data() + 1);
   for (Group* group : groups()) next = group->window.load(next);
 }
 

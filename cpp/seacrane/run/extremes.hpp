@@ -63,6 +63,7 @@ class Extremes {
 
   std::array<Group*, 4> groups() { return {&states_, &evaluations_, &limits_, &ends_}; }
   std::array<const Group*, 4> groups() const { return {&states_, &evaluations_, &limits_, &ends_}; }
+  double layout() const;
   void take_state(Stepper& at, double t, const StateAt& state_at);
   void place(Stepper& at, double t, const double* y);
   Output output(Stepper& at, double t, const double* state, const Terms& terms);
