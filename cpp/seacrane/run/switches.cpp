@@ -369,8 +369,9 @@ std::optional<double> Switches::find_between(Stepper& at, LastStep& step, bool e
 
 /// Where the last step is to end because loads met something within it and left it again, which ends of steps
 /// do not tell and errors do not either: nothing else may press. Just after its start where they met it
-/// there. A method that ends before them is led to what is thin alone. A method whose dense output takes evaluations of its own may have lost its way there by what they
-/// met: steps that lead far are looked at on the cubic of their ends too.
+/// there. A method that ends before them is led to what is thin alone. A method whose dense output takes
+/// evaluations of its own may have lost its way there by what they met: steps that lead far are looked at on
+/// the cubic of their ends too.
 std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
   if (!at.integrator->is_adaptive()) {
     refuse_long(at, step);
