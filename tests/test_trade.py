@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from trade_scenes import pendulum
+from trade_scenes import a_run_each, pendulum
 
 from seacrane import (
     Method,
@@ -49,11 +49,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def case2() -> Scene:
     return cases.case2()
-
-
-def a_run_each(spending: Spending, row: Row, around_s: float = 0.0) -> None:
-    """Every row counts as one run: what a budget has room for does not depend on the machine."""
-    spending.spent_s += spending.unit_s
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from line_scenes import G, reeved
 from numpy.testing import assert_allclose
+from trade_scenes import a_run_each
 
 from seacrane import Scene, SceneError, simulate, trade
+from seacrane.trading.budget import Spending
 from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 
 
@@ -48,7 +50,8 @@ def test_a_rigid_link_moves_as_the_stiff_line() -> None:
     assert_allclose(runs[0]["position"], runs[1]["position"], atol=2e-3)
 
 
-def test_each_rung_is_a_line_with_its_cost_and_error() -> None:
+def test_each_rung_is_a_line_with_its_cost_and_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Spending, "spend", a_run_each)
     found = trade(hung("elastic"), t_end=2.0, progress=False)
     rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
     assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]

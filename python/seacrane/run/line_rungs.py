@@ -32,9 +32,7 @@ Jump = tuple[Array, Array]
 LARGEST_ERROR = 0.005  # of what a source makes of the tension
 LARGEST_TOLD = 0.05  # likewise, of a line that is given as quasi-static: beyond, a warning
 SWING = 0.2  # rad, of a load whose swing is judged
-OF_TENSION = (
-    0.75 * SWING**2
-)  # amplitude of the tension of such a swing, at twice its frequency, over the mean
+OF_TENSION = 0.75 * SWING**2  # of the mean: amplitude of the tension of such a swing, at twice its frequency
 LARGEST_RINGING = 0.005  # of the tension at the start, from a kink
 LARGEST_AT_START = 0.02  # likewise, from the start: a sea begins at once, and that decays
 MOST_KINKS = 5000

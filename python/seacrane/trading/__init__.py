@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
-from seacrane.trading.trade_study import Trade, trade
+from seacrane.trading.trade_answer import Trade
+from seacrane.trading.trade_study import trade
 
 __all__ = ["Trade", "trade"]
