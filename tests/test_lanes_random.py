@@ -245,6 +245,11 @@ def test_a_stage_without_a_sling_begins_with_extremes_of_its_own() -> None:
     assert staged_told_of(1044) == ("apart", "")
 
 
+def test_steps_of_given_length_do_not_end_where_a_strike_would_end_others() -> None:
+    assert staged_told_of(1086) == ("in lanes", "")
+    assert told_of(1111) == ("in lanes", "")
+
+
 @pytest.mark.slow("hundreds of random lifts")
 def test_many_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
     how, wrong = judged(range(1000, 1200), staged_told_of)

@@ -197,9 +197,11 @@ void SideBySide::step(double t_end) {
   watch_kinks();
 }
 
-/// As in a run by itself: where the next step is to end after one in which a lane struck something.
+/// As in a run by itself: where the next step is to end after one in which a lane struck something. Steps of
+/// a given length are as long as was asked for.
 double SideBySide::end_of_strike() const {
   double first = std::numeric_limits<double>::infinity();
+  if (!integrator_->is_adaptive()) return first;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     if (has_left(lane) || !runs_[lane]->has_switches()) continue;
     first = std::min(first, runs_[lane]->end_of_strike(integrator_->time(), integrator_->step_in_use()));
