@@ -31,7 +31,7 @@ function(seacrane_lanes instructions lanes)
   # Of the file: what a target takes over from seacrane_options stands after its own, and would win.
   set_source_files_properties("${CMAKE_CURRENT_SOURCE_DIR}/lanes/lanes.cpp" PROPERTIES COMPILE_OPTIONS
     "$<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>")
-  seacrane_kinds(${module} "${load_registry}" "${CMAKE_CURRENT_SOURCE_DIR}/lanes/load.cpp.in" 14)
+  seacrane_kinds(${module} "${load_registry}" "${CMAKE_CURRENT_SOURCE_DIR}/lanes/load.cpp.in" 20)
   target_link_libraries(${module} PRIVATE seacrane seacrane_warnings)
   seacrane_hide_names(${module})
   add_dependencies(seacrane_modules ${module})

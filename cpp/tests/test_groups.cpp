@@ -22,7 +22,7 @@ std::vector<double> disturbed(MaximalSystem& system) {
   return y;
 }
 
-std::string refusal(const SceneDescription& scene) {
+std::string refusal_of_group(const SceneDescription& scene) {
   try {
     compile(scene, false);
   } catch (const SceneError& error) {
@@ -154,30 +154,30 @@ TEST_CASE("a group without coupling and with the memories of its vessels is thes
 TEST_CASE("a group that cannot be is refused by name") {
   SceneDescription scene = two_hulls();
   scene.groups[0].vessels = {"hull", "ferry"};
-  CHECK(names(refusal(scene), "group 'group': there is no vessel 'ferry'"));
+  CHECK(names(refusal_of_group(scene), "group 'group': there is no vessel 'ferry'"));
   scene.groups[0].vessels = {"hull"};
-  CHECK(names(refusal(scene), "has 1 vessels; name two"));
+  CHECK(names(refusal_of_group(scene), "has 1 vessels; name two"));
   scene.groups[0].vessels = {"hull", "hull"};
-  CHECK(names(refusal(scene), "vessel 'hull' is in group 'group' already"));
+  CHECK(names(refusal_of_group(scene), "vessel 'hull' is in group 'group' already"));
 
   scene = two_hulls();
   scene.groups[0].added_mass(0, 7) += 1.0;
-  CHECK(names(refusal(scene), "added_mass is not symmetric"));
+  CHECK(names(refusal_of_group(scene), "added_mass is not symmetric"));
   scene = two_hulls();
   scene.groups[0].added_mass(2, 2) = 1.0;
-  CHECK(names(refusal(scene), "added_mass of vessel 'hull' with itself is not zero"));
+  CHECK(names(refusal_of_group(scene), "added_mass of vessel 'hull' with itself is not zero"));
   scene = two_hulls();
   scene.groups[0].added_mass = MatXd::Zero(6, 12);
-  CHECK(names(refusal(scene), "added_mass has shape (6, 12)"));
+  CHECK(names(refusal_of_group(scene), "added_mass has shape (6, 12)"));
   scene = two_hulls();
   scene.groups[0].added_mass *= 100.0;
-  CHECK(names(refusal(scene), "are not positive definite"));
+  CHECK(names(refusal_of_group(scene), "are not positive definite"));
   scene = two_hulls();
   scene.groups[0].memory[0].inputs[0] = 12;
-  CHECK(names(refusal(scene), "group 'group': memory block 0: input 12 is not a motion 0..11"));
+  CHECK(names(refusal_of_group(scene), "group 'group': memory block 0: input 12 is not a motion 0..11"));
   scene = two_hulls();
   scene.vessels[0].memory = two_hulls(false).vessels[0].memory;
-  CHECK(names(refusal(scene), "vessel 'hull' has a memory of its own"));
+  CHECK(names(refusal_of_group(scene), "vessel 'hull' has a memory of its own"));
 }
 
 TEST_CASE("the recursive form refuses a group with a hull that does not float freely, by name") {

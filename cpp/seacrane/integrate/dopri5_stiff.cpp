@@ -20,7 +20,7 @@ namespace {
 /// Accepted steps with one linearisation.
 constexpr int steps_per_linearisation = 10;
 /// A step is not lengthened by less: its factors would be lost for little.
-constexpr double worthwhile_growth = 1.1;
+constexpr double least_growth_dopri5 = 1.1;
 
 /// The pair of Dormand and Prince, and for the stiff part of the system its implicit companion. With the
 /// matrix A = out in of StiffPart at some state of the last steps,
@@ -86,7 +86,7 @@ class Dopri5Stiff final : public AdaptiveStep {
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
   double preferred_step(double h, double wish) const override {
-    return rank_ > 0 && wish >= h && wish < worthwhile_growth * h ? h : wish;
+    return rank_ > 0 && wish >= h && wish < least_growth_dopri5 * h ? h : wish;
   }
   std::size_t history_size() const override { return rank_ > 0 ? 2 + 2 * rank_ * size() : 0; }
   void save_history(std::span<double> history) const override;

@@ -18,7 +18,7 @@ constexpr int steps_per_jacobian = 20;
 /// Share of the derivative's change over a step beyond which the Jacobian is said not to describe it.
 constexpr double misled = 0.5;
 /// A step is not lengthened by less: its factors would be lost for little.
-constexpr double worthwhile_growth = 1.3;
+constexpr double least_growth_rosenbrock = 1.3;
 
 /// Linearly implicit Runge-Kutta (Rosenbrock W) method of order 3(2). Stage i solves
 ///   (I - h gamma J) k_i = f(t + alpha_i h, y + h sum a_ij k_j) + h J sum gamma_ij k_j,
@@ -66,7 +66,7 @@ class RosenbrockW final : public AdaptiveStep {
   std::size_t dominant_component(double h) const override;
   bool has_leapt(double h) override;
   double preferred_step(double h, double wish) const override {
-    return wish >= h && wish < worthwhile_growth * h ? h : wish;
+    return wish >= h && wish < least_growth_rosenbrock * h ? h : wish;
   }
 
   std::size_t history_size() const override { return 2 + jacobian_.size(); }
