@@ -17,6 +17,7 @@ THROW = re.compile(
     r"|\bfail\(|last_error = |reason = |std::string text ="
 )
 SHORTEST = 18  # shorter are names of calls, such as "the step", before what SUNDIALS says itself
+CLASS = re.compile(r"^ *class (\w+)\(([^)]*)\)", re.MULTILINE)
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
@@ -40,7 +41,10 @@ def stops_of_python() -> dict[str, str]:
     """Words of every `SimulationError(...)`, by file and line."""
     out: dict[str, str] = {}
     for path in sorted(PYTHON.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
+        text = path.read_text()
+        if "SimulationError(" not in text:
+            continue
+        for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "SimulationError":
                 parts = [n.value for n in ast.walk(node) if isinstance(n, ast.Constant)]
                 words = "".join(part for part in parts if isinstance(part, str))
@@ -49,13 +53,24 @@ def stops_of_python() -> dict[str, str]:
 
 
 @cache
+def stops() -> dict[str, str]:
+    """Of both languages."""
+    return {**stops_of_cpp(), **stops_of_python()}
+
+
+@cache
+def _bases() -> dict[str, set[str]]:
+    """The bases of every class of the package that has some."""
+    out: dict[str, set[str]] = {}
+    for path in sorted(PYTHON.rglob("*.py")):
+        for name, bases in CLASS.findall(path.read_text()):
+            out.setdefault(name, set()).update(re.split(r"\W+", bases))
+    return out
+
+
 def classes_of(*bases: str) -> set[str]:
     """Names of the package's classes derived from any of these, or from another such class."""
-    found = set(bases)
-    trees = [ast.parse(path.read_text()) for path in sorted(PYTHON.rglob("*.py"))]
-    for _ in range(4):  # generations
-        for tree in trees:
-            for node in ast.walk(tree):
-                if isinstance(node, ast.ClassDef) and found & {getattr(b, "id", "") for b in node.bases}:
-                    found.add(node.name)
-    return found - set(bases)
+    found: set[str] = set()
+    while more := {name for name, own in _bases().items() if own & (found | {*bases})} - found:
+        found |= more
+    return found - {*bases}

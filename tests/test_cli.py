@@ -550,6 +550,7 @@ def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> 
     assert f"{script}:8: UserWarning: look here" in done.stderr
 
 
+@pytest.mark.slow("fits a memory")
 def test_hydro_fits_over_a_band_that_is_named(capsys: pytest.CaptureFixture[str], shared: Path) -> None:
     from seacrane.cli import main
 

@@ -248,7 +248,9 @@ with ThreadPoolExecutor(2) as pool:
 """
 
 
-@pytest.mark.parametrize("where", ["serial", "threads"])
+@pytest.mark.parametrize(
+    "where", ["serial", pytest.param("threads", marks=pytest.mark.slow("a process and its threads"))]
+)
 def test_ctrl_c_keeps_what_came_back(where: str, tmp_path: Path) -> None:
     store = tmp_path / "store"
     path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])

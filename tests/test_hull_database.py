@@ -99,7 +99,9 @@ def test_port_starboard_symmetry_and_missing_surge() -> None:
         assert rows[f"kramers_kronig_{motion}"].verdict == "pass", rows[f"kramers_kronig_{motion}"]
 
 
-@pytest.mark.parametrize("kind", ["per-pair", "passive"])
+@pytest.mark.parametrize(
+    "kind", ["per-pair", pytest.param("passive", marks=pytest.mark.slow("fits a memory"))]
+)
 def test_the_memory_of_a_strip_database_has_no_surge(kind: str) -> None:
     model = ship_memory(kind)
     pairs = {(row.output, row.input) for row in model.rows}

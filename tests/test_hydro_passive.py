@@ -54,7 +54,7 @@ def supply(shared: Path) -> tuple[HydroDatabase, MemoryModel]:
         return database, fit_memory(database=database, kind="passive")
 
 
-@pytest.fixture(params=["hull", "supply"])
+@pytest.fixture(params=["hull", pytest.param("supply", marks=pytest.mark.slow("fits a memory to a file"))])
 def ship(request: pytest.FixtureRequest) -> tuple[HydroDatabase, MemoryModel]:
     if request.param == "hull":
         return shipped_database(), request.getfixturevalue("hull")

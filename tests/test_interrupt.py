@@ -147,6 +147,7 @@ def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
     assert told["interrupted"]
 
 
+@pytest.mark.slow("a process")
 def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "seacrane", "run", "case1", "--out", str(tmp_path), "--t-end", "1e5"]
     process = subprocess.Popen([*command, "--progress"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

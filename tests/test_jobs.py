@@ -35,7 +35,10 @@ def test_a_job_is_short(job: Path) -> None:
     assert sum(bool(line.strip()) for line in job.read_text(encoding="utf-8").splitlines()) <= LONGEST
 
 
-LONG = ("feeder_starts", "planning_sheet", "feeder_two_ships", "hypercube")
+LONG = (
+    "feeder_starts", "planning_sheet", "feeder_two_ships", "hypercube", "tip_rao", "load_chart", "mru_record",
+    "three_hours",
+)  # fmt: skip
 BY_NIGHT = pytest.mark.slow("many runs")
 
 

@@ -21,11 +21,13 @@ def measurements(monkeypatch: pytest.MonkeyPatch) -> Any:
     return importlib.import_module("measurements")
 
 
-LONG = pytest.mark.slow("a chain of many segments")
+# Those that take more than two seconds.
+LONG = ("moordyn_chain", "kvlcc2_roll_decay", "ntnu_lewis_section")
+BY_NIGHT = pytest.mark.slow("a chain of many segments, or many runs")
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=LONG if name == "moordyn_chain" else []) for name in SETS]
+    "name", [pytest.param(name, marks=BY_NIGHT if name in LONG else []) for name in SETS]
 )
 def test_a_set_is_within_a_fifth_of_what_is_published(name: str, measurements: Any) -> None:
     folder = measurements.data_of(name)

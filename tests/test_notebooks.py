@@ -15,7 +15,10 @@ import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("*.md"))
-DOCUMENTS = ("README.md", "docs/getting-started.md")
+DOCUMENTS = (
+    "README.md",
+    pytest.param("docs/getting-started.md", marks=pytest.mark.slow("its blocks run by day")),
+)
 SCRIPT = re.compile(r"```python\n(?P<script>.*?)```\s+```text\n(?P<output>.*?)```", re.DOTALL)
 NUMBER = re.compile(r"-?\d+\.?\d*")
 

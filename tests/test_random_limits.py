@@ -40,7 +40,7 @@ def bad(seeds: Iterable[int]) -> dict[int, str]:
     }
 
 
-@pytest.mark.parametrize("first", [0, 30])
+@pytest.mark.parametrize("first", [pytest.param(0, marks=pytest.mark.slow("many random scenes")), 30])
 def test_random_scenes_with_limits_run_to_their_end(first: int) -> None:
     assert bad(range(first, first + 30)) == {}
 

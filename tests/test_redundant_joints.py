@@ -165,7 +165,7 @@ def test_an_extra_bar_changes_no_motion(formulation: str) -> None:
     assert np.max(barred["constraint_error"]) < 1e-9
 
 
-@pytest.mark.parametrize("ratio", [1e-6, 1e-10, 1e-12])
+@pytest.mark.parametrize("ratio", [1e-6, 1e-10, pytest.param(1e-12, marks=pytest.mark.slow("short steps"))])
 def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str) -> None:
     """A rod of this share of the coupler's mass in a loop that holds each motion once."""
     scene = bars(2, spatial=True)

@@ -25,7 +25,7 @@ def test_both_formulations_accelerate_alike_along_a_turn(loops: int, planar: boo
 
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
-@pytest.mark.parametrize("planar", [True, False])
+@pytest.mark.parametrize("planar", [pytest.param(True, marks=pytest.mark.slow("long runs")), False])
 def test_ten_four_bars_go_round_as_elliptic_functions_say(planar: bool, formulation: str) -> None:
     """Through the pose, twice a turn, in which every loop could fold."""
     result = simulate(

@@ -99,7 +99,9 @@ def test_a_scene_gives_back_the_database_of_a_vessel() -> None:
     assert database_of(afloat(rich())) is rich()
 
 
-@pytest.mark.parametrize("make", [shipped_database, rich])
+@pytest.mark.parametrize(
+    "make", [shipped_database, pytest.param(rich, marks=pytest.mark.slow("fits memories"))]
+)
 def test_a_database_comes_back_to_the_bit_from_a_scene_file(
     make: Callable[[], HydroDatabase], tmp_path: Path
 ) -> None:

@@ -100,7 +100,13 @@ class _Stop(Exception):
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-@pytest.mark.parametrize("method", [{"rtol": 1e-11}, {"integrator": "rk4", "dt": 1e-3}])
+@pytest.mark.parametrize(
+    "method",
+    [
+        {"rtol": 1e-11},
+        pytest.param({"integrator": "rk4", "dt": 1e-3}, marks=pytest.mark.slow("thousands of steps")),
+    ],
+)
 def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
     method: dict[str, Any], formulation: str, tmp_path: Path
 ) -> None:
