@@ -39,7 +39,7 @@ def test_the_examples_of_the_issue_exist() -> None:
 
 LONG = (
     "deep_lowering", "subsea_lowering", "feeder_lift_two_ships", "splash_zone", "design_study", "operability",
-    "heave_compensation", "hull_to_database", "load_chart", "frequency_domain",
+    "heave_compensation", "hull_to_database", "load_chart", "frequency_domain", "tandem_lift",
 )  # fmt: skip
 BY_NIGHT = pytest.mark.slow("a whole lift or study")
 

@@ -111,6 +111,7 @@ def test_the_memory_of_a_strip_database_has_no_surge(kind: str) -> None:
 
 
 @pytest.mark.warns("BelowBandWarning")
+@pytest.mark.slow("a long run")
 def test_a_run_in_a_low_sea_follows_the_summed_response() -> None:
     scene = Scene(name="hull")
     scene.add_vessel(replace(ship_database(), memory=ship_memory("passive")), memory="passive")

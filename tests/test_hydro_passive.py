@@ -408,6 +408,7 @@ def test_the_command_line_takes_it(tmp_path: Path) -> None:
         assert data.attrs["states"] < vessel().compile().states
 
 
+@pytest.mark.slow("fits several memories")
 def test_trade_table_is_measured_and_documented(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The rows of R2 = 0.95 and 0.99 against the documented table, and against each other."""
     monkeypatch.syspath_prepend(str(repository / "benchmarks"))

@@ -147,6 +147,7 @@ def test_closure(database: HydroDatabase, expected: dict[str, Any]) -> None:
         assert rows[check].verdict == "pass"
 
 
+@pytest.mark.slow("closes a ship")
 def test_a_sound_file_that_does_not_count_its_panels_passes(copy: Path) -> None:
     """Its band ends where its matrices begin to jump; shorter waves do not fail its motions."""
     listing = copy / "tanker.out"

@@ -218,6 +218,7 @@ def test_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
     assert how["in lanes"] >= 3 and how["apart"] >= 2, how
 
 
+@pytest.mark.slow("many ensembles")
 def test_orders_of_names_change_neither_numbers_nor_neighbours() -> None:
     for seed in range(6):
         rng = np.random.default_rng(seed)

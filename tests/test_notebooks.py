@@ -55,8 +55,8 @@ def test_what_opens_notebooks_can_be_installed_by_itself() -> None:
     assert wanted >= {"ipykernel", "ipywidgets", "jupyterlab", "jupytext", "pytest"}
 
 
-# Those that take a second or two; the others run by night, all for the wheel and the site.
-BY_DAY = ("05_every_force", "08_wires", "09_your_crane", "13_cranes_and_oil")
+# One by day; the others run by night, all for the wheel and the site.
+BY_DAY = ("08_wires",)
 BY_NIGHT = pytest.mark.slow("a whole notebook")
 
 

@@ -180,6 +180,7 @@ def test_a_vessel_is_copied_compared_and_pickled_with_its_database() -> None:
     assert VesselHydrodynamics(**vessel.__getstate__() | {"database": None}) != vessel
 
 
+@pytest.mark.slow("fits memories")
 def test_a_replaced_vessel_keeps_its_database() -> None:
     scene = afloat(rich())
     scene.replace("vessel", kind="vessel", mooring_damping=(1.0, 2.0, 3.0))

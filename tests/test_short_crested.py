@@ -111,6 +111,7 @@ def test_a_body_of_revolution_in_closed_form(s: float) -> None:
     assert spread[1] == pytest.approx(along[0] * 0.5 * (1.0 - double), rel=1e-6)
 
 
+@pytest.mark.slow("a long run")
 def test_a_run_in_a_low_short_crested_sea_has_these_statistics() -> None:
     """Twenty minutes, within three standard deviations of what a record of that length scatters."""
     scene = cases.vessel(hs=0.0, memory="passive")

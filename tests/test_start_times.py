@@ -106,6 +106,7 @@ def test_a_distribution_of_an_ensemble(lifts: Ensemble) -> None:
         lifts.distribution("lifted", start_time=7)
 
 
+@pytest.mark.slow("hundreds of members")
 def test_intervals_hold_for_values_that_depend_on_their_seed() -> None:
     """Of 400 draws of 20 seeds with 10 values each, 95 % intervals hold the truth as often as they say."""
     from scipy.stats import norm

@@ -173,7 +173,9 @@ def test_a_study_of_a_channel_that_is_not_there_is_refused(
     assert "channel 'swing' is unknown to this scene; it needs" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("workers", [[], ["--workers", "2"]])
+@pytest.mark.parametrize(
+    "workers", [[], pytest.param(["--workers", "2"], marks=pytest.mark.slow("several processes"))]
+)
 def test_ctrl_c_keeps_what_came_back_and_the_same_command_goes_on(
     workers: list[str], study: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

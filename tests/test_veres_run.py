@@ -87,6 +87,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: i
 
 
 @pytest.mark.warns("InfiniteFrequencyWarning")
+@pytest.mark.slow("long regular waves")
 def test_run_agrees_with_the_impedance_of_its_own_scene(supply: HydroDatabase) -> None:
     """With station keeping and the roll tanks' static stiffness and memory in the model."""
     database = at_file_damping(supply, 5, 20)

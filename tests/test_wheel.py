@@ -69,6 +69,7 @@ def test_sdist_holds_all_that_the_build_needs(sdist: set[str]) -> None:
     } < sdist
 
 
+@pytest.mark.slow("makes an sdist")
 def test_sdist_holds_nothing_that_was_made(sdist: set[str]) -> None:
     made = {"out", "build", "dist", ".venv", "__pycache__", "node_modules"}
     executed = {name for name in sdist if re.fullmatch(r"build/executed/\w+\.ipynb", name)}  # by `make wheel`

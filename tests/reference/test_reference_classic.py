@@ -176,6 +176,7 @@ def slider_crank_records(q: float, rate: float) -> dict[str, Any]:
     return {"bodies": bodies, "joints": joints}
 
 
+@pytest.mark.slow("a long run at tight tolerance")
 def test_spatial_slider_crank() -> None:
     q0, rate0 = 0.4, 6.0
     mechanism = CRANK.mechanism()

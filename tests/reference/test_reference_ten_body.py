@@ -213,6 +213,7 @@ def test_driven_free_joint_follows_six_motions() -> None:
     assert np.max(np.abs(out["energy_balance"])) < 1e-7 * out["absolute_work"][-1]
 
 
+@pytest.mark.slow("runs at many tolerances")
 def test_payload_path_converges_with_tolerance() -> None:
     system = System.from_records(ten_body.records(case=2))
     ends = [simulate(system, 3.0, [3.0], rtol=rtol)["position"][0, -1] for rtol in (1e-3, 1e-7, 1e-10)]
