@@ -11,6 +11,7 @@ from line_scenes import MASS, STIFFNESS, G, hung
 from seacrane import Scene, equilibrium, natural_modes, simulate
 from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
+from seacrane.water import BoxPart
 
 
 def below_a_ship(order: int) -> Scene:
@@ -115,3 +116,20 @@ def test_what_hangs_on_a_seat_counts_as_lifted() -> None:
     scene.add_seat(joint="deck")
     scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7)
     assert bounce(scene)[0] == pytest.approx(MASS, rel=1e-9)
+
+
+def in_the_surface(seed: int | None) -> Scene:
+    scene = Scene(name="in the surface")
+    scene.add_body(name="load", mass=MASS, inertia=(MASS, MASS, MASS))
+    scene.add_immersed("load", parts=[BoxPart(size=(4.0, 3.0, 2.0), strips=(2, 2), fill=0.2)])
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 30), (0, 0, 0)], EA=2e7,
+                   tension_at_start=0.5 * MASS * G)  # fmt: skip
+    if seed is not None:
+        scene.add_sea(vessel=None, hs=3.0, tp=8.0, seed=seed)
+    return scene
+
+
+def test_what_is_wet_in_a_wave_at_the_start_does_not_count() -> None:
+    still, *seas = (bounce(in_the_surface(seed)) for seed in (None, 1, 2, 3))
+    assert still[0] > 1.1 * MASS
+    assert seas == [still] * 3

@@ -8,6 +8,7 @@
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/line.hpp"
 #include "seacrane/math/dense.hpp"
+#include "seacrane/sea/sea_field.hpp"
 
 namespace seacrane {
 namespace {
@@ -156,7 +157,12 @@ class BounceFinder {
 
 }  // namespace
 
-std::vector<LineBounce> find_line_bounces(const Model& model) { return BounceFinder(model).run(); }
+std::vector<LineBounce> find_line_bounces(const Model& model) {
+  if (!model.sea) return BounceFinder(model).run();
+  Model still = model;
+  still.sea = std::make_shared<const SeaField>(model.sea->without_waves());
+  return BounceFinder(still).run();
+}
 
 void hang_on_lines(Model& model, const std::vector<LineBounce>& bounces) {
   model.line_bounces = bounces;

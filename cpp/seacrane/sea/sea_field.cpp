@@ -68,6 +68,13 @@ std::size_t SeaField::reach(double level, double cut) const {
   return whole_packs(static_cast<std::size_t>(end - arrays_.k.begin()));
 }
 
+SeaField SeaField::without_waves() const {
+  SeaField out = *this;
+  std::ranges::fill(out.arrays_.amplitude, 0.0);
+  out.crest_ = 0.0;
+  return out;
+}
+
 double SeaField::calm_below(double cut) const {
   constexpr int halvings = 40;
   if (!(crest_ < depth_)) return -depth_;

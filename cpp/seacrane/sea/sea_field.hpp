@@ -41,6 +41,8 @@ class SeaField {
   static constexpr std::size_t lanes = 4;
 
   explicit SeaField(const WaveComponents& waves, Stretching stretching = Stretching::wheeler);
+  /// The same water with its current, and waves of no height.
+  SeaField without_waves() const;
 
   /// One number for each component, padded.
   struct Arrays {
