@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from stability_atlas import (
+    contact_axes,
     crane_axes,
     duration_axes,
     hydraulic_axes,
@@ -10,6 +11,7 @@ from stability_atlas import (
     mechanism_axes,
     switching_axes,
     vessel_axes,
+    water_axes,
 )
 from stability_atlas.axis import Axis
 
@@ -22,6 +24,8 @@ AXES: dict[str, Axis] = {
         switching_axes,
         line_axes,
         hydraulic_axes,
+        water_axes,
+        contact_axes,
         duration_axes,
     )
     for axis in group.AXES

@@ -1,8 +1,9 @@
 """The summary that README.md shows, from all runs of an atlas.
 
-    PYTHONPATH=studies python -m stability_atlas.summary out/extremes/extremes.csv
+    PYTHONPATH=studies python -m stability_atlas.summary out/extremes/extremes.csv [NAME]
 
-writes it to ``benchmarks/results/stability-atlas.csv``, and fills README.md by ``benchmarks/documents.py``.
+writes it to ``benchmarks/results/<NAME>.csv``, by default ``stability-atlas``, and fills README.md by
+``benchmarks/documents.py``.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from math import isfinite
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-TARGET = ROOT / "benchmarks" / "results" / "stability-atlas.csv"
+RESULTS = ROOT / "benchmarks" / "results"
 VERDICTS = ("completed", "refused", "stopped", "slow")
 HEAD = ("axis", "values", "runs", *VERDICTS, "default: error", "default: energy", "known within")
 
@@ -50,16 +51,16 @@ def _largest(runs: list[dict[str, str]], column: str) -> str:
     return f"{max(values):.0e}" if values else ""
 
 
-def main(source: str) -> None:
+def main(source: str, name: str = "stability-atlas") -> None:
     """Read the atlas, write its summary."""
+    target = RESULTS / f"{name}.csv"
     with Path(source).open(newline="", encoding="utf-8") as file:
         rows = summary(csv.DictReader(file))
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
-    with TARGET.open("w", newline="", encoding="utf-8") as file:
+    with target.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
-    fill = [sys.executable, str(ROOT / "benchmarks" / "documents.py"), "--measured", str(TARGET)]
+    fill = [sys.executable, str(ROOT / "benchmarks" / "documents.py"), "--measured", str(target)]
     subprocess.run(fill, check=True)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])
