@@ -17,7 +17,6 @@ from seacrane import Result, Scene, Stage, ensemble, report, shipped_database, s
 from seacrane.answers import load_chart, statics, summary
 from seacrane.crane import Payload
 from seacrane.description.suspension import hung_loads
-from seacrane.ensembles import sensitivity
 from seacrane.lift.study_run import run_study
 from seacrane.operability import Criterion, allowable_hs
 from seacrane.pictures.drawn_bodies import looks
@@ -209,15 +208,6 @@ def runs_until(hung: Hung) -> bool:
     return not told.failures and told.certainty[0].seeds == 20
 
 
-def is_sensitive(hung: Hung) -> bool:
-    """To how long it waits: the same seas for the longer and the shorter wait."""
-    told = sensitivity(
-        hung.at_sea(), stages=STAGES, parameters={"stages.hang.duration": (0.04, 0.02)},
-        seeds=range(10), keep=f"{hung.hook}.max", **HOW,
-    )  # fmt: skip
-    return bool(np.isfinite(told.gradients["stages.hang.duration"].value))
-
-
 def has_allowable_hs(hung: Hung) -> bool:
     criterion = Criterion(channel=hung.hook, maximum=3.0 * weight(hung), statistic="p90")
     told = allowable_hs(
@@ -244,10 +234,9 @@ ROWS: dict[str, Callable[[Hung], bool]] = {
     "limit states": keeps_limit_states,
     "stages in `ensemble`": runs_in_ensembles,
     "stages with `until=`": runs_until,
-    "stages in `sensitivity`": is_sensitive,
     "stages in `allowable_hs`": has_allowable_hs,
 }
-MANY_RUNS = ("stages with `until=`", "stages in `sensitivity`")
+MANY_RUNS = ("stages with `until=`",)
 IN_FILES = "stages in study files"
 
 

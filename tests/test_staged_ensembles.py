@@ -25,7 +25,7 @@ from seacrane import (
     shipped_database,
     simulate_stages,
 )
-from seacrane.ensembles import Ensemble, sensitivity
+from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.lift.shown_study import shown_study
 from seacrane.lift.study_run import run_study
@@ -202,16 +202,6 @@ def test_seeds_are_added_until_the_peak_is_known() -> None:
     )  # fmt: skip
     (one,) = told.certainty
     assert one.seeds in (20, 40, 60)
-
-
-def test_sensitivity_takes_stages() -> None:
-    """A faster winch makes a higher peak: v sqrt(k m) for each m/s."""
-    told = sensitivity(
-        feeder(hs=0.3), stages=STAGES, parameters={"stages.lift.commands.hoist.rate": (-0.5, 0.05)},
-        seeds=range(10), keep="hook_load[hoist, stage=up].max", **HOW,
-    )  # fmt: skip
-    slope = told.gradients["stages.lift.commands.hoist.rate"].value
-    assert slope == pytest.approx(-np.sqrt(EA / 27.0 * MASS), rel=0.15)
 
 
 @pytest.mark.warns("FailedMembersWarning")

@@ -67,7 +67,6 @@ from seacrane import analysis as analysis
 # Many runs and what they say together
 from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.kept import Kept as Kept
-from seacrane.ensembles.sensitivity import sensitivity as sensitivity
 from seacrane.statistics.of_results import extremes as extremes
 from seacrane import ensembles as ensembles
 from seacrane import statistics as statistics

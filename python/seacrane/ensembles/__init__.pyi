@@ -4,8 +4,6 @@ from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
-from seacrane.ensembles.sensitivity import sensitivity as sensitivity
-from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
 from seacrane.ensembles.coefficient_scatter import coefficient_scatter as coefficient_scatter
 from seacrane.ensembles.coefficient_scatter import CoefficientScatter as CoefficientScatter
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
