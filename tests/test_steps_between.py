@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -143,3 +144,10 @@ def test_a_point_that_is_torn_off_gives_its_energy_to_the_ledger(formulation: st
     stored = 0.5 * 4e6 * 0.05**2
     assert result["velocity"][-1, 0, 2] == pytest.approx(2.0, rel=1e-9)
     assert np.abs(result["energy_balance"]).max() < 1e-6 * stored
+
+
+def test_ida_sees_what_it_met_and_left_within_a_step() -> None:
+    """A ball that turns over dips into a plane for 0.26 s of a step of 1.5 s."""
+    (drop,) = islice(drops(2, 10_000), 470, 471)
+    assert drop.how["integrator"] == "ida" and drop.thick == np.inf
+    assert drop.misses() == ""

@@ -369,9 +369,9 @@ std::optional<double> Switches::find_between(Stepper& at, LastStep& step, bool e
 
 /// Where the last step is to end because loads met something within it and left it again, which ends of steps
 /// do not tell and errors do not either: nothing else may press. Just after its start where they met it
-/// there. A method that ends before them is led to what is thin alone. A method whose dense output takes
-/// evaluations of its own may have lost its way there by what they met: steps that lead far are looked at on
-/// the cubic of their ends too.
+/// there. A method that ends before them is led to what is thin, and to what it has left again. A method
+/// whose dense output takes evaluations of its own may have lost its way there by what they met: steps that
+/// lead far are looked at on the cubic of their ends too.
 std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
   if (!at.integrator->is_adaptive()) {
     refuse_long(at, step);
@@ -383,10 +383,12 @@ std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
   for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
     const std::size_t load = k++;
     const double pace = pace_between(step, load);
-    if (!(pace > 0.0) || (ends_before_ && seen_before_[load].thin == Sight::kFar)) return;
+    const Sight& from = seen_before_[load];
+    const bool ends_in_it = ends_before_ && ((after_[load] ^ before_[load]) & from.watched) != 0;
+    if (!(pace > 0.0) || (ends_in_it && from.thin == Sight::kFar)) return;
     std::optional<Between> met = look_between(at, step, list, i, load, pace, false);
     const double h = step.time() - step.previous_time();
-    if (!met && leads_far(pace * h, seen_before_[load].thin)) {
+    if (!met && leads_far(pace * h, from.thin)) {
       if (!std::exchange(has_slopes, true)) {
         at.stepped.derivative(step.previous_time(), step.previous_state(), rate_.data());
         at.stepped.derivative(step.time(), step.state(), end_rate_.data());
