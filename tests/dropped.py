@@ -20,6 +20,7 @@ METHODS = (
     "ida",
 )  # fmt: skip
 ROUGH = ("cvode-bdf", "ida")
+BY_NEWTON = (*ROUGH, "ark-dirk")  # whose stages are solved to a share of the tolerance
 AT_END = 2e-6  # of a step: a touch so near to its end is at it
 
 
@@ -52,7 +53,7 @@ class Drop:
                 f"steps over {self.thick:.3g} m at t = {self.met.time:.6g} s, with {self.met.speed:.4g} m/s"
             )
         late, fast = hits[0].time - self.met.time, hits[0].speed - self.met.speed
-        off = 1e-5 + (2e3 if self.how["integrator"] in ROUGH else 100.0) * self.how["rtol"]  # m
+        off = 1e-5 + (2e3 if self.how["integrator"] in BY_NEWTON else 100.0) * self.how["rtol"]  # m
         round_edge = min(0.05, 0.5 * self.thick)
         at_end = AT_END * self.met.time * self.met.speed
         if abs(late) * self.met.speed > off + at_end or abs(fast) > off * (1.0 + 30.0 / round_edge):

@@ -15,7 +15,6 @@ from stability_atlas.axis import Axis
 WATER, SIDE, GRAVITY = 1025.0, 2.0, 9.80665  # kg/m3, m, m/s2
 PLATE = 4.0  # m
 TANK_AREA, TANK_HEIGHT = 4.0, 4.0  # m2, m
-MESH = 1e-9  # of a compartment: neither quite empty nor quite full
 
 
 def _box(ratio: float, height: float = 0.0, speed: float = 0.0) -> Scene:
@@ -153,7 +152,7 @@ AXES = (
     Axis(name="water-added-mass", title="A plate in water, its mass", label="over its added mass",
          values=(1e-3, 0.01, 0.1, 1.0, 10.0, 1e3), quick=(1e-3, 1.0, 1e3), case=_added_mass),
     Axis(name="water-filled", title="A vented tank, its filling", label="share of its volume",
-         values=(0.0, MESH, 0.3, 1.0 - MESH, 1.0), quick=(0.0, 0.3, 1.0), case=_filled),
+         values=(0.0, 1e-9, 0.3, 0.9999, 1.0), quick=(0.0, 0.3, 1.0), case=_filled),
     Axis(name="water-shut", title="A tank whose air is shut in, its filling", label="share of its volume",
          values=(0.0, 0.01, 0.5, 0.9, 0.99, 1.0), quick=(0.0, 0.5, 0.99), case=_shut),
     Axis(name="water-vent", title="A tank a third full, its vent", label="area [m2]",
