@@ -13,7 +13,7 @@ import seacrane
 from seacrane import Scene, SceneError, needs, report, required, shipped_database, simulate
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import changed
-from seacrane.hydro import DriftCoefficients
+from seacrane.hydro import DriftCoefficients, two_barges
 from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
 from seacrane.needs.least import least_of
 from seacrane.water import BoxPart
@@ -92,6 +92,32 @@ def drifting(*, drift: bool = True) -> Scene:
     return scene
 
 
+def heavy(segments: int = 4, **more: Any) -> Scene:
+    """A load on a wire with mass in water, off a winch."""
+    wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
+    scene = Scene(name="heavy")
+    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), length=50.0, EA=6e7, rung="with mass", mass_per_length=20.0,
+                    wire=wire, winch={"lag": 0.2})  # fmt: skip
+    return scene
+
+
+def barges(lid: float | None = 0.03) -> Scene:
+    scene = Scene(name="barges")
+    for vessel in scene.add_vessels(two_barges(lid_damping=lid)):
+        scene.add_sea(
+            vessel=vessel.name, **({} if scene.waves else {"hs": 1.0, "tp": 8.0, "direction_deg": 150.0})
+        )
+    return scene
+
+
+def beside_a_given_ship() -> Scene:
+    """A box in the waves beside a ship led by them: the ship's motion does not need the sea."""
+    scene = wet()
+    scene.add_given_vessel("rest", name="ship", position=(60.0, 0.0, 0.0))
+    return scene
+
+
 def executed(choice: Choice, scene: Scene) -> Scene:
     held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
     exec(choice.script, held)
@@ -141,7 +167,13 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
     assert abs(found.least.changes["peak"]) <= found.limits["peak"]
 
 
-@pytest.mark.parametrize("described", [pendulum, slung, wet, on_deck, on_oil, drifting, seacrane.cases.case2])
+@pytest.mark.parametrize(
+    "described",
+    [
+        pendulum, slung, wet, on_deck, on_oil, drifting, heavy, beside_a_given_ship, seacrane.cases.case2,
+        pytest.param(barges, marks=pytest.mark.slow("fits memories")),
+    ],
+)  # fmt: skip
 def test_a_script_makes_what_is_measured(described: Any) -> None:
     scene = described()
     tried = [*choices_of(scene), *missing_from(scene)]
@@ -167,6 +199,23 @@ def test_what_does_not_run_is_a_row_with_its_reason() -> None:
     row = found.row("line hoist quasi-static")
     assert not row.stable and "its winch has no lag" in row.message
     assert f"not tried: line hoist quasi-static: {row.message}" in str(found)
+
+
+def test_a_number_that_goes_with_a_part_is_a_row_with_its_reason() -> None:
+    keep = {"pull": "line_tension[wire].max"}
+    found = required(beside_a_given_ship(), keep=keep, t_end=2.0, repeats=1)
+    row = found.row("line wire rigid")
+    assert not row.stable and "'pull' is gone: no channel 'line_tension'" in row.message
+    assert found.row("parts in water in one piece each").stable
+
+
+def test_the_hook_load_of_a_line_with_mass_is_that_of_its_end_in_any_number_of_segments() -> None:
+    found = required(heavy(8), t_end=2.0, repeats=1, start="rest", dt=0.001, integrator="rk4")
+    told = {row.name: row for row in found.rows}
+    half, one = (told[f"line hoist in {count} of 8 segments"] for count in (4, 1))
+    name = "hook load of hoist, N"
+    assert half.stable and one.stable and half.evaluations == pytest.approx(1.0, abs=0.05)
+    assert abs(half.changes[name]) < 0.01 * found.full[name]
 
 
 def test_oil_that_holds_is_as_good_as_a_driver() -> None:
@@ -212,6 +261,56 @@ def test_one_piece_has_the_water_of_its_strips() -> None:
     np.testing.assert_allclose(whole.drag, 3.0 * np.asarray(strips[0].drag))
     np.testing.assert_allclose(whole.added_masses, 3.0 * np.asarray(strips[0].added_masses))
     np.testing.assert_allclose(whole.point, (0.0, 0.0, 0.0), atol=1e-12)
+
+
+@pytest.mark.parametrize("segments", [1, 2, 7])
+@pytest.mark.parametrize("around", [{}, {"medium": "air", "diameter": 0.0}, {"drag_coefficient_along": 0.02}])
+def test_a_line_in_other_segments_is_as_described_with_them(segments: int, around: dict[str, Any]) -> None:
+    found, described = needs.with_segments(heavy(**around), "hoist", segments), heavy(segments, **around)
+    assert {*found.loads, *found.bodies, *found.joints} == {
+        *described.loads,
+        *described.bodies,
+        *described.joints,
+    }
+    run, right = (simulate(scene, 1.0)["hook_load"] for scene in (found, described))
+    np.testing.assert_allclose(run, right, rtol=1e-12)
+
+
+def test_a_line_that_is_held_between_its_ends_keeps_its_segments() -> None:
+    scene = heavy()
+    scene.add_spring("stay", first="ground", second="hoist.2", stiffness=1.0, damping=0.0, natural_length=1.0)
+    assert not any("segments" in choice.name for choice in choices_of(scene))
+    with pytest.raises(SceneError, match="stay"):
+        needs.with_segments(scene, "hoist", 2)
+    with pytest.raises(SceneError, match="no line with mass"):
+        needs.with_segments(slung(), "hoist", 2)
+
+
+def test_waves_on_parts_beside_a_given_ship_may_be_fewer() -> None:
+    scene = beside_a_given_ship()
+    fewer = [choice.made(scene) for choice in choices_of(scene) if choice.of == "wave components"]
+    assert len(fewer) == 2
+    for one in fewer:
+        assert one.waves is not None and scene.waves is not None
+        kept = np.isin(scene.waves.omega, one.waves.omega)
+        speed = np.asarray(scene.waves.omega) * np.abs(scene.waves.amplitude)
+        assert speed[kept].min() >= speed[~kept].max()
+
+
+@pytest.mark.slow("fits memories")
+@pytest.mark.filterwarnings("ignore::seacrane.RelativePlaceWarning", "ignore::seacrane.MemoryFitWarning")
+def test_hulls_that_do_not_feel_each_other_need_no_group() -> None:
+    alone = barges(lid=None)
+    (choice,) = [one for one in choices_of(alone) if one.of.startswith("coupling")]
+    made = choice.made(alone)
+    assert not made.groups and all(len(vessel.memory) for vessel in made.vessels.values())
+    run, right = (simulate(scene, 60.0)["position"] for scene in (made, alone))
+    assert np.abs(run - right).max() < 0.02 * np.ptp(right, axis=0).max()
+    near = barges()
+    near_run, without = (
+        simulate(scene, 60.0)["position"] for scene in (near, needs.uncoupled(near, "two barges"))
+    )
+    assert np.abs(near_run - without).max() > 0.05
 
 
 def loss(name: str, of: str, share: float, change: float) -> Loss:

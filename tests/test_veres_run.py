@@ -60,6 +60,7 @@ def fitted_rao(database: HydroDatabase) -> Complex:
 
 
 @pytest.mark.warns("InfiniteFrequencyWarning")
+@pytest.mark.slow("other runs in waves keep theirs by day")
 def test_irregular_run_keeps_its_books(shared: Path) -> None:
     run = simulate(cases.vessel(database=shared / "veres" / "supply"))
     assert run.time[-1] == 100.0

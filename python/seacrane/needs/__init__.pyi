@@ -7,6 +7,8 @@ from seacrane.needs.choice import Choice as Choice
 from seacrane.needs.registry import choices_of as choices_of
 from seacrane.needs.registry import missing_from as missing_from
 from seacrane.needs.water_parts import in_one_piece as in_one_piece
+from seacrane.needs.sea import uncoupled as uncoupled
+from seacrane.scene.line_segments import with_segments as with_segments
 from seacrane.trading.simpler_scenes import strongest as strongest
 from seacrane.trading.simpler_scenes import with_memory as with_memory
 from seacrane.trading.simpler_scenes import locked as locked

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from seacrane.description.channels import unit_of
@@ -16,16 +17,26 @@ from seacrane.scene.scene import Scene
 Ask = Callable[[Any], float]
 
 
-def usual(scene: Scene) -> dict[str, str]:
+def usual(scene: Scene) -> dict[str, Any]:
     """The peak of each hook load, the heave of each load and the roll of a vessel."""
-    out = {}
+    out: dict[str, Any] = {}
     for hung in hung_loads(scene):
-        name = f"hook_load[{hung.suspension.channel}].max"
-        out[name] = name
+        one = hung.suspension
+        if one.channel == one.name:
+            out[f"hook_load[{one.name}].max"] = f"hook_load[{one.name}].max"
+        else:
+            out[f"hook load of {one.name}, N"] = partial(_lower_end, load=hung.load)
         out[f"position[{hung.load}, z].std"] = f"position[{hung.load}, z].std"
     if len(scene.vessels) == 1 and not given_vessels(scene):
         out["roll.std"] = "roll.std"
     return out
+
+
+def _lower_end(result: Any, load: str) -> float:
+    """The peak at the lower end of a line with mass, in however many segments."""
+    names = [hung.suspension.channel for hung in hung_loads(result.scene) if hung.load == load]
+    text = f"hook_load[{names[0]}].max"
+    return _single(text, Kept.of_text(text))(result)
 
 
 def asked(scene: Scene, keep: Mapping[str, Any] | None) -> Mapping[str, Any]:

@@ -65,7 +65,10 @@ class Bench:
         return Told(values=values, cpu_s=cpu, evaluations=evaluations)
 
     def _number(self, name: str, ask: Ask, found: Any) -> float:
-        value = float(ask(found))
+        try:
+            value = float(ask(found))
+        except KeyError as error:  # the part went with which the channel came
+            raise SceneError(f"required: {name!r} is gone: {error.args[0]}") from error
         if not np.isfinite(value):
             raise SceneError(f"required: {name!r} is {value:g}; ask for a number that the scene has")
         return value

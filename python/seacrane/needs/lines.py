@@ -12,7 +12,9 @@ from seacrane.description.loads import bodies_of, lines_of, whole_of
 from seacrane.description.places import place_of
 from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, with_rungs
 from seacrane.description.suspension import Suspension, hung_loads
+from seacrane.errors import SceneError
 from seacrane.needs.choice import Choice
+from seacrane.scene.line_segments import segments_of, with_segments
 from seacrane.scene.scene import Scene
 
 
@@ -71,6 +73,27 @@ def elastic(scene: Scene) -> Iterator[Choice]:
                 made=partial(_on_rung, names=names, rung=ELASTIC),
                 of=of,
             )
+
+
+def fewer_segments(scene: Scene) -> Iterator[Choice]:
+    """A line with mass in half its segments, and in one; none that something else holds at its masses."""
+    for name in dict.fromkeys(whole_of(own, line) for own, line in lines_of(scene.loads).items()):
+        count = len(segments_of(scene, name))
+        for fewer in sorted({max(count // 2, 1), 1} - {count}, reverse=True):
+            try:
+                with_segments(scene, name, fewer)
+            except SceneError:
+                continue
+            yield Choice(
+                name=f"line {name} in {fewer} of {count} segments",
+                script=f'scene = needs.with_segments(scene, "{name}", {fewer})',
+                made=partial(_in_segments, name=name, segments=fewer),
+                of=f"segments of line {name}",
+            )
+
+
+def _in_segments(scene: Scene, *, name: str, segments: int) -> Scene:
+    return with_segments(scene, name, segments) if segments_of(scene, name) else scene
 
 
 def _between(scene: Scene, block: str, load: str) -> list[str]:

@@ -7,8 +7,16 @@ from collections.abc import Callable, Iterator
 from seacrane.needs.choice import Choice
 from seacrane.needs.contacts import no_contact, welded_contact
 from seacrane.needs.drives import held_crane, held_oil
-from seacrane.needs.lines import elastic, quasi_static, rigid, stiff_slings
-from seacrane.needs.sea import coarse_table, fewer_waves, less_memory, more_drift, more_memory, no_drift
+from seacrane.needs.lines import elastic, fewer_segments, quasi_static, rigid, stiff_slings
+from seacrane.needs.sea import (
+    coarse_table,
+    fewer_waves,
+    less_memory,
+    more_drift,
+    more_memory,
+    no_coupling,
+    no_drift,
+)
 from seacrane.needs.small_damping import more_pendulum_damping, no_air_drag, no_pendulum_damping, no_wind
 from seacrane.needs.water_parts import no_strips, no_waves_on_parts, scatter, waves_on_parts
 from seacrane.scene.scene import Scene
@@ -18,9 +26,11 @@ SIMPLER: tuple[Tried, ...] = (
     stiff_slings,
     quasi_static,
     rigid,
+    fewer_segments,
     fewer_waves,
     coarse_table,
     less_memory,
+    no_coupling,
     no_drift,
     no_air_drag,
     no_wind,

@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane.description.databases import source_of
 from seacrane.description.given import given_vessels
+from seacrane.description.wet_parts import immersed_parts
 from seacrane.hydro import HydroDatabase
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
@@ -24,7 +25,7 @@ LOOSER = 0.05  # limit of a memory by motion
 def fewer_waves(scene: Scene) -> Iterator[Choice]:
     """The strongest components alone."""
     waves = scene.waves
-    if waves is None or given_vessels(scene) or not waves.hulls:
+    if waves is None or not (waves.hulls or immersed_parts(scene)):
         return
     for share in SHARES:
         count = int(np.ceil(share * len(waves.omega)))
@@ -113,6 +114,29 @@ def more_memory(scene: Scene) -> Iterator[Choice]:
     """A fluid memory where the scene has none."""
     if _one_vessel(scene) and memory_name(scene) == "none" and _known(scene):
         yield _memory("by-motion")
+
+
+def no_coupling(scene: Scene) -> Iterator[Choice]:
+    """Vessels of a group that do not feel each other's motions, each with a memory of its own."""
+    for name, group in scene.groups.items():
+        yield Choice(
+            name=f"no coupling of {' and '.join(group.vessels)}",
+            script=f'scene = needs.uncoupled(scene, "{name}")',
+            made=partial(uncoupled, name=name),
+            of=f"coupling of group {name}",
+        )
+
+
+def uncoupled(scene: Scene, name: str) -> Scene:
+    """The scene whose vessels of a group move as if the others stood still; waves are those beside them."""
+    if name not in scene.groups:
+        return scene
+    group = scene.groups[name]
+    out = scene.copy()
+    out.remove(name, kind="group")
+    for vessel in group.vessels if len(group.memory) else ():
+        out = with_memory(out, "by-motion", vessel=vessel)
+    return out
 
 
 def _memory(kind: str, level: float | None = None) -> Choice:

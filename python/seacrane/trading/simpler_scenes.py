@@ -126,28 +126,30 @@ def _database(scene: Scene) -> HydroDatabase | None:
     return vessel.database if isinstance(vessel.database, HydroDatabase) else None
 
 
-def with_memory(scene: Scene, kind: str, *, level: float | None = None) -> Scene:
-    """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit.
+def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: str | None = None) -> Scene:
+    """The scene with another fluid memory of one vessel; the added mass is that of the memory's fit.
 
     Parameters
     ----------
     level : float, optional
         R2 or limit asked of a fit; default: the database's own memory where it has one of that kind.
+    vessel : str, optional
+        Default: the only one.
     """
-    (vessel,) = scene.vessels.values()
+    own = next(iter(scene.vessels.values())) if vessel is None else scene.vessels[vessel]
     changes: dict[str, Any] = {"memory": []}
-    database = _database(scene)
-    if database is not None:
+    if isinstance(own.database, HydroDatabase):
+        database = own.database
         if level is not None:
             database = replace(database, memory=_fit(database, kind, level))
         fresh = Scene(name="memory", gravity=scene.gravity)
-        fresh.add_vessel(database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
+        fresh.add_vessel(database, name=own.body, memory=kind, kinematics=own.kinematics)
         (fitted,) = fresh.vessels.values()
         changes = {"memory": fitted.memory, "added_mass": fitted.added_mass}
     out = scene.copy()
-    out.replace(vessel.name, kind="vessel", **changes)
-    known = scene.provenance.get(vessel.name, VesselProvenance())
-    out.provenance[vessel.name] = replace(known, memory=kind)
+    out.replace(own.name, kind="vessel", **changes)
+    known = scene.provenance.get(own.name, VesselProvenance())
+    out.provenance[own.name] = replace(known, memory=kind)
     return out
 
 
@@ -175,8 +177,12 @@ def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable
 
 
 def strongest(waves: Any, count: int) -> Any:
-    """The sea of the components with the largest load on any motion, relative to that motion's largest."""
-    transfer = np.hstack([np.asarray(hull.transfer) for hull in waves.hulls.values()])
+    """The sea of the components with the largest load on any motion, relative to that motion's largest.
+
+    Where no hull floats in it, those with the largest velocity of the water.
+    """
+    tables = [np.asarray(hull.transfer) for hull in waves.hulls.values()]
+    transfer = np.hstack(tables) if tables else np.asarray(waves.omega)[:, None]
     load = np.abs(transfer) * np.abs(waves.amplitude)[:, None]
     largest = load.max(axis=0)
     share = (load / np.where(largest > 0.0, largest, 1.0)).max(axis=1)
