@@ -10,7 +10,17 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Scene, SceneError, needs, report, required, shipped_database, simulate
+from seacrane import (
+    Scene,
+    SceneError,
+    State,
+    equilibrium,
+    needs,
+    report,
+    required,
+    shipped_database,
+    simulate,
+)
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import changed
 from seacrane.hydro import DriftCoefficients, two_barges
@@ -207,6 +217,19 @@ def test_a_number_that_goes_with_a_part_is_a_row_with_its_reason() -> None:
     row = found.row("line wire rigid")
     assert not row.stable and "'pull' is gone: no channel 'line_tension'" in row.message
     assert found.row("parts in water in one piece each").stable
+
+
+def test_a_start_that_is_a_function_is_that_of_each_scene() -> None:
+    def start(scene: Scene) -> State:
+        return equilibrium(scene)
+
+    scene = on_oil()
+    keep = {"peak": "hook_load[hoist].max"}
+    given = {"keep": keep, "t_end": 1.0, "repeats": 1}
+    (held,) = [choice for choice in choices_of(scene) if choice.of == "drives"]
+    rows = [required(scene, choices=[held], start=one, **given).rows[0] for one in (start, start(scene))]
+    assert rows[0].stable and not rows[1].stable
+    assert "state: is that of another scene" in rows[1].message
 
 
 def test_the_hook_load_of_a_line_with_mass_is_that_of_its_end_in_any_number_of_segments() -> None:

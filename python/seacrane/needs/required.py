@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+from seacrane._core import State
 from seacrane.description.description import Description
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import positive_of
@@ -41,7 +42,7 @@ def required(
     t_end: float = 100.0,
     *,
     stages: Sequence[Stage] = (),
-    start: Start = None,
+    start: Start | Callable[[Scene], State] = None,
     method: Method | None = None,
     outputs: Outputs | None = None,
     keep: Mapping[str, Any] | None = None,
@@ -65,7 +66,8 @@ def required(
     ----------
     scene : Scene
     t_end, stages, start, method, outputs, **shorthand
-        As of `simulate`, or with stages of `simulate_stages`.
+        As of `simulate`, or with stages of `simulate_stages`. `start` may be a function of the scene, as of
+        `ensemble`: what leaves states out does not run from the state of the scene as it stands.
     keep : mapping, optional
         Single numbers of a run by name, as of `ensemble`: ``{"peak": "hook_load.max"}``, or functions of the
         result. Default: the largest hook load, the scatter of each load's height, and of roll.
@@ -134,13 +136,14 @@ class _Runs:
 
     t_end: float
     stages: tuple[Stage, ...]
-    start: Start
+    start: Start | Callable[[Scene], State]
     outputs: Outputs
 
     def __call__(self, scene: Scene, *, method: Method) -> Any:
+        start = self.start(scene) if callable(self.start) else self.start
         if self.stages:
-            return simulate_stages(scene, self.stages, start=self.start, method=method, outputs=self.outputs)
-        return simulate(scene, self.t_end, start=self.start, method=method, outputs=self.outputs)
+            return simulate_stages(scene, self.stages, start=start, method=method, outputs=self.outputs)
+        return simulate(scene, self.t_end, start=start, method=method, outputs=self.outputs)
 
 
 def _limits(within: float | Mapping[str, float], values: Mapping[str, float]) -> dict[str, float]:
