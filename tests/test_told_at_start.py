@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import inspect
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 import pytest
 
+import seacrane
 from seacrane import (
     Criterion,
     Result,
@@ -259,3 +261,34 @@ def test_a_cell_that_is_run_twice_is_told_so() -> None:
         scene.add_hoist(**hoist)  # type: ignore[arg-type]
     with pytest.raises(SceneError, match=r"the name is used twice: .*run twice"):
         scene.add_body("load", mass=1.0, size=(1, 1, 1))
+
+
+def taking_a_scene() -> list[Any]:
+    """What of the public face takes a scene first."""
+    found = [getattr(seacrane, name) for name in sorted(seacrane.__all__)]
+    return [one for one in found if callable(one) and next(iter(parameters(one)), None) == "scene"]
+
+
+def parameters(function: Any) -> Mapping[str, inspect.Parameter]:
+    try:
+        return inspect.signature(function).parameters
+    except ValueError:  # of the core
+        return {}
+
+
+@pytest.mark.parametrize("function", taking_a_scene(), ids=lambda one: one.__name__)
+@pytest.mark.parametrize("given", [3, None, Scene(name="a").copy], ids=["number", "none", "method"])
+def test_what_is_no_scene_is_refused_by_name(function: Any, given: Any) -> None:
+    needed = [
+        name for name, one in parameters(function).items() if one.default is one.empty and name != "scene"
+    ]
+    others = {
+        name: 1.0 for name in needed if parameters(function)[name].kind is not inspect.Parameter.VAR_KEYWORD
+    }
+    fix = "call it" if callable(given) else "give a Scene"
+    with pytest.raises(SceneError, match=f"{function.__name__}: scene is .*; {fix}"):
+        function(given, **others)
+
+
+def test_there_are_functions_of_a_scene() -> None:
+    assert len(taking_a_scene()) > 12

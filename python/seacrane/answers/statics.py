@@ -22,7 +22,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
-from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.tabular import Tabular
@@ -205,8 +204,6 @@ def statics(
     LargeHeelWarning
         Where a vessel heels or trims by more than 20 deg, beyond which restoring is not linear.
     """
-    if not isinstance(scene, Description):
-        raise SceneError(f"statics: scene is {shown(scene)}; give a Scene")
     axes, roles = _axes(slew, radius, coordinates), None
     if axes:
         roles = crane_of(scene, crane)

@@ -9,11 +9,14 @@ from functools import wraps
 from types import FunctionType
 from typing import Any, TypeVar
 
-from seacrane.errors import KeywordError
+from seacrane.errors import KeywordError, SceneError
 from seacrane.inputs.shown import shown
 
 Callee = TypeVar("Callee", bound=Callable[..., Any])
 SETTINGS = "shorthand"  # what a call hands on, word by word
+MODEL = "LinearModel"  # which some functions take in its place
+# as what a function takes for its scene
+SCENES = ("Scene", "Description", "Some", f"Scene | {MODEL}", f"Description | {MODEL}")
 ALIKE = 0.6  # of two names, as difflib counts
 KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 BY_PLACE = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -44,9 +47,15 @@ def _of_class(member: Any, name: str) -> Any:
 
 
 def _named(function: Any, name: str, owners: int) -> Any:
+    kind = str(getattr(function, "__annotations__", {}).get("scene"))
+    first = list(inspect.signature(function).parameters)[owners : owners + 1] if kind in SCENES else []
+    of_scene = first == ["scene"]
+
     @wraps(function)
     def called(*args: Any, **given: Any) -> Any:
         text: str | None
+        if of_scene and (len(args) > owners or "scene" in given):
+            _require_scene(name, given["scene"] if "scene" in given else args[owners], kind)
         known: tuple[str, ...] = ()
         try:
             return function(*args, **given)
@@ -66,6 +75,14 @@ def _named(function: Any, name: str, owners: int) -> Any:
         raise told
 
     return called
+
+
+def _require_scene(name: str, value: Any, kind: str) -> None:
+    """Refuse what is no scene; a description is known by what it holds, since it stands above this module."""
+    known = all(hasattr(value, key) for key in ("bodies", "joints", "loads"))
+    if not known and not (MODEL in kind and type(value).__name__ == MODEL):
+        fix = "call it, with ()" if callable(value) else "give a Scene, such as seacrane.cases.case2()"
+        raise SceneError(f"{name}: scene is {shown(value)}; {fix}")
 
 
 def _misfit(

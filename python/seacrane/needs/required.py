@@ -12,11 +12,9 @@ from functools import partial
 from typing import Any
 
 from seacrane._core import State
-from seacrane.description.description import Description
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
-from seacrane.inputs.shown import shown
 from seacrane.needs.answer import FAILED, Loss, Requirements
 from seacrane.needs.asked import asked, asked_of
 from seacrane.needs.bench import Bench, Told, reason
@@ -93,8 +91,6 @@ def required(
     SceneError
         For what is asked and is no single number, limits that are none, and a scene that does not run.
     """
-    if not isinstance(scene, Description):
-        raise SceneError(f"required: scene is {shown(scene)}; give a Scene, such as seacrane.cases.case2()")
     asks, units = asked_of(asked(scene, keep))
     method, outputs = settled(method, outputs, shorthand)
     begun = time.process_time()

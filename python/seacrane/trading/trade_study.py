@@ -12,12 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seacrane.accuracy.quantities import Quantity, quantities_of
-from seacrane.description.description import Description
 from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
-from seacrane.inputs.shown import shown
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
@@ -105,8 +103,6 @@ def trade(
         For an unknown quantity, or a scene of which no two tight runs work.
     """
     _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
-    if not isinstance(scene, Description):
-        raise SceneError(f"trade: scene is {shown(scene)}; give a Scene, such as seacrane.cases.case2()")
     runs = math.inf if budget is None else positive_of("budget", budget, "runs of the default setting")
     case = Case(
         scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out, stages=tuple(stages), start=start
