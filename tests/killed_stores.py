@@ -21,7 +21,6 @@ from typing import Any
 
 import netCDF4  # noqa: F401 (what attempts import would take most of their time)
 import xarray
-import zarr  # noqa: F401
 from ensemble_studies import KEEP, fails_in_the_middle, lowest, storm
 
 from seacrane import Kept, ensemble
@@ -46,9 +45,7 @@ STORMS: dict[str, Any] = {
 }
 KINDS: dict[str, tuple[str, dict[str, Any]]] = {
     "netcdf": ("store", STARTS),
-    "zarr": ("store.zarr", STARTS),
     "netcdf until": ("store", STORMS),
-    "zarr until": ("store.zarr", STORMS),
 }
 OPERATIONS = {"open", "os.mkdir", "os.rename", "os.remove", "os.link", "os.truncate"}
 DONE, KILLED = 0, -signal.SIGKILL

@@ -25,8 +25,6 @@ from seacrane.inputs.drafts import draft_of
 from seacrane.lift.study_run import run_study
 from seacrane.warnings import LostMembersWarning
 
-zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
-
 GIVEN: dict[str, Any] = {
     "source": pendulum,
     "over": {"start": [1.0, 2.0, 3.0]},
@@ -43,24 +41,17 @@ def whole() -> Ensemble:
 @pytest.fixture(scope="module")
 def stores(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("stores")
-    for name in ("a", "a.zarr"):
-        ensemble(**GIVEN, store=folder / name)
+    ensemble(**GIVEN, store=folder / "a")
     return folder
 
 
 @pytest.fixture
-def store(stores: Path, tmp_path: Path, request: pytest.FixtureRequest) -> Path:
-    return Path(shutil.copytree(stores / request.param, tmp_path / request.param))
+def store(stores: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(stores / "a", tmp_path / "a"))
 
 
 def torn(path: Path) -> None:
     path.write_bytes(path.read_bytes()[:-3])
-
-
-def changed(path: Path) -> None:
-    data = bytearray(path.read_bytes())
-    data[-1] ^= 255
-    path.write_bytes(data)
 
 
 def piped(path: Path) -> None:
@@ -68,71 +59,29 @@ def piped(path: Path) -> None:
     os.mkfifo(path)
 
 
-def linked(path: Path) -> None:
-    path.rename(path.with_suffix(".away"))
-    path.symlink_to(path.with_suffix(".away"))
-
-
 def brackets(path: Path) -> None:
     path.write_bytes(b"[" * 100_000)
 
 
-def another_codec(path: Path) -> None:
-    data = json.loads(path.read_text())
-    data["codecs"][-1] = {"name": "gzip", "configuration": {"level": 5}}
-    path.write_text(json.dumps(data))
-
-
-def no_codec(path: Path) -> None:
-    path.write_text(path.read_text().replace('"vlen-utf8"', '"foreign"'))
-
-
-def giant(path: Path) -> None:
-    data = json.loads(path.read_text())
-    data["shape"] = [10**12, *data["shape"][1:]]
-    path.write_text(json.dumps(data))
-
-
-PACK, CHUNK = "pack_0000001.nc", "lowest/c/1"
-MARK = "seacrane-study/pack_0000001.json"
-LOST: dict[str, tuple[str, str, Callable[[Path], None], str]] = {
-    "a missing chunk": ("a.zarr", CHUNK, Path.unlink, "members 1 to 1 .*lowest/c/1 is missing"),
-    "a missing chunk of a series": ("a.zarr", "track/c/1/0/0", Path.unlink, "track/c/1/0/0 is missing"),
-    "a missing word of no failure": ("a.zarr", "failure/c/1", Path.unlink, "failure/c/1 is missing"),
-    "a torn chunk": ("a.zarr", CHUNK, torn, "lowest/c/1 has \\d+ bytes for"),
-    "a changed chunk": ("a.zarr", CHUNK, changed, "lowest/c/1 has other contents than were written"),
-    "an empty chunk": ("a.zarr", CHUNK, lambda path: path.write_bytes(b""), "has 0 bytes for"),
-    "a torn mark": ("a.zarr", MARK, torn, "truncated or malformed JSON"),
-    "a mark of brackets": ("a.zarr", MARK, brackets, "nested too deeply|of memory, far above"),
-    "a mark of other members": (
-        "a.zarr", MARK, lambda path: path.write_text('{"members": [2], "chunks": {}}'), "is of other members",
-    ),
-    "a missing description": ("a.zarr", "lowest/zarr.json", Path.unlink, "all 3 packs are run again"),
-    "a torn description": ("a.zarr", "track/zarr.json", torn, "all 3 packs are run again"),
-    "the root's": ("a.zarr", "zarr.json", torn, "all 3 packs are run again"),
-    "the study's": ("a.zarr", "seacrane-study/zarr.json", brackets, "all 3 packs are run again"),
-    "a foreign codec": ("a.zarr", "lowest/zarr.json", another_codec, "is packed by gzip"),
-    "a codec that nobody has": ("a.zarr", "failure/zarr.json", no_codec, "all 3 packs are run again"),
-    "a giant array": ("a.zarr", "lowest/zarr.json", giant, "has shape"),
-    "a torn pack": ("a", PACK, torn, r"members 1 to 1 .*pack_0000001\.nc: is no pack"),
-    "a pack of nothing": ("a", PACK, lambda path: path.write_bytes(b""), "is no pack"),
+PACK = "pack_0000001.nc"
+LOST: dict[str, tuple[str, Callable[[Path], None], str]] = {
+    "a torn pack": (PACK, torn, r"members 1 to 1 .*pack_0000001\.nc: is no pack"),
+    "a pack of nothing": (PACK, lambda path: path.write_bytes(b""), "is no pack"),
     "a pack of other members": (
-        "a", PACK, lambda path: path.write_bytes(path.with_name("pack_0000002.nc").read_bytes()),
+        PACK, lambda path: path.write_bytes(path.with_name("pack_0000002.nc").read_bytes()),
         "holds other members",
     ),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("store", "place", "harm", "told"), LOST.values(), ids=[*LOST], indirect=["store"])
+@pytest.mark.parametrize(("place", "harm", "told"), LOST.values(), ids=[*LOST])
 def test_what_is_lost_is_told_and_run_again(
     store: Path, place: str, harm: Callable[[Path], None], told: str, whole: Ensemble
 ) -> None:
     harm(store / place)
     with contextlib.suppress(FileFormatError):
-        found = Ensemble.load(store)
-        assert list(found.failures) in ([1], []), "a changed chunk of the same size is found as it is resumed"
-        if found.failures:
-            assert place in found.failures[1] or found.failures[1] == "not run"
+        lowest = Ensemble.load(store).dataset.lowest.to_numpy()
+        assert np.isnan(lowest).tolist() == [False, True, False]
     with pytest.warns(LostMembersWarning, match=told):
         again = ensemble(**GIVEN, store=store)
     assert again.dataset.identical(whole.dataset)
@@ -140,40 +89,6 @@ def test_what_is_lost_is_told_and_run_again(
     assert Ensemble.load(store).dataset.identical(whole.dataset)
 
 
-@pytest.mark.parametrize("store", ["a.zarr"], indirect=True)
-def test_a_lost_chunk_is_a_failure_of_its_member(store: Path) -> None:
-    (store / CHUNK).unlink()
-    found = Ensemble.load(store)
-    assert list(found.failures) == [1]
-    assert found.failures[1].startswith("lost: ") and "run the ensemble again" in found.failures[1]
-    assert np.isnan(found.dataset.lowest.to_numpy()).tolist() == [False, True, False]
-
-
-@pytest.mark.parametrize("store", ["a.zarr"], indirect=True)
-@pytest.mark.parametrize(
-    ("place", "harm"),
-    [
-        (CHUNK, torn),
-        ("failure/c/1", torn),
-        ("lowest/zarr.json", another_codec),
-        ("failure/zarr.json", no_codec),
-        ("lowest/zarr.json", giant),
-        ("track/zarr.json", brackets),
-        ("zarr.json", torn),
-        (MARK, brackets),
-        (CHUNK, piped),
-        (CHUNK, linked),
-        ("lowest/zarr.json", piped),
-        (MARK, piped),
-    ],
-)  # fmt: skip
-def test_a_damaged_group_is_refused_by_name(store: Path, place: str, harm: Callable[[Path], None]) -> None:
-    harm(store / place)
-    with pytest.raises(FileFormatError, match=r"a\.zarr"):
-        Ensemble.load(store)
-
-
-@pytest.mark.parametrize("store", ["a"], indirect=True)
 @pytest.mark.parametrize("harm", [torn, piped, brackets])
 def test_a_damaged_pack_is_refused_by_name(store: Path, harm: Callable[[Path], None]) -> None:
     """A pipe in its place, which to open would take for ever."""
@@ -204,7 +119,6 @@ STUDIES = {
 
 
 @pytest.mark.parametrize("text", STUDIES.values(), ids=[*STUDIES])
-@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
 def test_a_study_that_is_none_is_refused(store: Path, text: bytes) -> None:
     (next(store.rglob("study.json"))).write_bytes(text)
     with pytest.raises(FileFormatError, match="study"):
@@ -213,7 +127,6 @@ def test_a_study_that_is_none_is_refused(store: Path, text: bytes) -> None:
         ensemble(**GIVEN, store=store)
 
 
-@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
 def test_a_study_that_is_a_pipe_is_refused(store: Path) -> None:
     piped(next(store.rglob("study.json")))
     with pytest.raises(FileFormatError, match=r"has no study\.json"):
@@ -222,7 +135,6 @@ def test_a_study_that_is_a_pipe_is_refused(store: Path) -> None:
         ensemble(**GIVEN, store=store)
 
 
-@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
 def test_a_pack_of_a_giant_number_is_refused(store: Path) -> None:
     pack = next(store.rglob("pack_0000001.*"))
     pack.rename(pack.with_name(f"pack_9999999{pack.suffix}"))
@@ -230,7 +142,6 @@ def test_a_pack_of_a_giant_number_is_refused(store: Path) -> None:
         Ensemble.load(store)
 
 
-@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
 def test_a_store_of_another_version_is_refused_with_both(store: Path) -> None:
     path = next(store.rglob("study.json"))
     data = json.loads(path.read_text())
@@ -241,13 +152,11 @@ def test_a_store_of_another_version_is_refused_with_both(store: Path) -> None:
                 call()
 
 
-@pytest.mark.parametrize("name", ["a", "a.zarr", "a.zarr/seacrane-study"])
-def test_a_store_that_was_killed_as_it_was_made_goes_on(name: str, tmp_path: Path, whole: Ensemble) -> None:
-    folder = tmp_path / name
-    folder.mkdir(parents=True)
-    left = draft_of(folder / "study.json")
+def test_a_store_that_was_killed_as_it_was_made_goes_on(tmp_path: Path, whole: Ensemble) -> None:
+    store = tmp_path / "a"
+    store.mkdir()
+    left = draft_of(store / "study.json")
     left.write_text('{"ver')
-    store = tmp_path / name.partition("/")[0]
     assert ensemble(**GIVEN, store=store).dataset.identical(whole.dataset)
     assert not left.exists()
 
@@ -304,18 +213,18 @@ def test_kills_at_hundreds_of_file_operations_are_made_good(kind: str) -> None:
     attempts(150, kind)
 
 
-@pytest.mark.parametrize("name", ["s", "s.zarr"])
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.FewSeedsWarning")
-def test_lost_members_of_a_store_that_grows_are_run_again(name: str, tmp_path: Path) -> None:
-    store = tmp_path / name
+def test_lost_members_of_a_store_that_grows_are_run_again(tmp_path: Path) -> None:
+    store = tmp_path / "s"
     plain = ensemble(**STORMS)
     ensemble(**STORMS, store=store)
-    harmed = store / "pack_0000002.nc" if name == "s" else store / "far_mean/c/5/1"
-    if name == "s":
-        torn(harmed)
-    else:
-        harmed.unlink()
+    torn(store / "pack_0000002.nc")
     with pytest.warns(LostMembersWarning, match="are lost or damaged, and are run again"):
         again = ensemble(**STORMS, store=store)
     assert again.dataset.identical(plain.dataset)
     assert again.certainty == plain.certainty
+
+
+def test_a_name_of_a_zarr_group_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"a\.zarr.*is a folder of NetCDF files; .*to_zarr"):
+        ensemble(**GIVEN, store=tmp_path / "a.zarr")

@@ -6,7 +6,7 @@ import contextlib
 import math
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -31,10 +31,9 @@ from seacrane.ensembles.packs import Packs, pack_size
 from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
-from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
+from seacrane.ensembles.study_folder import claimed, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.ensembles.variables import NOT_RUN, RESERVED
-from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import not_negative_of, number_of
@@ -148,9 +147,9 @@ class Ensemble:
         data = study_in(path)
         if not data.get("seeds_in_pack"):
             members = members_in(path, data)
-            return _ensemble(members, _store_at(path, lambda _: members).dataset(members), lanes_in(data))
+            return _ensemble(members, Folder(path).dataset(members), lanes_in(data))
         growth = growth_in(path, data)
-        store = _store_at(path, growth.holding)
+        store = Folder(path)
         members = growth.members(max(growth.batches_in(store.done()), 1))
         return _ensemble(members, store.dataset(members), lanes_in(data))
 
@@ -213,8 +212,8 @@ def ensemble(
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
     store : path, optional
-        A folder for results as they come: NetCDF, or with the suffix .zarr a Zarr group, from which the
-        dataset is read as it is asked for. A call with the same study goes on where the last one ended.
+        A folder for results as they come, in NetCDF. A call with the same study goes on where the last one
+        ended.
     until : mapping of str to float, optional
         Half widths of 95 % intervals as shares of the dynamic part, such as ``{"hook_load.mpm": 0.02}``:
         "mpm", "mean" or "p90" of a maximum or minimum that is kept, "mean" of anything else. Seeds are added
@@ -303,13 +302,11 @@ def ensemble(
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
         with _growing_store(store, study, growth) as kept:
-            kept.mend()
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
         dataset = table_of(grown.members, grown.outcomes).dataset()
         done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
     else:
         with _store(store, study, members, size) as kept:
-            kept.mend()
             packs = Packs(order=order_of(study, members), size=size)
             _run(study, members, packs, kept, executor, raises=raises, progress=progress)
             done = _ensemble(members, kept.dataset(members), study.lanes)
@@ -397,7 +394,7 @@ def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, 
         return
     data = {"identity": identity_of(study, members, size), "grid": members.grid, "axes": dict(members.axes)}
     with claimed(path, data) as folder:
-        yield _store_at(folder, lambda _: members)
+        yield Folder(folder)
 
 
 @contextlib.contextmanager
@@ -410,12 +407,7 @@ def _growing_store(path: str | os.PathLike[str] | None, study: Study, growth: Gr
     identity = {**identity_of(study, first, growth.size), "seeds in a batch": BATCH}
     data = {"identity": identity, "grid": True, "axes": dict(first.axes), "seeds_in_pack": growth.size}
     with claimed(path, data) as folder:
-        yield _store_at(folder, growth.holding)
-
-
-def _store_at(folder: Path, holding: Callable[[int], Members]) -> Store:
-    """That of a folder's name, for the members that there are once one of a number is there."""
-    return ZarrStore(folder, holding) if is_zarr(folder) else Folder(folder)
+        yield Folder(folder)
 
 
 def _run(

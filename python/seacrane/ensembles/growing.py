@@ -55,10 +55,6 @@ class Growth:
         seeds = tuple(range(self.first, self.first + batches * BATCH))
         return Members(axes={"seed": seeds, **self.others}, grid=True)
 
-    def holding(self, index: int) -> Members:
-        """The members of whole batches up to that of a member."""
-        return self.members(index // (BATCH * self.cells) + 1)
-
     def batches_in(self, packs: Iterable[int]) -> int:
         """How many batches packs of these numbers belong to."""
         return max((pack // (self._chunks * self.cells) + 1 for pack in packs), default=0)
@@ -83,7 +79,7 @@ class Growth:
     def pack(self, number: int) -> Pack:
         """The members of a pack."""
         indices = self.indices(number)
-        members = self.holding(indices[0])
+        members = self.members(indices[0] // (BATCH * self.cells) + 1)  # of whole batches up to this one
         return tuple((index, members.values(index)) for index in indices)
 
     def parameters(self, cell: int) -> dict[str, Value]:

@@ -24,9 +24,6 @@ DIGITS = 7  # of a pack's number in the name of its file
 class Store(Protocol):
     """Keeps the outcomes of packs by their number."""
 
-    def mend(self) -> None:
-        """Remove what a process that was killed left; for who is to write."""
-
     def done(self) -> set[int]:
         """Numbers of the packs that are there."""
 
@@ -51,9 +48,6 @@ class Memory:
 
     def __init__(self) -> None:
         self._packs: dict[int, list[Outcome]] = {}
-
-    def mend(self) -> None:
-        """Nothing outlives the process."""
 
     def done(self) -> set[int]:
         return set(self._packs)
@@ -81,11 +75,14 @@ class Folder:
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def mend(self) -> None:
-        """Drafts are gone: whoever has the folder for itself removes them."""
-
     def done(self) -> set[int]:
-        return numbers_of(self.path, ".nc")
+        names = (path.stem.removeprefix("pack_") for path in self.path.glob("pack_*.nc"))
+        found = {int(name) for name in names if name.isdecimal() and len(name) == DIGITS}
+        if found and max(found) >= MOST_MEMBERS:
+            raise FileFormatError(
+                f"{self.path}: has a pack {max(found)}, more than there may be members; remove it"
+            )
+        return found
 
     def lost(self, pack: int, indices: Sequence[int]) -> str:
         try:
@@ -111,15 +108,6 @@ class Folder:
 
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"
-
-
-def numbers_of(folder: Path, suffix: str) -> set[int]:
-    """Numbers of the packs whose files have a suffix."""
-    names = (path.stem.removeprefix("pack_") for path in folder.glob(f"pack_*{suffix}"))
-    found = {int(name) for name in names if name.isdecimal() and len(name) == DIGITS}
-    if found and max(found) >= MOST_MEMBERS:
-        raise FileFormatError(f"{folder}: has a pack {max(found)}, more than there may be members; remove it")
-    return found
 
 
 def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:

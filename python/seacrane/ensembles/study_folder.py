@@ -19,21 +19,9 @@ from seacrane.inputs.sole_writer import claim, opened
 from seacrane.inputs.whole_file import read_whole
 
 STUDY, LOCK = "study.json", "writer.lock"
-ZARR = ".zarr"
-IN_ZARR = "seacrane-study"  # a group of its own: a root holds arrays and groups alone
 FORMAT = "seacrane-ensemble"
-OURS = re.compile(r"study\.json|pack_\d+\.(nc|json)")
+OURS = re.compile(r"study\.json|pack_\d+\.nc")
 LARGEST_STUDY = 256 * 2**20  # bytes; a million members of a few parameters
-
-
-def is_zarr(folder: Path) -> bool:
-    """Whether a store of this name is a Zarr group."""
-    return folder.suffix == ZARR
-
-
-def records_of(folder: Path) -> Path:
-    """Where a store holds what it is, and what of it is done."""
-    return folder / IN_ZARR if is_zarr(folder) else folder
 
 
 @contextlib.contextmanager
@@ -53,22 +41,25 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
         If another process writes it.
     """
     folder = Path(path)
-    records = records_of(folder)
     if not folder.parent.is_dir():
         raise SceneError(f"store {str(folder)!r}: there is no folder {folder.parent}; create it first")
+    if folder.suffix == ".zarr":
+        raise SceneError(
+            f"store {str(folder)!r}: is a folder of NetCDF files; give another name, and export what it "
+            f"holds: Ensemble.load(folder).dataset.to_zarr({folder.name!r})"
+        )
     if folder.exists() and not folder.is_dir():
         raise SceneError(f"store {str(folder)!r} is a file; give the name of a folder")
-    if not (records / STUDY).exists() and _holds_files(folder):
+    if not (folder / STUDY).exists() and _holds_files(folder):
         raise SceneError(f"store {str(folder)!r} holds something else than an ensemble; give another folder")
-    records.mkdir(parents=True, exist_ok=True)
-    lock = opened(records / LOCK)
+    folder.mkdir(exist_ok=True)
+    lock = opened(folder / LOCK)
     try:
         if not claim(lock):
             raise FileExistsError(
                 f"store {str(folder)!r}: another process is writing it; wait, or give another"
             )
-        for place in {folder, records}:
-            remove_all(place, OURS)
+        remove_all(folder, OURS)
         _require_same(folder, study)
         yield folder
     finally:
@@ -77,7 +68,7 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
 
 def study_in(folder: Path) -> dict[str, Any]:
     """What a folder says that it is. Raises FileFormatError."""
-    path = records_of(folder) / STUDY
+    path = folder / STUDY
     if not path.is_file():
         raise FileFormatError(f"{folder}: is no ensemble, it has no {STUDY}")
     data = json_of(read_whole(path, LARGEST_STUDY, "it is no study of ours"), str(path))
@@ -94,7 +85,7 @@ def _holds_files(folder: Path) -> bool:
 def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
     whole = {"format": FORMAT, "version": FILE_VERSION, **study}
-    path = records_of(folder) / STUDY
+    path = folder / STUDY
     if not path.exists():
         with atomic_write(path, tidy=False) as draft:
             draft.write_text(json.dumps(whole), encoding="utf-8")
