@@ -357,7 +357,7 @@ def test_the_least_set_takes_one_choice_about_each_thing_and_keeps_the_sum_of_ch
     [
         ({"keep": {}}, "keep is"),
         ({"keep": {"z": "position[bob, z]"}}, "'z' is a series"),
-        ({"keep": {"z": "position.max"}}, "'z' is 3 numbers of a run"),
+        ({"keep": {"z": "position.max"}}, "'z' is 3 numbers of a run, of bob, x, y, z; ask"),
         ({"within": {"y": 1.0}, "keep": LAST}, "within has 'y', which is not asked; last are"),
     ],
 )

@@ -72,9 +72,13 @@ def asked_of(keep: Mapping[str, Any]) -> tuple[dict[str, Ask], dict[str, str]]:
 
 def _single(name: str, kept: Kept) -> Ask:
     def ask(result: Any) -> float:
-        values = kept.of(result).values
+        found = kept.of(result)
+        values = found.values
         if values.size != 1:
-            raise SceneError(f"required: {name!r} is {values.size} numbers of a run; ask for one of them")
+            names = ", ".join(str(one) for along in found.coords.values() for one in along)
+            raise SceneError(
+                f"required: {name!r} is {values.size} numbers of a run, of {names}; ask for one of them"
+            )
         return float(values.reshape(-1)[0])
 
     return ask
