@@ -122,7 +122,7 @@ def barges(lid: float | None = 0.03) -> Scene:
 
 
 def beside_a_given_ship() -> Scene:
-    """A box in the waves beside a ship led by them: the ship's motion does not need the sea."""
+    """A box in the waves beside a ship that is held at rest, which does not need the sea."""
     scene = wet()
     scene.add_given_vessel("rest", name="ship", position=(60.0, 0.0, 0.0))
     return scene

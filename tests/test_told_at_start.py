@@ -279,15 +279,13 @@ def parameters(function: Any) -> Mapping[str, inspect.Parameter]:
 @pytest.mark.parametrize("function", taking_a_scene(), ids=lambda one: one.__name__)
 @pytest.mark.parametrize("given", [3, None, Scene(name="a").copy], ids=["number", "none", "method"])
 def test_what_is_no_scene_is_refused_by_name(function: Any, given: Any) -> None:
-    needed = [
-        name for name, one in parameters(function).items() if one.default is one.empty and name != "scene"
-    ]
-    others = {
-        name: 1.0 for name in needed if parameters(function)[name].kind is not inspect.Parameter.VAR_KEYWORD
-    }
+    needed = {
+        name: 1.0 for name, one in parameters(function).items()
+        if name != "scene" and one.default is one.empty and one.kind is not one.VAR_KEYWORD
+    }  # fmt: skip
     fix = "call it" if callable(given) else "give a Scene"
     with pytest.raises(SceneError, match=f"{function.__name__}: scene is .*; {fix}"):
-        function(given, **others)
+        function(given, **needed)
 
 
 def test_there_are_functions_of_a_scene() -> None:

@@ -55,10 +55,9 @@ def required(
 
     Each choice is made simpler by itself (slings and block as one with the load, the rungs and segments of
     lines, wave components, fluid memory, coupling of vessels, damping, strips and waves of parts in water,
-    oil, controlled drives, contacts),
-    run beside the scene as it stands by turns, and told with its share of the processor time and the change
-    of the numbers that are asked. The cheapest set whose changes together stay within what is asked is then
-    run once. What the scene leaves out, and would matter, is run likewise.
+    oil, controlled drives, contacts), run beside the scene as it stands by turns, and told with its share of
+    the processor time and the change of the numbers that are asked. The cheapest set whose changes together
+    stay within what is asked is then run once. What the scene leaves out, and would matter, is run likewise.
 
     Parameters
     ----------

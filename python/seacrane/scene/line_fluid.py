@@ -95,6 +95,22 @@ class Fluid:
             added_mass_coefficient=self.added_mass_coefficient, **span,
         )  # fmt: skip
 
+    @staticmethod
+    def of(around: Any) -> Fluid:
+        """That of a segment, from what `along` made for it; without a diameter that is nothing."""
+        still = np.zeros(3)
+        if around is None:
+            return Fluid(
+                medium="air", density=None, diameter=0.0, drag_coefficient=0.0, flow=still, **OF_THE_SEA
+            )
+        common = {"density": around.density, "diameter": around.diameter}
+        if isinstance(around, _core.SpanDrag):
+            return Fluid(
+                medium="air", drag_coefficient=around.coefficient, flow=around.flow, **common, **OF_THE_SEA
+            )
+        of_sea = {key: getattr(around, key) for key in ("drag_coefficient", *OF_THE_SEA)}
+        return Fluid(medium="sea", flow=still, **common, **of_sea)
+
     def lifts(self, places: Array, segment: float, gravity: float) -> Array:
         """Buoyancy of each mass between segments of a length (m), (n - 1,) N; `places` (n + 1, 3), m.
 

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, whole_of
 from seacrane.errors import SceneError
 from seacrane.scene.heavy_line import chain_of_segments, on_a_winch, scaled
-from seacrane.scene.line_fluid import OF_THE_SEA, Fluid
+from seacrane.scene.line_fluid import Fluid
 from seacrane.scene.scene import Scene
 
 OF_THE_LINE = (
@@ -34,7 +32,7 @@ def with_segments(scene: Scene, name: str, segments: int) -> Scene:
     start = float(length.evaluate([0.0])[0, 0])
     wound = not first.paid_out_by and f"{name}.1 winding" in scene.loads
     ends = [_end(scene, chain[0], 0, f"{name}.first"), _end(scene, chain[-1], 1, f"{name}.last")]
-    fluid = _fluid(scene.loads.get(f"{name}.1 water", scene.loads.get(f"{name}.1 drag")))
+    fluid = Fluid.of(scene.loads.get(f"{name}.1 water", scene.loads.get(f"{name}.1 drag")))
     out = scene.copy()
     _remove(out, name, chain)
     chain_of_segments(
@@ -63,21 +61,6 @@ def _end(scene: Description, segment: _core.Line, side: int, tied: str) -> tuple
 def _winch(segment: _core.Line) -> dict[str, Any]:
     """What the first segment has of the line's winch."""
     return {key: value for key, value in segment.__getstate__().items() if key not in OF_THE_LINE}
-
-
-def _fluid(around: Any) -> Fluid:
-    """What a segment is in, from what the fluid does to it: nothing without a diameter."""
-    if around is None:
-        return Fluid(
-            medium="air", density=None, diameter=0.0, drag_coefficient=0.0, flow=np.zeros(3), **OF_THE_SEA
-        )
-    common = {"density": around.density, "diameter": around.diameter}
-    if isinstance(around, _core.SpanDrag):
-        return Fluid(
-            medium="air", drag_coefficient=around.coefficient, flow=around.flow, **common, **OF_THE_SEA
-        )
-    of_sea = {key: getattr(around, key) for key in ("drag_coefficient", *OF_THE_SEA)}
-    return Fluid(medium="sea", flow=np.zeros(3), **common, **of_sea)
 
 
 def _remove(scene: Scene, name: str, chain: list[_core.Line]) -> None:
