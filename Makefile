@@ -38,7 +38,8 @@ PYTHON := $(shell .ci/find-python)
 endif
 JOBS ?= $(shell .ci/cores)
 BIN := .venv/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check
+# What is imported is compiled then: most of what is installed never is.
+INSTALL := $(BIN)/python -m pip --disable-pip-version-check install -q --no-compile
 STAMPS := build/stamps
 PACKAGE_BUILD := build/package
 SANITIZE_BUILD := build/sanitize
@@ -65,12 +66,12 @@ $(BIN)/python: | system-packages
 .venv/.installed-run: pyproject.toml .ci/requirements.py $(BIN)/python
 	touch $@.began
 	$(BIN)/python .ci/requirements.py build run > .venv/requirements-run.txt
-	$(PIP) install -q -r .venv/requirements-run.txt
+	$(INSTALL) -r .venv/requirements-run.txt
 	mv $@.began $@
 .venv/.installed-dev: .venv/.installed-run
 	touch $@.began
 	$(BIN)/python .ci/requirements.py build run dev bench docs > .venv/requirements-dev.txt
-	$(PIP) install -q -r .venv/requirements-dev.txt
+	$(INSTALL) -r .venv/requirements-dev.txt
 	mv $@.began $@
 
 # The list changes when a file appears or goes; its members' dates tell of edits.
@@ -85,7 +86,7 @@ $(STAMPS)/sources.txt: FORCE
 	touch $@.began
 	@echo "building seacrane: a few minutes the first time, seconds afterwards"
 	SKBUILD_BUILD_DIR=$(PACKAGE_BUILD) SKBUILD_CMAKE_DEFINE='SEACRANE_WERROR=ON;SEACRANE_TESTS=ON' \
-	  $(PIP) install -q --no-deps --no-build-isolation .
+	  $(INSTALL) --no-deps --no-build-isolation .
 	mv $@.began $@
 
 build: .venv/.installed-seacrane
@@ -194,7 +195,7 @@ staged-accuracy: build .venv/.installed-dev
 CASES ?= 1000000
 fuzz: build .venv/.installed-dev
 	$(BIN)/python .ci/requirements.py fuzz > .venv/requirements-fuzz.txt
-	$(PIP) install -q -r .venv/requirements-fuzz.txt
+	$(INSTALL) -r .venv/requirements-fuzz.txt
 	$(BIN)/python tests/fuzz/run.py --cases $(CASES) $(FUZZ_ARGS)
 
 bench-peers: build .venv/.installed-dev
@@ -207,7 +208,7 @@ bench-peers: build .venv/.installed-dev
 .venv/.installed-notebooks: .venv/.installed-run
 	touch $@.began
 	$(BIN)/python .ci/requirements.py notebooks > .venv/requirements-notebooks.txt
-	$(PIP) install -q -r .venv/requirements-notebooks.txt
+	$(INSTALL) -r .venv/requirements-notebooks.txt
 	mv $@.began $@
 
 out/notebooks/%.ipynb: notebooks/%.md .venv/.installed-notebooks
@@ -230,7 +231,7 @@ viewer:
 .venv/.installed-wheel: .venv/.installed-run
 	touch $@.began
 	$(BIN)/python .ci/requirements.py wheel > .venv/requirements-wheel.txt
-	$(PIP) install -q -r .venv/requirements-wheel.txt
+	$(INSTALL) -r .venv/requirements-wheel.txt
 	mv $@.began $@
 
 # Notebooks with their outputs, which the wheel holds; run again where their text or the package has changed.

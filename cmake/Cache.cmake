@@ -8,9 +8,13 @@ find_program(SEACRANE_CCACHE_PROGRAM ccache)
 mark_as_advanced(SEACRANE_CCACHE_PROGRAM)
 if(SEACRANE_CCACHE AND SEACRANE_CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Paths below the base folder are hashed relative to it, so that clones share objects. A compiler from a package of
-  # Python (zig) has another date in each environment: its content decides.
+  # Python has another date in each environment: its content decides, unless who builds says what does.
+  set(check CCACHE_COMPILERCHECK=content)
+  if(DEFINED ENV{CCACHE_COMPILERCHECK})
+    set(check "CCACHE_COMPILERCHECK=$ENV{CCACHE_COMPILERCHECK}")
+  endif()
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content
+    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${check}"
     "${SEACRANE_CCACHE_PROGRAM}")
   set(CMAKE_C_COMPILER_LAUNCHER "${CMAKE_CXX_COMPILER_LAUNCHER}")
 endif()

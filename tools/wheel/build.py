@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+from importlib.metadata import version
 from pathlib import Path
 
 import ziglang
@@ -39,7 +40,8 @@ def compilers() -> dict[str, str]:
     return {
         **os.environ,
         **launcher,
-        "CCACHE_COMPILERCHECK": "content",  # a package of Python has another date in each environment
+        # A package of Python has another date in each environment, and its contents take long to read.
+        "CCACHE_COMPILERCHECK": f"string:zig{version('ziglang')}",
         "CC": f"{zig} cc {options}",
         "CXX": f"{zig} c++ {options}",
         "CMAKE_GENERATOR": "Ninja",
