@@ -186,11 +186,11 @@ seeded-faults: build .venv/.installed-dev
 
 LIFTS ?= 1000
 random-lifts: build .venv/.installed-dev
-	$(BIN)/python tests/random_lifts.py $(LIFTS)
+	$(BIN)/python tests/scenes/random_lifts.py $(LIFTS)
 
 STAGED ?= 400
 staged-accuracy: build .venv/.installed-dev
-	$(BIN)/python tests/staged_accuracy.py $(STAGED)
+	$(BIN)/python tests/scenes/staged_accuracy.py $(STAGED)
 
 CASES ?= 1000000
 fuzz: build .venv/.installed-dev
@@ -218,13 +218,13 @@ out/notebooks/%.ipynb: notebooks/%.md .venv/.installed-notebooks
 notebooks: build $(patsubst %.md,out/%.ipynb,$(wildcard notebooks/*.md))
 	$(BIN)/python -m jupyterlab --notebook-dir=out/notebooks $(NOTEBOOKS_ARGS)
 
-# Default arguments that are objects print as `...`; tests/test_packaging.py runs the same command.
+# Default arguments that are objects print as `...`; tests/project/test_packaging.py runs the same command.
 STUB_OPTIONS := --exit-code --ignore-invalid-expressions '<seacrane\._core\.\w+ object at 0x[0-9a-f]+>'
 stubs: build .venv/.installed-dev
 	$(BIN)/python -m pybind11_stubgen seacrane._core --output-dir build/stubs $(STUB_OPTIONS)
 	cp build/stubs/seacrane/_core.pyi python/seacrane/_core.pyi
 
-# tests/test_view_bundle.py compares the committed bundle with what this makes.
+# tests/answers/test_view_bundle.py compares the committed bundle with what this makes.
 viewer:
 	tools/viewer/build.sh python/seacrane/pictures/assets
 

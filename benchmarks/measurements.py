@@ -27,7 +27,7 @@ from measure.table import read, write
 from measured_row import HEAD, MeasuredRow
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
 MODULES = ROOT / "benchmarks" / "measured"
 SETS = tuple(sorted(path.stem for path in MODULES.glob("[a-z]*.py")))
 RESULTS = ROOT / "benchmarks" / "results"

@@ -28,7 +28,7 @@ from measure.section import significant
 from measure.table import write
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
 
 from accuracy_scenes import scene_of  # noqa: E402
 from staged_accuracy import lift_of  # noqa: E402

@@ -20,7 +20,7 @@ from measure.table import write
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
 
 from compared import (  # noqa: E402
     crane,

@@ -26,7 +26,7 @@ def statics() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared="static cylinder forces by virtual work, six poses",
         reference="moments about C and F of free bodies", difference=worst, unit="", limit=1e-11,
-        test="test_crane_statics.py",
+        test="cranes/test_crane_statics.py",
     )  # fmt: skip
     load, h = Payload(), 1e-3
     slope = [
@@ -37,7 +37,7 @@ def statics() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared="static cylinder forces at strokes of 2 m",
         reference="slope of the potential energy, differences", unit="", limit=2e-6,
-        difference=float(np.abs(found / np.array(slope) - 1.0).max()), test="test_crane_statics.py",
+        difference=float(np.abs(found / np.array(slope) - 1.0).max()), test="cranes/test_crane_statics.py",
     )  # fmt: skip
 
 
@@ -51,5 +51,5 @@ def masses() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared="inertia of the eight bodies in closed form", unit="",
         reference="numerical integration over their members", difference=worst, limit=1e-9,
-        test="test_crane_mass_properties.py",
+        test="cranes/test_crane_mass_properties.py",
     )  # fmt: skip

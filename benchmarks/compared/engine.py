@@ -40,7 +40,7 @@ def independent(t_end: float = 4.0) -> Iterator[Row]:
         yield Row(
             subject=CRANE, compared=f"case 2 with fast references, {t_end:g} s: {name} of ten bodies",
             reference="rotation matrices and other rows, NumPy and SciPy", difference=found[name], unit=unit,
-            limit=1e-8, test="test_against_reference.py",
+            limit=1e-8, test="cranes/test_against_reference.py",
         )  # fmt: skip
 
 
@@ -55,7 +55,7 @@ def formulations(t_end: float = 100.0, names: tuple[str, ...] = tuple(CASES)) ->
         yield Row(
             subject=CRANE, compared=f"{name}, {t_end:g} s: places of all bodies, redundant form",
             reference="recursive form", difference=float(np.abs(first - second).max()), unit="m", limit=1e-7,
-            test="test_formulations.py",
+            test="multibody/test_formulations.py",
         )  # fmt: skip
 
 
@@ -67,7 +67,8 @@ def jacobians() -> Iterator[Row]:
         worst = max(worst, largest_error(model, 0.3, moving(model, seed), step=3e-4, kinks=True))
     yield Row(
         subject=CRANE, compared="exact Jacobian of random scenes, share of a row's largest entry",
-        reference="five-point differences", difference=worst, unit="", limit=1e-7, test="test_jacobian.py",
+        reference="five-point differences", difference=worst, unit="", limit=1e-7,
+        test="multibody/test_jacobian.py",
     )  # fmt: skip
 
 
@@ -81,7 +82,7 @@ def energy(t_end: float = 100.0, names: tuple[str, ...] = tuple(CONSERVATIVE)) -
         yield Row(
             subject=CONSERVED, reference="its start", difference=worst, unit="", limit=1e-9,
             compared=f"{TITLES.get(name, name)}, {t_end:g} s: energy over the largest kinetic energy",
-            test="test_reference_problems_figures.py",
+            test="multibody/test_reference_problems_figures.py",
         )  # fmt: skip
 
 
@@ -101,7 +102,7 @@ def momentum(t_end: float = 20.0) -> Iterator[Row]:
         yield Row(
             subject=CONSERVED, compared=f"thrown crane, {t_end:g} s: {name} momentum over its parts",
             reference="its start", difference=float(np.abs(whole - whole[0]).max() / size), unit="",
-            limit=1e-9, test="test_validation.py",
+            limit=1e-9, test="project/test_validation.py",
         )  # fmt: skip
 
 
@@ -113,13 +114,13 @@ def books(t_end: float = 100.0, names: tuple[str, ...] = tuple(CASES)) -> Iterat
         yield Row(
             subject=CONSERVED, compared=f"{name}, {t_end:g} s, `rtol` 1e-8: energy balance over the work",
             reference="closed books", difference=float(share.max()), unit="", limit=1e-8,
-            test="test_reference_problems_figures.py",
+            test="multibody/test_reference_problems_figures.py",
         )  # fmt: skip
         if name != "vessel alone":
             yield Row(
                 subject=CONSERVED, compared=f"{name}, {t_end:g} s, `rtol` 1e-8: gap of any joint",
                 reference="closed joints", difference=float(result["constraint_error"].max()),
-                unit="m or rad", limit=1e-9, test="test_reference_problems_figures.py",
+                unit="m or rad", limit=1e-9, test="multibody/test_reference_problems_figures.py",
             )  # fmt: skip
 
 
@@ -133,6 +134,6 @@ def going_on() -> Iterator[Row]:
         one.advance(1.5)
     yield Row(
         subject=CRANE, compared="case 2 stopped and continued: every number of the state",
-        reference="the run that was not stopped", unit="", limit=0.0, test="test_restart.py",
+        reference="the run that was not stopped", unit="", limit=0.0, test="run/test_restart.py",
         difference=float(np.abs(values(later) - values(whole)).max()),
     )  # fmt: skip

@@ -22,10 +22,10 @@ def bouncing_ball() -> Iterator[Row]:
     yield Row(
         subject=subject, compared="bouncing ball: times of five bounces", reference=reference, unit="s",
         difference=float(np.abs([e.time - t for e, t in zip(events, times, strict=True)]).max()), limit=1e-9,
-        test="test_events.py",
+        test="run/test_events.py",
     )  # fmt: skip
     yield Row(
         subject=subject, compared="bouncing ball: energy lost in five bounces", reference=reference, unit="",
         difference=float(np.abs([e.energy_lost / w - 1.0 for e, w in zip(events, lost, strict=True)]).max()),
-        limit=1e-8, test="test_events.py",
+        limit=1e-8, test="run/test_events.py",
     )  # fmt: skip

@@ -8,7 +8,7 @@ from .files import RESULTS, records
 from .row import Row
 
 SUBJECT = "Statistics of extremes"
-TEST = "test_statistics.py"
+TEST = "many/test_statistics.py"
 
 
 def judges() -> Iterator[Row]:

@@ -28,12 +28,14 @@ def records(path: Path) -> list[dict[str, str]]:
 
 def mechanisms() -> Iterator[Row]:
     """Problems with published or independent solutions: the worse of both formulations."""
-    yield from _problems("reference-problems-tight.csv", "Mechanisms", "test_reference_problems.py")
+    yield from _problems("reference-problems-tight.csv", "Mechanisms", "multibody/test_reference_problems.py")
 
 
 def ships() -> Iterator[Row]:
     """A vessel against its linear equation."""
-    yield from _problems("reference-problems-ships.csv", "Vessel in waves", "test_reference_problems_sea.py")
+    yield from _problems(
+        "reference-problems-ships.csv", "Vessel in waves", "multibody/test_reference_problems_sea.py"
+    )
 
 
 def _problems(file: str, subject: str, test: str) -> Iterator[Row]:
@@ -57,7 +59,7 @@ def peers() -> Iterator[Row]:
         yield Row(
             subject="Crane on a vessel", compared=f"payload's place over the run, {OWN}",
             reference=f"the same crane in {engine}, its nearest setting", difference=nearest, unit="m",
-            limit=None, test="test_validation.py",
+            limit=None, test="project/test_validation.py",
         )  # fmt: skip
 
 
@@ -69,7 +71,7 @@ def linear_model() -> Iterator[Row]:
             subject="Vessel in waves",
             compared=f"case 2 in a sea of {row['Hs, m']} m: {motion}, share of its standard deviation",
             reference="linear model, frequency domain", difference=float(row[motion]) / 100.0, unit="",
-            limit=None, test="test_frequency_domain.py",
+            limit=None, test="vessel/test_frequency_domain.py",
         )  # fmt: skip
 
 
@@ -80,7 +82,7 @@ def wave_sum() -> Iterator[Row]:
     yield Row(
         subject="Vessel in waves", compared="payload of case 2 over 100 s, wave loads from the table",
         reference="wave loads summed at every evaluation", difference=float(row["payload, m"]), unit="m",
-        limit=None, test="test_sea.py",
+        limit=None, test="sea/test_sea.py",
     )  # fmt: skip
 
 
@@ -92,7 +94,7 @@ def database() -> Iterator[Row]:
         values = [float(row["value"]) for name, row in rows.items() if name.startswith(f"{check}_")]
         yield Row(
             subject="Hydrodynamics", compared=f"shipped database: {words}", reference="the database itself",
-            difference=max(values), unit="", limit=None, test="test_hydro_check.py",
+            difference=max(values), unit="", limit=None, test="hydro/test_hydro_check.py",
         )  # fmt: skip
 
 
@@ -104,5 +106,6 @@ def wires() -> Iterator[Row]:
                          ("path until 2.2 s", "path, m")):  # fmt: skip
         yield Row(
             subject="Wires, stops, events", compared=f"ball on a wire: {what}", reference="SciPy with events",
-            difference=float(row[column]), unit=column.rpartition(" ")[2], limit=None, test="test_events.py",
+            difference=float(row[column]), unit=column.rpartition(" ")[2], limit=None,
+            test="run/test_events.py",
         )  # fmt: skip

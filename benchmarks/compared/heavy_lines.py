@@ -23,7 +23,7 @@ def catenary() -> Iterator[Row]:
         subject=SUBJECT, compared="line with mass at rest, 160 segments: forces at its upper end",
         reference="closed elastic catenary (Irvine)",
         difference=max(abs(h / CATENARY_H - 1.0), abs(v / CATENARY_V - 1.0)), unit="", limit=2e-5,
-        test="test_heavy_lines.py",
+        test="lines/test_heavy_lines.py",
     )  # fmt: skip
 
 
@@ -36,7 +36,7 @@ def swinging() -> Iterator[Row]:
         subject=SUBJECT, compared="pendulum with 0.5 % of critical damping: angle over its start, 30 s",
         reference="closed form, small angles",
         difference=float(np.abs(swing(result) / 1e-3 - decay(result.time, 0.005)).max()), unit="",
-        limit=1e-5, test="test_damping.py",
+        limit=1e-5, test="lines/test_damping.py",
     )  # fmt: skip
 
 
@@ -46,12 +46,12 @@ def peers() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared=f"line with mass at rest, {row['segments']} segments: level force",
         reference="MoorPy, catenary", difference=float(row["error of H, N"]) / float(row["H of MoorPy, N"]),
-        unit="", limit=None, test="test_heavy_lines.py",
+        unit="", limit=None, test="lines/test_heavy_lines.py",
     )  # fmt: skip
     row = records(RESULTS / "heavy-lines-against-moordyn.csv")[-1]
     for end in ("fixed end", "moving end"):
         yield Row(
             subject=SUBJECT, compared=f"line with mass, one end heaves: tension at its {end}, of its range",
             reference="MoorDyn, same masses, EA and damping", difference=float(row[end]), unit="", limit=None,
-            test="test_heavy_lines.py",
+            test="lines/test_heavy_lines.py",
         )  # fmt: skip

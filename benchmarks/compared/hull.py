@@ -28,7 +28,7 @@ def hydrostatics() -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"hydrostatics of a Wigley hull from {source}, 24 stations",
             reference="closed forms", difference=worst, unit="", limit=6e-3,
-            test="test_hull_hydrostatics.py",
+            test="hydro/test_hull_hydrostatics.py",
         )  # fmt: skip
 
 
@@ -38,5 +38,5 @@ def sections() -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"strip theory: added mass and damping of a {name}",
             reference="multipoles (Ursell, Tasai)", difference=multipole_error(section), unit="", limit=0.01,
-            test="test_strip_sections.py",
+            test="hydro/test_strip_sections.py",
         )  # fmt: skip

@@ -17,7 +17,7 @@ from seacrane import Scene, natural_modes
 from .row import Row
 
 Array = NDArray[np.float64]
-SUBJECT, TEST = "Hydraulic cylinders", "test_hydraulics.py"
+SUBJECT, TEST = "Hydraulic cylinders", "cranes/test_hydraulics.py"
 
 
 def hung() -> Scene:
@@ -59,7 +59,7 @@ def exudyn(rows: Array | None = None) -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"a mass lifted through an open valve, 1 s: {what}",
             reference="hydraulic actuator of Exudyn", difference=float(np.abs(difference).max()), unit=unit,
-            limit=limit, test="test_hydraulics_peer.py",
+            limit=limit, test="cranes/test_hydraulics_peer.py",
         )  # fmt: skip
 
 

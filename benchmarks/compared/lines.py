@@ -46,5 +46,5 @@ def rigid_limit() -> Iterator[Row]:
 def _row(compared: str, reference: str, difference: float, limit: float) -> Row:
     return Row(
         subject=SUBJECT, compared=compared, reference=reference, unit="", difference=abs(float(difference)),
-        limit=limit, test="test_line_limits.py",
+        limit=limit, test="lines/test_line_limits.py",
     )  # fmt: skip

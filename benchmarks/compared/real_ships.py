@@ -12,8 +12,8 @@ from seacrane.hydro import HydroDatabase
 from .row import Row
 
 FILES = {
-    "a supply vessel's VERES files": ("veres/supply", "test_hydro_veres.py"),
-    "a tanker's WAMIT files": ("wamit", "test_hydro_wamit.py"),
+    "a supply vessel's VERES files": ("veres/supply", "hydro/test_hydro_veres.py"),
+    "a tanker's WAMIT files": ("wamit", "hydro/test_hydro_wamit.py"),
 }
 
 

@@ -17,7 +17,7 @@ from seacrane import Scene
 from .row import Row
 
 Array = NDArray[np.float64]
-SUBJECT, TEST = "Lines over sheaves", "test_reeving.py"
+SUBJECT, TEST = "Lines over sheaves", "lines/test_reeving.py"
 
 
 def hook() -> Scene:
@@ -54,7 +54,7 @@ def exudyn(rows: Array | None = None) -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"hook on a line over three sheaves, 4 s: {what}",
             reference="reeving of Exudyn", difference=float(np.abs(difference).max()), unit=unit, limit=limit,
-            test="test_reeving_peer.py",
+            test="lines/test_reeving_peer.py",
         )  # fmt: skip
 
 

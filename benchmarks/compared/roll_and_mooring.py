@@ -18,7 +18,7 @@ from seacrane.scene import MooringSpring, mooring_matrix
 from .row import Row
 
 SUBJECT = "Hydrodynamics"
-IKEDA, MOORING = "test_ikeda_roll_damping.py", "test_mooring.py"
+IKEDA, MOORING = "hydro/test_ikeda_roll_damping.py", "sea/test_mooring.py"
 
 
 def roll_damping() -> Iterator[Row]:
@@ -62,7 +62,7 @@ def far_fields(shared: Path) -> Iterator[Row]:
         subject=SUBJECT,
         compared="a tanker's WAMIT files: damping from the far field of the forces (Haskind)",
         reference="the damping that the files hold", difference=max(found), unit="", limit=0.025,
-        test="test_hydro_wamit.py",
+        test="hydro/test_hydro_wamit.py",
     )  # fmt: skip
 
 

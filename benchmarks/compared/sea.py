@@ -23,7 +23,7 @@ def spectrum() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared="significant height of the JONSWAP spectrum by its area",
         reference="the height asked for", difference=abs(2.0 * np.sqrt(area) - 1.0), unit="", limit=1e-3,
-        test="test_sea_spectra.py",
+        test="sea/test_sea_spectra.py",
     )  # fmt: skip
     waves = cases.vessel().waves
     assert waves is not None
@@ -31,7 +31,7 @@ def spectrum() -> Iterator[Row]:
     yield Row(
         subject=SUBJECT, compared="significant height of the cases' 200 components",
         reference="the height asked for, 2 m", difference=abs(float(realised) / 2.0 - 1.0), unit="",
-        limit=0.02, test="test_sea_statistics.py",
+        limit=0.02, test="sea/test_sea_statistics.py",
     )  # fmt: skip
 
 
@@ -46,5 +46,5 @@ def drift() -> Iterator[Row]:
     )
     yield Row(
         subject=SUBJECT, compared="slow drift by two sums, over the sum of magnitudes",
-        reference="Newman's double sum", difference=worst, unit="", limit=1e-12, test="test_drift.py",
+        reference="Newman's double sum", difference=worst, unit="", limit=1e-12, test="vessel/test_drift.py",
     )  # fmt: skip

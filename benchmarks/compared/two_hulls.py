@@ -39,7 +39,7 @@ def capytaine() -> Iterator[Row]:
             difference=float(np.abs(mine - theirs).max() / np.abs(theirs).max()),
             unit="",
             limit=1e-6,
-            test="test_hydro_group_capytaine.py",
+            test="hydro/test_hydro_group_capytaine.py",
         )
         turned = pairs.turned_twice(folder)[1]
         off = []
@@ -54,7 +54,7 @@ def capytaine() -> Iterator[Row]:
             difference=float(max(off)),
             unit="",
             limit=0.03,
-            test="test_hydro_group_capytaine.py",
+            test="hydro/test_hydro_group_capytaine.py",
         )
 
 
@@ -74,7 +74,7 @@ def codes(shared: Path) -> Iterator[Row]:
             difference=worst,
             unit="",
             limit=TABLE[table][entry][1],
-            test="test_hydro_group_rm3.py",
+            test="hydro/test_hydro_group_rm3.py",
         )
 
 

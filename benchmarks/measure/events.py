@@ -20,7 +20,7 @@ STEPS = (0.08, 0.04, 0.02, 0.01)  # s
 
 def slack_wire() -> Section:
     """Times of slack and snatch and the path of the ball, by `dopri5` and by `rk4`."""
-    sys.path.insert(0, str(TESTS))
+    sys.path.insert(0, str(TESTS / "scenes"))
     from event_scenes import pendulum, scipy_pendulum
 
     time = np.arange(0.0, T_END + 0.5 * DT_OUT, DT_OUT)

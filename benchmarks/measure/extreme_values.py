@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
 
 from test_statistics import NARROW, STEP, THREE_HOURS, records  # noqa: E402
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+sys.path.extend(map(str, Path(__file__).resolve().parents[1].glob("*/")))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import seacrane

@@ -22,7 +22,7 @@ WRITERS = re.compile(
     r"|_hull_to_data|roles_to_data|sea_to_data|plain_data|plain_notes|load_to_data|kind_of|state_to_bytes|_is_state|shape$|rows$"
     r"|spectrum)"
 )
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
 
 
 def main() -> int:

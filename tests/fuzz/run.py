@@ -22,6 +22,7 @@ import traceback
 from pathlib import Path
 from typing import Any
 
+sys.path.extend(map(str, Path(__file__).resolve().parents[1].glob("*/")))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from fuzz.limits import Hang

@@ -14,6 +14,7 @@ import h5py
 import netCDF4
 import numpy as np
 
+sys.path.extend(map(str, Path(__file__).resolve().parents[1].glob("*/")))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import group_cases

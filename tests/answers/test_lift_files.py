@@ -1,0 +1,564 @@
+"""Lifts as files: each table is its call, what was written is read again, and mistakes are told by line."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import pickle
+import re
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
+
+from seacrane import (
+    FileFormatError,
+    Lift,
+    Method,
+    Outputs,
+    Scene,
+    SceneError,
+    SeaState,
+    WaveSystem,
+    cases,
+    simulate,
+)
+from seacrane.crane.data_file import DEFAULT_PATH
+from seacrane.description.file import scene_digest
+from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.lift.build import times_of
+from seacrane.lift.keys import Key, suffix
+from seacrane.lift.lift import LIFTS
+from seacrane.lift.schema import schema, schema_path, schema_text
+from seacrane.lift.tables import CURVES, TABLES
+from seacrane.lift.text_lines import lines_of
+from seacrane.sea import cos_2s, jonswap
+from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "lift-files.md"
+
+
+def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
+    (folder / name).write_text(text, encoding="utf-8")
+    return Lift.load(folder / name)
+
+
+def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the sea is as deep."""
+
+    def load(file: str, *, speed: float | None, depth: float | None) -> HydroDatabase:
+        assert (Path(file).name, speed) == ("hull.nc", None)
+        assert depth is not None
+        return replace(shipped_database(), depth=depth)
+
+    monkeypatch.setattr("seacrane.lift.calls.load_hull", load)
+    (tmp_path / "hull.nc").touch()
+    vessel = '[vessel]\ndatabase = "hull.nc"\nmemory = "none"\ndepth_m = 40\n'
+    scene = lift_of(HEAD + vessel + "[sea]\nhs_m = 1\ntp_s = 9\n", tmp_path).scene()
+    assert scene.waves is not None
+    assert scene.waves.depth == 40.0
+
+
+def example() -> str:
+    """The complete lift of the document."""
+    found = [
+        block for block in re.findall(r"```toml\n(.*?)```", PAGE.read_text(), re.DOTALL) if HEAD in block
+    ]
+    assert len(found) == 1
+    return str(found[0])
+
+
+@pytest.mark.parametrize("name", LIFTS)
+def test_a_case_and_its_file_are_one_scene(name: str) -> None:
+    scene, case = Lift.shipped(name).scene(), getattr(cases, name)()
+    assert scene == case
+    assert scene_digest(scene) == scene_digest(case)
+    first, second = (simulate(one, 0.5) for one in (scene, case))
+    for channel, values in first.channels.items():
+        np.testing.assert_array_equal(second[channel], values, err_msg=channel)
+
+
+@pytest.mark.warns("SeabedWarning")
+def test_every_table_is_its_call(tmp_path: Path) -> None:
+    assert lift_of(EVERY_TABLE, tmp_path).scene() == every_table()
+
+
+def test_the_lift_with_every_table_has_every_table() -> None:
+    elsewhere = {"vessel", "given_vessel", "sea", "crane", "balance", "control", "command", "run"}
+    elsewhere |= {"method", "outputs", "mesh"}  # a mesh names a file: test_meshes.py
+    elsewhere |= {"ballast", "stage"}  # test_lift_stages.py
+    elsewhere |= {"luffing_rope"}  # test_jointed_cranes.py
+    elsewhere |= {"slack_tank"}  # test_stability.py
+    elsewhere |= {"hold_pressures"}  # test_held_by_lines.py
+    assert set(tomllib.loads(EVERY_TABLE)) - {"format", "version"} == set(TABLES) - elsewhere
+
+
+def test_method_outputs_and_end_time(tmp_path: Path) -> None:
+    lift = lift_of(PENDULUM, tmp_path)
+    assert lift.method == Method(integrator="rk4", dt=0.01)
+    assert lift.outputs == Outputs(dt_out=0.5, channels=("position", "constraint_error", "energy_balance"))
+    assert lift.t_end == 2.0
+    result = lift.simulate()
+    other = simulate(lift.scene(), 2.0, method=lift.method, outputs=lift.outputs)
+    np.testing.assert_array_equal(result["position"], other["position"])
+    assert result.time.tolist() == [0.0, 0.5, 1.0, 1.5, 2.0]
+    bare = Lift({})
+    assert (bare.method, bare.outputs, bare.t_end) == (Method(), Outputs(), 100.0)
+
+
+def test_the_sea_of_several_systems(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + """
+[vessel]
+database = "hull_115"
+name = "barge"
+memory = "none"
+position_m = [10, 5, 0]
+heading_deg = 30
+mooring_period_s = inf
+
+[sea]
+vessel = "barge"
+seed = 4
+systems = [
+    { name = "swell", spectrum = "jonswap", hs_m = 1, tp_s = 14, gamma = 5, direction_deg = 10, count = 20 },
+    { spectrum = "pierson-moskowitz", hs_m = 2, tp_s = 9, direction_deg = 90, spreading = 10, count = 30 },
+]
+"""
+    )
+    database = shipped_database()
+    scene = Scene()
+    scene.add_vessel(
+        database, name="barge", memory="none", position=(10, 5, 0), heading_deg=30, mooring_period=None
+    )
+    swell = WaveSystem(name="swell", spectrum=jonswap(hs=1, tp=14, gamma=5), direction_deg=10, count=20)
+    lift = lift_of(text, tmp_path)
+    spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
+    wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
+    scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
+    assert lift.scene() == scene
+
+
+@pytest.mark.parametrize("name", [*LIFTS, "pendulum", "every table", "example"])
+def test_written_and_read_again_it_is_equal(name: str, tmp_path: Path) -> None:
+    texts = {"pendulum": PENDULUM, "every table": EVERY_TABLE}
+    if name in LIFTS:
+        lift = Lift.shipped(name)
+    else:
+        lift = lift_of(texts[name] if name in texts else example(), tmp_path)
+    lift.save(tmp_path / "again.toml")
+    again = Lift.load(tmp_path / "again.toml")
+    assert again == lift and again.tables == lift.tables
+    assert (again.method, again.outputs, again.t_end) == (lift.method, lift.outputs, lift.t_end)
+    again.save(tmp_path / "third.toml")
+    assert (tmp_path / "third.toml").read_bytes() == (tmp_path / "again.toml").read_bytes()
+    assert Lift(lift.tables) == lift == pickle.loads(pickle.dumps(lift))
+
+
+def test_a_changed_lift_is_another(tmp_path: Path) -> None:
+    lift = lift_of(PENDULUM, tmp_path)
+    tables = lift.tables
+    tables["body"]["mass_kg"] = np.nextafter(2.0, 3.0).item()
+    changed = Lift(tables)
+    assert changed != lift and lift.tables["body"]["mass_kg"] == 2.0
+    changed.save(tmp_path / "changed.toml")
+    assert Lift.load(tmp_path / "changed.toml") == changed
+    with pytest.raises(AttributeError):
+        lift.t_end = 3.0  # type: ignore[misc]
+
+
+def test_texts_of_any_kind_are_written(tmp_path: Path) -> None:
+    lift = Lift({"notes": {"a b": 'quote " and \\ and\nline \x7f\t', "é": "λ", "x": [True, -0.0, 1e300, 7]}})
+    lift.save(tmp_path / "notes.toml")
+    assert Lift.load(tmp_path / "notes.toml").scene().notes == lift.scene().notes
+    with pytest.raises(SceneError, match="surrogate"):
+        Lift({"notes": {"x": "\ud800"}}).save(tmp_path / "x.toml")
+    with pytest.raises(SceneError, match="no word for None"):
+        Lift({"notes": {"x": None}}).save(tmp_path / "x.toml")
+    assert not (tmp_path / "x.toml").exists()
+
+
+def test_paths_are_from_the_folder_of_the_file(tmp_path: Path) -> None:
+    (tmp_path / "data").mkdir()
+    (tmp_path / "lifts").mkdir()
+    (tmp_path / "data" / "crane.toml").write_bytes(DEFAULT_PATH.read_bytes())
+    text = HEAD + '[crane]\nbase = "ground"\ncrane = "../data/crane.toml"\n'
+    lift = lift_of(text, tmp_path / "lifts")
+    lift.save(tmp_path / "moved.toml")
+    assert 'crane = "data/crane.toml"' in (tmp_path / "moved.toml").read_text()
+    assert Lift.load(tmp_path / "moved.toml") == lift
+    expected = Scene()
+    expected.add_crane(base="ground")
+    assert lift.scene() == expected
+
+
+CONTROLLED = (
+    HEAD
+    + """
+[[body]]
+name = "arm"
+mass_kg = 5
+inertia_kg_m2 = [1, 2, 3]
+position_m = [1, 0, 0]
+
+[joint]
+kind = "revolute"
+name = "pin"
+first = "ground"
+second = "arm"
+point_m = [0, 0, 0]
+axis = [0, 1, 0]
+
+[control]
+natural_frequency_Hz = 2
+damping_ratio = 0.5
+FEED_FORWARD
+
+[command]
+joint = "pin"
+reference_deg = { kind = "quintic", start_time_s = 0, end_time_s = 6, start = 0, end = -45 }
+"""
+)
+
+
+def test_a_command_is_tuned_and_fed_forward(tmp_path: Path) -> None:
+    inertia, weight = 2.0 + 5.0 * 1.0**2, 5.0 * 9.80665
+    omega = 2.0 * np.pi * 2.0
+    parts = "times = [{ until_s = 6, every_s = 0.5 }]"
+    actuator = lift_of(CONTROLLED.replace("FEED_FORWARD", parts), tmp_path).scene().actuators["pin"]
+    assert actuator.stiffness == pytest.approx(inertia * omega**2, rel=1e-9)
+    assert actuator.damping == pytest.approx(2.0 * 0.5 * omega * inertia, rel=1e-9)
+    for time, angle in ((0.0, 0.0), (6.0, np.radians(-45)), (9.0, np.radians(-45))):
+        held = actuator.feed_forward.evaluate([time])[0, 0]
+        assert held == pytest.approx(-weight * np.cos(angle), rel=1e-6)
+    for kind, first in (("start", -weight), ("none", 0.0)):
+        text = CONTROLLED.replace("FEED_FORWARD", f'feed_forward = "{kind}"')
+        load = lift_of(text, tmp_path).scene().actuators["pin"].feed_forward
+        assert load.evaluate([0.0, 6.0])[:, 0] == pytest.approx([first, first], rel=1e-6)
+
+
+def test_times_go_on_from_part_to_part() -> None:
+    parts = [{"until": 45.0, "every": 5.0}, {"until": 100.0, "every": 0.5}]
+    expected = np.append(np.linspace(0.0, 45.0, 10), np.arange(45.0, 100.1, 0.5)[1:])
+    np.testing.assert_array_equal(times_of(parts), expected)
+
+
+@pytest.mark.parametrize(("until", "every"), [(0.0, 1.0), (5.0, 0.0), (5.0, 2.0), (1e6, 1.0), (5.0, 1e-300)])
+def test_times_that_make_no_sense(until: float, every: float) -> None:
+    with pytest.raises(SceneError, match="times is wrong"):
+        times_of([{"until": until, "every": every}])
+
+
+ARM = CONTROLLED.replace("FEED_FORWARD", "")
+VESSEL = '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
+MISTAKES = {
+    "an unknown key": (
+        HEAD + "[crane.payload]\nmass_t = 3", 4, "mass_t is unknown in [crane.payload]; nearest: mass_kg"
+    ),
+    "a key without its unit": (HEAD + "[crane]\npayload = { mass = 3 }", 4, "nearest: mass_kg"),
+    "an unknown table": (HEAD + "\n[crain]", 4, "[crain] is unknown; nearest: crane"),
+    "a key that is like none": (HEAD + "[seat]\nqqqq = 1", 4, "unknown in [seat]; known are joint, name"),
+    "two units": (HEAD + "[crane]\nslew_deg = 3\nslew_rad = 1", 4, "beside slew_"),
+    "a text for a number": (HEAD + '[sea]\nhs_m = "two"', 4, "hs_m in [sea] is 'two'; give a number"),
+    "a number that is none": (HEAD + "[sea]\nhs_m = nan", 4, "give a finite number"),
+    "infinity": (HEAD + "[sea]\nhs_m = inf", 4, "give a finite number"),
+    "a fraction of a seed": (HEAD + "[sea]\nseed = 1.5", 4, "give a whole number"),
+    "too few coordinates": (HEAD + "[crane]\nfoot_m = [1, 2]", 4, "has 2 entries; give 3"),
+    "a missing key": (HEAD + '[[body]]\nname = "a"', 3, "[[body]] 1 has no mass_kg; add it"),
+    "an unknown choice": (HEAD + '[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
+    "an unknown integrator": (HEAD + '[method]\nintegrator = "dopri6"', 4, "nearest: dopri5"),
+    "a tolerance out of range": (HEAD + "[method]\nrtol = 3", 4, "rtol is 3"),
+    "a list for a table": (HEAD + "[[run]]\nt_end_s = 1", 3, "write [run], once"),
+    "a number for a table": (HEAD + "line = 3", 3, "write [line], or [[line]] for each of several"),
+    "an unknown curve": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "line" }', 5, "one of constant"),
+    "a gust of a joint": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "gust" }', 5, "one of constant"),
+    "a piece without a time": (
+        HEAD + '[driver]\njoint = "x"\ncurve_m = [\n{ kind = "constant", value = 1 },\n'
+        '{ kind = "constant", value = 2 },\n]', 7, "[[driver.curve_m]] 2 has no from_s; add it",
+    ),
+    "no pieces": (HEAD + '[driver]\njoint = "x"\ncurve_m = []', 5, "give a number or a table"),
+    "a date": (HEAD + "[notes]\nday = 2026-01-01", 3, "notes are numbers, texts"),
+    "another version": ('format = "seacrane lift"\nversion = 3', 2, "this seacrane reads version = 2"),
+    "half a line": (HEAD + "[sea]\nhs_m =", 4, "Invalid value"),
+    "half a list": (HEAD + "[sea]\n\nx = [1,", 5, "at the end of the file; truncated or malformed TOML"),
+    "a key twice": (HEAD + "[sea]\nhs_m = 1\nhs_m = 2", 5, "Cannot overwrite a value"),
+    "a long key": (HEAD + "a" + " . a" * 20 + " = 1", 3, "more than 8 parts"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", MISTAKES)
+def test_a_mistake_is_told_by_its_line(case: str, tmp_path: Path) -> None:
+    text, line, words = MISTAKES[case]
+    with pytest.raises(FileFormatError) as caught:
+        lift_of(text + "\n", tmp_path)
+    assert str(caught.value).startswith(f"my_lift.toml line {line}")
+    assert words in str(caught.value)
+
+
+BUILT = {
+    "a unit of the other kind": (
+        ARM + '\n[[actuator]]\njoint = "pin"\nstiffness_N_per_m = 3\n', "stiffness_N_per_m",
+        "is of a displacement, and 'angle' of joint 'pin' is an angle; give stiffness_N_m_per_rad",
+    ),
+    "a reference of the other kind": (
+        ARM.replace("reference_deg", "reference_m"), "reference_m", "give reference_rad or reference_deg"
+    ),
+    "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
+    "a joint that is not there": (
+        HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
+    ),
+    "a vessel that is not there": (
+        HEAD + '[sea]\nhs_m = 1\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"
+    ),
+    "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
+    "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
+    "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),
+    "no times": (ARM, "[control]", "needs times"),
+    "times for nothing": (
+        ARM.replace("damping_ratio", 'feed_forward = "none"\nperiod_s = 5\ndamping_ratio'), "period_s",
+        "period is given, which feed_forward = 'none' has no use for",
+    ),
+    "control of nothing": (ARM[: ARM.index("[command]")], "[control]", "has no [[command]] to control"),
+    "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "zero speed"),
+    "a depth of the shipped hull": (HEAD + VESSEL + "depth_m = 30\n", "depth_m", "of deep water"),
+    "a payload of nothing": (
+        HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
+        "payload: mass is 0.0",
+    ),
+    "ballast of nothing": (HEAD + VESSEL + '[balance]\nvessel = "ship"\n', "vessel", "vessels are 'vessel'"),
+    "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "give a number above zero"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", BUILT)
+def test_what_the_scene_refuses_is_told_by_its_line(case: str, tmp_path: Path) -> None:
+    text, at, words = BUILT[case]
+    lift = lift_of(text, tmp_path)
+    with pytest.raises(FileFormatError) as caught:
+        lift.scene()
+    line = next(i for i, one in enumerate(text.splitlines(), start=1) if one.startswith(at))
+    assert str(caught.value).startswith(f"my_lift.toml line {line}: ")
+    assert words in str(caught.value)
+
+
+def test_units_mistakes_stay_named(tmp_path: Path) -> None:
+    lift = lift_of(HEAD + '[crane]\nbase = "ground"\nslew_rad = -90\n', tmp_path)
+    with pytest.warns(AngleUnitWarning, match="if these are degrees"):
+        lift.scene()
+    with pytest.warns(SteepSeaWarning):
+        lift_of(HEAD + VESSEL + "[sea]\nhs_m = 12\ntp_s = 8\ncount = 5\n", tmp_path).scene()
+
+
+WRONG_KINDS: dict[str, tuple[bytes, str]] = {
+    "scene.json": (b'{"format": "seacrane scene"}', "JSON, as of a scene (Scene.load)"),
+    "crane.urdf": (b'<?xml version="1.0"?><robot/>', "XML, such as a URDF model"),
+    "part.step": (b"ISO-10303-21;\nHEADER;", "a STEP model"),
+    "hull.nc": (b"CDF\x01....", "a NetCDF file (load_database)"),
+    "result.nc": (b"\x89HDF\r\n", "a NetCDF file (Result.load or load_database)"),
+    "crane.glb": (b"glTF\x02", "a glTF model"),
+    "crane.toml": (DEFAULT_PATH.read_bytes(), "a crane in TOML (KnuckleBoomCrane.load)"),
+    "other.toml": (b"a = 1\n", "TOML, as of a crane (KnuckleBoomCrane.load) or a lift"),
+    "empty.toml": (b" \n", "empty"),
+    "blob.bin": (b"\x00\x01\xff\xfe", "something else"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_KINDS)
+def test_a_wrong_kind_of_file_is_told_what_it_looks_like(name: str, tmp_path: Path) -> None:
+    content, kind = WRONG_KINDS[name]
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(FileFormatError) as caught:
+        Lift.load(tmp_path / name)
+    assert str(caught.value).startswith(f"{name}: is {kind}")
+    assert "no lift file, which is TOML with format" in str(caught.value)
+
+
+def test_a_lift_given_as_a_scene_is_told_so(tmp_path: Path) -> None:
+    lift_of(PENDULUM, tmp_path)
+    with pytest.raises(FileFormatError, match=r"is a lift in TOML \(Lift.load, seacrane run\), no scene"):
+        Scene.load(tmp_path / "my_lift.toml")
+
+
+def test_marks_and_line_ends_of_other_editors(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_bytes(b"\xef\xbb\xbf" + PENDULUM.replace("\n", "\r\n").encode())
+    assert Lift.load(tmp_path / "a.toml") == lift_of(PENDULUM, tmp_path)
+
+
+LAID_OUT = '''\
+# a = 1
+title = """
+not_a_key = 2
+"""  # [no.table]
+[a]
+b.c = [1, 2.5,
+  { x = "]}", y = { z = 1979-05-27T07:32:00Z } },
+]
+"quoted \\u00e9 key" = 'a \\ [b]'
+[[list]]
+k = 1
+[list.inner]
+k = 2
+[[list]]
+
+k = 3
+[[list.inner]]
+k = 4
+[[list.inner]]
+k = 5
+'''
+
+
+def test_lines_of_keys() -> None:
+    assert lines_of(LAID_OUT) == {
+        ("title",): 2, ("a",): 5, ("a", "b"): 6, ("a", "b", "c"): 6, ("a", "b", "c", 2): 7,
+        ("a", "b", "c", 2, "x"): 7, ("a", "b", "c", 2, "y"): 7, ("a", "b", "c", 2, "y", "z"): 7,
+        ("a", "quoted é key"): 9, ("list",): 10, ("list", 0): 10, ("list", 0, "k"): 11,
+        ("list", 0, "inner"): 12, ("list", 0, "inner", "k"): 13, ("list", 1): 14, ("list", 1, "k"): 16,
+        ("list", 1, "inner"): 17, ("list", 1, "inner", 0): 17, ("list", 1, "inner", 0, "k"): 18,
+        ("list", 1, "inner", 1): 19, ("list", 1, "inner", 1, "k"): 20,
+    }  # fmt: skip
+
+
+def keys_in(value: Any, path: tuple[Any, ...] = ()) -> set[tuple[Any, ...]]:
+    """Paths of all keys of a parsed document."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    found = {(*path, key) for key, _ in items if isinstance(key, str)}
+    return found.union(*(keys_in(item, (*path, key)) for key, item in items))
+
+
+@pytest.mark.parametrize(
+    "text", [LAID_OUT, EVERY_TABLE, PENDULUM], ids=["laid out", "every table", "pendulum"]
+)
+def test_every_key_has_its_line(text: str) -> None:
+    found = lines_of(text)
+    rows = text.splitlines()
+    for path in keys_in(tomllib.loads(text)):
+        assert str(path[-1])[:6] in rows[found[path] - 1], path
+
+
+def test_the_schema_is_current() -> None:
+    shipped = json.loads(schema_path().read_text(encoding="utf-8"))
+    assert shipped == schema(), "seacrane schema > python/seacrane/data/lift.schema.json"
+    assert schema_path().read_text(encoding="utf-8") == schema_text()
+
+
+def validator() -> Any:
+    jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
+    jsonschema.Draft7Validator.check_schema(schema())
+    return jsonschema.Draft7Validator(schema())
+
+
+def test_lifts_are_valid_by_the_schema() -> None:
+    texts = [path.read_text(encoding="utf-8") for path in schema_path().parent.glob("lifts/*.toml")]
+    assert len(texts) == len(LIFTS)
+    check = validator()
+    for text in [*texts, PENDULUM, EVERY_TABLE, CONTROLLED.replace("FEED_FORWARD", ""), example()]:
+        check.validate(tomllib.loads(text))
+
+
+NOT_IN_SCHEMA = (
+    "a tolerance out of range",
+    "a number that is none",
+    "infinity",
+    "a date",
+    "half",
+    "a key twice",
+)
+
+
+@pytest.mark.parametrize("case", [case for case in MISTAKES if not case.startswith(NOT_IN_SCHEMA)])
+def test_the_schema_refuses_what_the_reader_refuses(case: str) -> None:
+    assert list(validator().iter_errors(tomllib.loads(MISTAKES[case][0])))
+
+
+CALLS = {
+    "vessel": "add_vessel", "hydrodynamics": "add_vessel", "record": "record_coordinate",
+} | {name: f"add_{name}" for name in TABLES if hasattr(Scene, f"add_{name}")}  # fmt: skip
+LEFT_OUT = {
+    "add_function_force": "a C function is no data",
+    "add_load": "its kinds have tables of their own",
+    "add_drift": "drift of [sea]",
+    "add_vessels": "its group of hulls is read in a script",
+    "use_actual_position": "phase of [sea]",
+    "use_slow_position": "phase of [sea]",
+}
+
+
+def test_every_call_that_adds_has_its_table() -> None:
+    adding = {name for name in dir(Scene) if name.startswith(("add_", "use_", "record_"))}
+    assert adding == set(CALLS.values()) | set(LEFT_OUT)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_every_keyword_is_a_key(name: str) -> None:
+    """What only a script can give is named here."""
+    scripted = {"sea": {"database", "sea"}, "hydrodynamics": {"database", "memory"}, "vessel": {"body"}}
+    scripted |= {"mesh": {"vertices", "faces"}, "roles": {"ropes"}}
+    parameters = inspect.signature(getattr(Scene, CALLS[name])).parameters.values()
+    words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
+    assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}
+
+
+PLAIN = {
+    "air", "friction", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
+    "length_scale", "design_factor", "mooring_damping", "inertia", "quaternion", "gamma", "spreading",
+    "relative_bound", "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "rtol",
+    "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
+    "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
+    "drag_coefficient", "safety_factor", "weight_contingency", "skew_load", "dynamic_factor",
+    "sling_safety_factor", "shackle_safety_factor", "alpha", "strips", "slam", "wetting", "drag", "end_drag",
+    "perforation", "fill", "wave_factor", "drag_coefficient_along", "added_mass_coefficient",
+}  # fmt: skip
+IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
+
+
+def all_keys(keys: tuple[Key, ...]) -> list[Key]:
+    return [one for key in keys for one in (key, *all_keys(key.keys))]
+
+
+def test_every_quantity_has_a_unit() -> None:
+    tables = [key for table in TABLES.values() for key in all_keys(table.keys)]
+    pieces = [key for keys in CURVES.values() for key in keys]
+    for key in (*tables, *pieces):
+        plain = key.name in PLAIN or (key in pieces and key.name in IN_CURVES)
+        if key.type in ("number", "array", "curve") and not plain:
+            assert key.unit or key.name.endswith("_deg"), key
+
+
+def test_units_as_they_end_a_key() -> None:
+    units = ("kg", "kg m2", "N s/m", "N m s/rad", "m/s2", "1/s", "kg/m3")
+    ends = ["kg", "kg_m2", "N_s_per_m", "N_m_s_per_rad", "m_per_s2", "per_s", "kg_per_m3"]
+    assert [suffix(unit) for unit in units] == ends
+
+
+def test_the_example_of_the_document_runs(tmp_path: Path) -> None:
+    lift = lift_of(example(), tmp_path)
+    scene = lift.scene()
+    result = simulate(scene, 1.0, method=lift.method, outputs=lift.outputs)
+    assert set(lift.outputs.channels or ()) <= set(result.channels)
+    assert scene.loads["link"].kind == "wire"
+
+
+def test_the_document_names_every_table() -> None:
+    page = PAGE.read_text()
+    assert [name for name in TABLES if f"`[{name}]`" not in page] == []
+
+
+@pytest.mark.parametrize("name", LIFTS)
+def test_shipped_lifts_lead_editors_to_the_schema(name: str) -> None:
+    path = schema_path().parent / "lifts" / f"{name}.toml"
+    mark = path.read_text().splitlines()[0]
+    assert (
+        mark.startswith("#:schema ") and (path.parent / mark.split()[1]).resolve() == schema_path().resolve()
+    )
+
+
+def test_a_lift_that_does_not_come_with_seacrane() -> None:
+    with pytest.raises(SceneError, match="choose one of case1"):
+        Lift.shipped("case4")

@@ -1,0 +1,93 @@
+"""Comparisons with measured sets: as published to a fifth, each with source and picture on the page."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "measurements.md").read_text(encoding="utf-8")
+SETS = sorted(path.stem for path in (ROOT / "benchmarks" / "measured").glob("[a-z]*.py"))
+pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
+
+
+@pytest.fixture
+def measurements(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    return importlib.import_module("measurements")
+
+
+# Those that take more than two seconds.
+LONG = ("moordyn_chain", "kvlcc2_roll_decay", "ntnu_lewis_section")
+BY_NIGHT = pytest.mark.slow("a chain of many segments, or many runs")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=BY_NIGHT if name in LONG else []) for name in SETS]
+)
+def test_a_set_is_within_a_fifth_of_what_is_published(name: str, measurements: Any) -> None:
+    folder = measurements.data_of(name)
+    if folder is None:
+        pytest.skip(f"measured set absent: {name}; set SEACRANE_SHARED to the folder with measured/{name}")
+    rows = list(measurements.module_of(name).rows(folder))
+    told = {key[1:] for key in measurements.published() if key[0] == name}
+    assert {(row.compared, row.by) for row in rows} == told
+    for row in rows:
+        assert abs(row.largest) <= measurements.bound_of(name, row), (row.compared, row.by, row.largest)
+
+
+def test_the_runner_finds_every_set_and_the_page_shows_it(measurements: Any) -> None:
+    assert list(measurements.SETS) == SETS
+    shown = re.findall(r"<!-- table benchmarks/results/measurements\.csv;.* rows: set = (\w+) -->", PAGE)
+    assert sorted(shown) == SETS
+    for name in SETS:
+        source = measurements.module_of(name).SOURCE
+        assert re.fullmatch(r"[0-9a-f]{40}", source.commit) and source.commit in PAGE
+        assert source.repository in PAGE
+
+
+def test_pictures_of_the_page_are_there() -> None:
+    pictures = re.findall(r"\(figures/(measured_\w+\.png)\)", PAGE)
+    assert sorted(pictures) == sorted(
+        path.name for path in (ROOT / "docs" / "figures").glob("measured_*.png")
+    )
+
+
+def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any) -> None:
+    rows = importlib.import_module("measured_row")
+    (name, compared, by), told = next(iter(measurements.published().items()))
+    common: dict[str, Any] = {
+        "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y", "at": [1.0],
+        "measured": [2.0], "of": "value", "points": ([1.0], [2.0]), "line": ([1.0], [2.0]),
+    }  # fmt: skip
+    near = rows.MeasuredRow(**common, ours=[2.0 * (1.0 + 1.1 * told)])
+    assert measurements.checked(name, near) is near
+    with pytest.raises(SystemExit, match=re.escape(compared)):
+        measurements.checked(name, rows.MeasuredRow(**common, ours=[2.0 * (1.0 + 1.3 * told)]))
+
+
+def test_differences_are_signed_and_over_what_the_row_says(measurements: Any) -> None:
+    rows = importlib.import_module("measured_row")
+    common: dict[str, Any] = {
+        "picture": "p", "panel": "p", "compared": "c", "by": "b", "x": "x, s", "y": "y", "at": [1.0, 2.0],
+        "measured": [2.0, -4.0], "ours": [2.2, -5.0], "points": ([1.0, 2.0], [2.0, -4.0]),
+        "line": ([1.0], [2.0]),
+    }  # fmt: skip
+    assert rows.MeasuredRow(**common, of="value").differences == pytest.approx([0.1, -0.25])
+    of_range = rows.MeasuredRow(**common, of="range")
+    assert of_range.largest == pytest.approx(-1.0 / 6.0) and of_range.where == 2.0
+    assert of_range.cells("s") == ("s", "c", "b", "-16.7", "2 s", "-6.7", "range", "", "")
+
+
+def test_the_formulas_for_whole_ships_refuse_every_section(measurements: Any, shared: Path) -> None:
+    folder = shared / "measured" / "ikeda_sections"
+    if not folder.is_dir():
+        pytest.skip(f"measured set absent: no {folder}")
+    sections = measurements.module_of("ikeda_sections")
+    tank = importlib.import_module("measured_numbers").columns(folder / "sections.csv")
+    told = sections.refusals(tank)
+    assert len(told) == 16 and all("the formulas hold from" in one for one in told)

@@ -1,0 +1,260 @@
+"""Integrators: SciPy's formulas, agreement on case 2, what a method needs, names told in one place."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from integrator_table import integrator_table
+from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
+from test_convergence import exact, payload_error, run
+
+from seacrane import Run, Scene, SceneError, _core, cases, integrator_names, simulate
+from seacrane.analysis import Evaluator
+
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
+
+
+@pytest.mark.parametrize(
+    "integrator", [m.name for m in _core.integrators() if m.setting == "rtol" and m.lowest_order == m.order]
+)
+def test_error_falls_with_the_tolerance(integrator: str) -> None:
+    errors = [payload_error(run(integrator=integrator, rtol=rtol)) for rtol in (1e-4, 1e-6)]
+    assert errors[1] < 0.2 * errors[0], errors
+    assert errors[1] < 1e-4, errors
+
+
+def turning_about_a_ball(speed: float) -> Scene:
+    """A body without weight that turns about its ball joint: its centre stays on a circle, at 0.5 m."""
+    scene = Scene(name="ball", gravity=0.0)
+    scene.add_body(
+        name="body",
+        mass=1.0,
+        inertia=[1 / 12] * 3,
+        center_of_mass=(0.5, 0, 0),
+        angular_velocity=(0, speed, 0),
+    )
+    scene.add_joint(kind="spherical", name="ball", first="ground", second="body", point=(0, 0, 0))
+    return scene
+
+
+def test_errors_of_ida_on_a_turning_body_fall_with_the_tolerance() -> None:
+    """Order 1 damps a steady rotation by as much in every step, which its error estimate does not see."""
+    errors, steps = [], []
+    for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
+        result = simulate(turning_about_a_ball(8.0), t_end=5.0, integrator="ida", rtol=rtol)
+        errors.append(np.abs(result["position"][:, 0, 0] - 0.5 * np.cos(8.0 * result.time)).max())
+        steps.append(int(result.stats["steps"]))
+        assert np.abs(result["energy_balance"]).max() < 1e3 * rtol
+    assert errors[0] < 5e-3
+    assert errors[2] < 1e-4
+    assert errors[4] < 1e-6
+    assert max(steps) < 10_000
+
+
+def test_ida_refuses_redundant_joints_by_name() -> None:
+    scene = turning_about_a_ball(1.0)
+    scene.add_joint(kind="spherical", name="other", first="ground", second="body", point=(0, 0, 1))
+    with (
+        pytest.warns(UserWarning, match="redundant"),
+        pytest.raises(SceneError, match=r"'ida' is not available here: the joints ball, other are redundant"),
+    ):
+        simulate(scene, t_end=1.0, integrator="ida")
+
+
+def fast_crank(speed: float, *, crank: float = 0.01, rod: float = 0.03) -> Scene:
+    """A slider-crank of centimetres, its crank up, without weight."""
+    scene = Scene(name="fast crank", gravity=0.0)
+    reach, tip = np.sqrt(rod**2 - crank**2), np.array([speed * crank, 0.0, 0.0])
+    lean = 0.5 * np.arcsin(crank / rod)
+    bodies: dict[str, dict[str, Any]] = {
+        "crank": {"position": (0, 0, crank / 2), "velocity": tip / 2, "angular_velocity": (0, speed, 0)},
+        "rod": {"position": (reach / 2, 0, crank / 2), "velocity": tip,
+                "quaternion": (np.cos(lean), 0, np.sin(lean), 0)},
+        "slider": {"position": (reach, 0, 0), "velocity": tip},
+    }  # fmt: skip
+    for name, state in bodies.items():
+        scene.add_body(name=name, mass=0.1, inertia=[1e-5] * 3, **state)
+    end = (reach, 0, 0)
+    scene.add_joint(kind="revolute", name="shaft", first="ground", second="crank", axis=(0, 1, 0))
+    scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=(0, 0, crank))
+    scene.add_joint(kind="universal", name="cross", first="rod", second="slider", point=end, axis=(0, 1, 0),
+                    second_axis=(0, 0, 1))  # fmt: skip
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
+    )
+    return scene
+
+
+@pytest.mark.warns("UnitWarning")
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize(("integrator", "rtol", "limit"), [
+    ("cvode-bdf", 1e-7, 1e-8),
+    ("cvode-bdf", 1e-8, 1e-8),
+    ("dop853", 1e-13, 1e-11),
+])  # fmt: skip
+def test_a_mechanism_of_1400_rad_per_s_is_no_obstacle(
+    integrator: str, rtol: float, limit: float, formulation: str
+) -> None:
+    """Tolerances are absolute, some 1e-13 of such speeds: below what evaluations and projections resolve."""
+    settings: dict[str, Any] = {"t_end": 0.002, "dt_out": 0.001, "formulation": formulation}
+    found = simulate(fast_crank(1400.0), integrator=integrator, rtol=rtol, **settings)
+    exact_enough = simulate(fast_crank(1400.0), integrator="dop853", rtol=1e-10, **settings)
+    assert np.abs(found["position"] - exact_enough["position"]).max() < limit
+
+
+def tumbling() -> Scene:
+    """A free body that tumbles: no constraint, no projection, an exact copy of SciPy's problem."""
+    scene = Scene(gravity=9.81)
+    scene.add_body(
+        name="block", mass=2.0, inertia=np.diag([1.0, 2.0, 2.5]), position=(0.0, 0.0, 0.0),
+        velocity=(1.0, 2.0, 3.0), angular_velocity=(0.3, 2.0, 0.2),
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize("integrator, method", [("bs32", RK23), ("dopri5", RK45), ("dop853", DOP853)])
+def test_steps_equal_those_of_scipy(integrator: str, method: type[RungeKutta]) -> None:
+    """The same pair from SciPy's coefficients, on the same derivative: equal to rounding."""
+    scene = tumbling()
+    model = scene.compile()
+    h, steps = 1 / 64, 16  # short enough for the choice of the first step to be maximum_step
+    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, maximum_step=h,
+              formulation="redundant")  # fmt: skip
+    y = np.array(own.core.state.values)
+    own.advance(h * steps)
+    assert own.core.statistics()["steps"] == steps
+    evaluate = Evaluator(model).derivative
+    f, k = evaluate(0.0, y), np.empty((method.n_stages + 1, y.size))
+    for i in range(steps):
+        y, f = rk_step(evaluate, i * h, y, f, h, method.A[:, : method.n_stages], method.B, method.C, k)
+    np.testing.assert_allclose(own.core.state.values, y, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("integrator, method", [("bs32", RK23), ("dop853", DOP853)])
+def test_dense_output_equals_that_of_scipy(integrator: str, method: type[RungeKutta]) -> None:
+    scene = tumbling()
+    model = scene.compile()
+    h, n = 1 / 64, 5
+    own = Run(scene, model=model, t_end=h, dt_out=h / n, integrator=integrator, rtol=0.1, maximum_step=h,
+              channels=["position", "velocity", "angular_velocity"])  # fmt: skip
+    y = np.array(own.core.state.values)
+    solver = method(Evaluator(model).derivative, 0.0, y, h, first_step=h, max_step=h, rtol=0.1, atol=1e3)
+    solver.step()
+    own.advance(h)
+    assert own.core.statistics()["steps"] == 1
+    theirs = solver.dense_output()(np.linspace(0.0, h, n + 1)).T
+    out = own.core.channels()
+    places = {"position": slice(0, 3), "velocity": slice(7, 10), "angular_velocity": slice(10, 13)}
+    for name, columns in places.items():
+        np.testing.assert_allclose(out[name][:, 0], theirs[:, columns], rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
+def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
+    """At constant angular velocity about a principal axis the rotation is exact whatever the step."""
+    scene = Scene(gravity=0.0, orientation=orientation)
+    scene.add_body(name="top", mass=1.0, inertia=np.diag([1.0, 2.0, 3.0]), position=(0.0, 0.0, 0.0),
+                   angular_velocity=(0.0, 0.0, 2.0))  # fmt: skip
+    turn = Run(scene, t_end=1.0, dt_out=1.0, integrator="semi-implicit-euler", dt=0.25,
+               channels=["quaternion"])  # fmt: skip
+    turn.advance(1.0)
+    found = turn.core.channels()["quaternion"][-1, 0]
+    np.testing.assert_allclose(found, [np.cos(1.0), 0.0, 0.0, np.sin(1.0)], rtol=0.0, atol=1e-14)
+
+
+@lru_cache(maxsize=1)
+def afloat() -> tuple[Scene, Any]:
+    scene = cases.case2(evaluation="exact")
+    return scene, scene.compile()
+
+
+def afloat_payload(**settings: Any) -> np.ndarray:
+    scene, model = afloat()
+    out = Run(scene, t_end=5.0, dt_out=5.0, model=model, channels=["position"], **settings)
+    out.advance(5.0)
+    return np.asarray(out.core.channels()["position"][-1, list(scene.bodies).index("payload")])
+
+
+@lru_cache(maxsize=1)
+def afloat_truth() -> np.ndarray:
+    return afloat_payload(rtol=1e-11)
+
+
+@pytest.mark.parametrize("integrator, settings, limit", [
+    ("semi-implicit-euler", {"dt": 2e-3}, 2e-3),
+    ("generalized-alpha", {"dt": 1e-2}, 2e-3),
+    ("rk-low-storage", {"dt": 5e-2}, 1e-5),
+    ("rosenbrock", {"rtol": 1e-5}, 1e-3),
+    ("tsit5", {"rtol": 1e-7}, 1e-6),
+    ("verner65", {"rtol": 1e-7}, 1e-6),
+    ("verner76", {"rtol": 1e-7}, 1e-6),
+    ("dop853", {"rtol": 1e-7}, 1e-6),
+])  # fmt: skip
+def test_methods_agree_on_case_2_afloat(integrator: str, settings: dict[str, float], limit: float) -> None:
+    """Memory states, waves, controllers and constraints together."""
+    found = afloat_payload(integrator=integrator, **settings)
+    assert np.linalg.norm(found - afloat_truth()) < limit
+
+
+def oscillator(frequency: float) -> Scene:
+    """1 kg on a rail, 1 mm from where a spring wants it; `frequency` in rad/s."""
+    scene = Scene(gravity=0.0)
+    scene.add_body(name="cart", mass=1.0, inertia=[1, 1, 1])
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
+    scene.add_actuator(joint="rail", stiffness=frequency**2, reference=1e-3)
+    return scene
+
+
+@pytest.mark.parametrize("radius", [0.9, 0.5, 0.2])
+def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: float) -> None:
+    """All three roots of the step tend to -radius [Chung, Hulbert 1993]: their product, of the recurrence."""
+    step = 0.1
+    result = simulate(
+        oscillator(1e3), t_end=12 * step, dt_out=step, dt=step, integrator="generalized-alpha",
+        spectral_radius=radius, channels=["position"],
+    )  # fmt: skip
+    x = np.asarray(result["position"])[:, 0, 0] - 1e-3
+    rows = np.array([x[k : k + 3] for k in range(3, 9)])
+    size = np.abs(rows).max(axis=1)
+    product = np.linalg.lstsq(rows / size[:, None], x[6:12] / size, rcond=None)[0][0]
+    assert abs(product) ** (1 / 3) == pytest.approx(radius, rel=1e-2)
+    assert result.settings["spectral_radius"] == radius
+
+
+@pytest.mark.parametrize(
+    ("settings", "parts"),
+    [
+        ({"integrator": "dopri5", "spectral_radius": 0.5}, ("spectral_radius", "dopri5")),
+        ({"integrator": "generalized-alpha", "spectral_radius": 1.5}, ("spectral_radius is 1.5", "0 ")),
+        ({"integrator": "generalized-alpha", "spectral_radius": float("nan")}, ("spectral_radius is nan",)),
+        ({"integrator": "generalized-alpha", "spectral_radius": "half"}, ("spectral_radius is 'half'",)),
+    ],
+)
+def test_a_spectral_radius_that_makes_no_sense_is_refused(
+    settings: dict[str, Any], parts: tuple[str, ...]
+) -> None:
+    with pytest.raises(SceneError) as caught:
+        simulate(oscillator(1.0), t_end=1.0, **settings)
+    for part in parts:
+        assert part in str(caught.value)
+
+
+def test_the_reference_of_the_orders_stands() -> None:
+    assert np.linalg.norm(run(integrator="dop853", rtol=1e-12)["position"][-1, -1] - exact()) < 1e-9
+
+
+def test_the_documents_table_is_that_of_the_core() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "integrators.md").read_text(encoding="utf-8")
+    assert page.count(integrator_table()) == 1, "run: python tests/scenes/integrator_table.py"
+
+
+def test_what_a_method_is_cannot_be_changed() -> None:
+    method = _core.integrator("rk4")
+    with pytest.raises(AttributeError):
+        method.order = 5  # type: ignore[misc]
+    assert [m.name for m in _core.integrators()] == integrator_names()

@@ -1,0 +1,123 @@
+"""The record of results: what it covers, that scenes give it, and that a planted difference is found."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from seacrane import _core, integrator_names
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import bits.scenes  # noqa: E402, F401
+from bits.__main__ import as_text, main, run_all  # noqa: E402
+from bits.case import CASES  # noqa: E402
+from bits.compare import Change, Renamed, differences  # noqa: E402
+from bits.record import recorded  # noqa: E402
+
+FIXED_STEP = {"semi-implicit-euler", "rk4", "rk-low-storage", "generalized-alpha"}
+QUICK = (
+    "loads/actuator",
+    "lines/wound_by_a_winch",
+    "contact/end_stop",
+    "cranes/case2_by_its_paper",
+    "drawn/15",
+)
+NONE = Renamed()
+
+
+@pytest.fixture(scope="module")
+def record() -> dict[str, Any]:
+    return json.loads((ROOT / "tests" / "bits.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def one(record: dict[str, Any]) -> dict[str, Any]:
+    return copy.deepcopy(record["scenes"][QUICK[0]])
+
+
+def runs(record: dict[str, Any]) -> list[dict[str, Any]]:
+    return [run for scene in record["scenes"].values() for run in scene["runs"].values()]
+
+
+def test_every_scene_is_recorded_by_two_methods(record: dict[str, Any]) -> None:
+    assert list(record["scenes"]) == list(CASES)
+    assert len(CASES) >= 60
+    assert min(len(scene["runs"]) for scene in record["scenes"].values()) >= 2
+
+
+def test_every_kind_of_load_and_every_integrator_is_in_it(record: dict[str, Any]) -> None:
+    assert {kind for scene in record["scenes"].values() for kind in scene["loads"]} == set(_core.LOAD_KINDS)
+    assert {run["settings"]["integrator"] for run in runs(record)} == set(integrator_names())
+
+
+def test_no_setting_is_left_to_its_default(record: dict[str, Any]) -> None:
+    for run in runs(record):
+        told = run["settings"]
+        named = {"integrator", "formulation", "rtol", "dt_out"}
+        assert told.keys() >= named | ({"dt"} if told["integrator"] in FIXED_STEP else set()), told
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_scene_gives_what_is_recorded(name: str, record: dict[str, Any]) -> None:
+    apart = differences(record["scenes"][name], recorded(name), NONE)
+    assert [str(one) for one in apart if one.size > 1e-9] == []
+
+
+def test_a_planted_difference_is_found(record: dict[str, Any], tmp_path: Path, capsys: Any) -> None:
+    copied = copy.deepcopy(record)
+    position = next(iter(copied["scenes"][QUICK[0]]["runs"].values()))["channels"]["position"]
+    position["last"] = (float.fromhex(position["largest"]) * 2.0 + 1.0).hex()
+    position["sha256"] = "0" * 64
+    file = tmp_path / "bits.json"
+    file.write_text(as_text(copied), encoding="utf-8")
+    assert main(["--file", str(file), "--scenes", QUICK[0]]) == 1
+    told = capsys.readouterr().out
+    assert QUICK[0] in told and "in position" in told and "not as recorded" in told
+
+
+def test_a_scene_that_fails_does_not_stop_the_others() -> None:
+    found = dict(run_all(["no such scene", QUICK[0]], 1))
+    assert "no such scene" in found["no such scene"]
+    assert found[QUICK[0]]["runs"]
+
+
+def test_a_process_that_dies_does_not_stop_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("bits.__main__.recorded", os._exit)
+    codes: Any = [1, 2]
+    assert [found for _, found in run_all(codes, 1)] == ["its process ended"] * 2
+
+
+def test_a_renamed_channel_is_matched_by_the_table(one: dict[str, Any]) -> None:
+    now = copy.deepcopy(one)
+    for run in now["runs"].values():
+        run["channels"]["place"] = run["channels"].pop("position")
+    assert {(d.channel, d.what) for d in differences(one, now, NONE)} == {
+        ("position", "missing"),
+        ("place", "new"),
+    }
+    assert differences(one, now, Renamed(channels={"position": "place"})) == []
+
+
+def test_a_change_is_expected_within_its_bound_alone(one: dict[str, Any]) -> None:
+    now = copy.deepcopy(one)
+    run = next(iter(now["runs"].values()))
+    pressed = run["channels"]["actuator_force"]
+    pressed["largest"] = (float.fromhex(pressed["largest"]) * (1.0 + 1e-3)).hex()
+    pressed["sha256"] = "0" * 64
+    (apart,) = differences(one, now, NONE)
+    assert apart.size == pytest.approx(1e-3, rel=0.5)
+    wide, tight = (
+        Change(scenes="loads/*", channels="actuator_*", bound=b, reason="try") for b in (1e-2, 1e-5)
+    )
+    assert apart.expected(QUICK[0], [wide]) is wide
+    assert apart.expected(QUICK[0], [tight]) is None
+    with pytest.raises(ValueError, match="a reason"):
+        Change(scenes="*", channels="*", reason=" ")

@@ -1,0 +1,96 @@
+"""`seacrane examples`: what it writes is what the project holds, runs, and opens in Jupyter."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+from test_cli import command_line, refusal
+
+ROOT = Path(__file__).resolve().parents[2]
+LISTING = re.compile(r"^```toml\n(.*?)^```", re.DOTALL | re.MULTILINE)
+TAUGHT = {"first_lift": "getting-started", "box_over_the_side": "lift-files", "case2_study": "studies"}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """By the command of the installed package."""
+    folder = tmp_path_factory.mktemp("examples") / "mine"
+    done = command_line("examples", folder)
+    assert done.returncode == 0, done.stderr
+    for what in ("scripts", "jobs", "lift files"):
+        assert re.search(rf"\d+ {what} in ", done.stdout)
+    return folder
+
+
+def test_all_examples_are_written_as_the_project_holds_them(written: Path) -> None:
+    source = ROOT / "examples"
+    wanted = {path.relative_to(source) for path in source.rglob("*.*") if "__pycache__" not in path.parts}
+    found = {path.relative_to(written) for path in written.rglob("*.*")}
+    assert {path for path in found if path.parts[0] != "notebooks"} == wanted
+    assert all((written / name).read_bytes() == (source / name).read_bytes() for name in wanted)
+
+
+def test_nothing_is_replaced_unless_asked_for(written: Path) -> None:
+    mine = written / "pendulum.py"
+    theirs = mine.read_text()
+    mine.write_text("print('mine')\n")
+    assert "pendulum.py" in refusal(command_line("examples", written))
+    assert mine.read_text() == "print('mine')\n"
+    assert command_line("examples", written, "--overwrite").returncode == 0
+    assert mine.read_text() == theirs
+
+
+@pytest.mark.parametrize("name", ["pendulum.py", "jobs/wire_snatch.py"])
+def test_a_script_runs_where_it_is_written(written: Path, name: str) -> None:
+    done = subprocess.run([sys.executable, name], cwd=written, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "") and done.stdout
+
+
+@pytest.mark.parametrize("name", ["box_over_the_side", "suction_anchor"])
+def test_a_lift_file_runs_where_it_is_written(written: Path, tmp_path: Path, name: str) -> None:
+    done = command_line("run", written / "lifts" / f"{name}.toml", "--out", tmp_path, "--t-end", "2")
+    assert done.returncode == 0, done.stderr
+    assert [path.suffix for path in tmp_path.iterdir()] == [".nc"]
+
+
+@pytest.mark.parametrize("name", TAUGHT)
+def test_a_lift_file_is_the_one_of_its_document(name: str) -> None:
+    listing, *_ = LISTING.findall((ROOT / "docs" / f"{TAUGHT[name]}.md").read_text(encoding="utf-8"))
+    assert (ROOT / "examples" / "lifts" / f"{name}.toml").read_text(encoding="utf-8") == listing
+
+
+def judge(notebook: nbformat.NotebookNode) -> None:
+    """Valid, run from first to last, with text and pictures, and it names the extra that it needs."""
+    nbformat.validate(notebook)
+    assert "jupytext" not in notebook.metadata and notebook.metadata.kernelspec.name == "python3"
+    assert notebook.cells[0].source.startswith("# ") and "seacrane[notebooks]" in notebook.cells[1].source
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(cell.execution_count for cell in cells)
+    outputs = [out for cell in cells for out in cell.outputs]
+    assert any(out.output_type == "stream" for out in outputs)
+    assert any("image/png" in out.get("data", {}) for out in outputs)
+    assert not any("srcdoc" in str(out) for out in outputs)
+
+
+@pytest.mark.slow("runs a notebook")
+def test_a_notebook_is_kept_with_its_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "tools" / "wheel"))
+    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook
+    target = tmp_path / "one.ipynb"
+    importlib.import_module("notebooks").main(str(ROOT / "notebooks" / "01_first_lift.md"), str(target))
+    judge(nbformat.read(target, as_version=4))
+    assert target.stat().st_size < 2e6
+
+
+def test_notebooks_that_are_installed_have_their_outputs(written: Path) -> None:
+    found = sorted((written / "notebooks").glob("*.ipynb"))
+    if not found:
+        pytest.skip("this package was built without notebooks: `make wheel` runs them")
+    for path in found:
+        judge(nbformat.read(path, as_version=4))

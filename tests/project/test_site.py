@@ -1,0 +1,216 @@
+"""The site: its navigation holds every document and its pages every public name; a wrong link fails it."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import chromium
+import pytest
+
+import seacrane
+
+ROOT = Path(__file__).resolve().parents[2]
+LISTED = re.compile(r"^- \[[^]]+\]\(([^)]+)\)", re.MULTILINE)
+INDEX = "# Site\n\nA first page.\n\n## To read\n\n- [Page](page.md): words\n- [Interface](api.md)\n"
+NOTEBOOK = """---
+file_format: mystnb
+kernelspec:
+  name: python3
+---
+
+# Notebook
+
+```{{code-cell}} ipython3
+with open({path!r}, "a") as log:
+    log.write("run;")
+print(6 * 7, "is printed")
+```
+"""
+PAGE = "# Navigation\n\nSee `docs/api.md`, [the package](../python) and [its list](../python/names.pyi).\n"
+
+
+@pytest.fixture
+def face(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    return importlib.import_module("public_face")
+
+
+def test_the_first_page_lists_every_document() -> None:
+    docs = ROOT / "docs"
+    listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
+    there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
+    there |= {
+        path for folder in ("examples", "studies", "tests") for path in (ROOT / folder).glob("*/README.md")
+    }
+    assert listed == there - {docs / "index.md"}
+
+
+def test_every_public_name_is_on_one_page_once(face: Any) -> None:
+    pages = face.pages()
+    names = [name.rpartition(".")[2] for page in pages.values() for name in page]
+    assert len(names) == len(set(names))
+    for module in (seacrane, *(getattr(seacrane, page) for page in pages)):
+        shown = [one for one in dir(module) if not one.startswith("_")]
+        public = {
+            one
+            for one in shown
+            if inspect.isroutine(getattr(module, one)) or inspect.isclass(getattr(module, one))
+        }
+        assert public <= set(names), module.__name__
+
+
+def test_the_pages_of_names_follow_the_order_of_the_work(face: Any) -> None:
+    tree = (ROOT / "docs" / "api.md").read_text("utf-8")
+    assert re.findall(r"^api/(\w+)$", tree, re.MULTILINE) == list(face.pages())
+
+
+def test_a_name_of_two_homes_stands_under_the_shorter_one(face: Any) -> None:
+    assert "seacrane.HydroDatabase" in face.pages()["hydro"]
+    assert "seacrane.hydro.HydroDatabase" not in face.pages()["hydro"]
+    assert face.homes()["seacrane.scene.scene.Scene"] == "seacrane.Scene"
+
+
+@pytest.fixture
+def small_site(tmp_path: Path) -> Path:
+    """The site's own settings with two short documents."""
+    pytest.importorskip("furo", reason="the site's packages are missing: pip install seacrane[docs]")
+    pytest.importorskip("myst_nb", reason="the site's packages are missing: pip install seacrane[docs]")
+    docs = tmp_path / "docs"
+    shutil.copytree(ROOT / "docs" / "site", docs / "site", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "docs" / "conf.py", docs)
+    (tmp_path / "python").mkdir()
+    (tmp_path / "python" / "names.pyi").write_text("", encoding="utf-8")
+    texts = {"index": INDEX, "page": PAGE, "api": "# Python interface\n\n`seacrane.Scene` and others.\n"}
+    for name, text in texts.items():
+        (docs / f"{name}.md").write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def offline(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    return importlib.import_module("offline")
+
+
+def build(site: Path, *more: str) -> subprocess.CompletedProcess[str]:
+    """Without the pages of docstrings, which take longer than all others; `make docs` builds them."""
+    options = ["-W", "--keep-going", "-q", "-c", "docs", "-D", "include_patterns=docs/*.md", *more]
+    command = [sys.executable, "-m", "sphinx", *options, ".", "out"]
+    return subprocess.run(command, cwd=site, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.slow("builds a site")
+def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -> None:
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8")
+    assert 'href="api.html"' in page.split("<article")[1], "a document named in code letters is linked"
+    assert "names.pyi" in page, "a file of code can be downloaded"
+    assert 'href="../python"' not in page
+    assert "To read" in page.split("<article")[0], "the lists of the first page are the navigation"
+    assert "url=docs/index.html" in (small_site / "out" / "index.html").read_text(encoding="utf-8")
+    assert (small_site / "docs" / "api" / "scene.rst").is_file()
+    assert offline.outside(small_site / "out") == [], "the site opens without a network"
+
+
+@pytest.mark.slow("makes a site")
+def test_formulas_are_drawn_by_the_browser_itself(small_site: Path, offline: Any) -> None:
+    text = "# Page\n\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
+    (small_site / "docs" / "page.md").write_text(text, encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8").split("<article")[1]
+    assert page.count("<math ") == 2 and "<msqrt>" in page and "<mfrac>" in page and "$" not in page
+    assert offline.outside(small_site / "out") == []
+    (small_site / "docs" / "page.md").write_text("# Page\n\n$\\nonsense{x}$\n", encoding="utf-8")
+    failed = build(small_site)
+    assert failed.returncode != 0 and "nonsense" in failed.stderr
+
+
+def test_signatures_say_what_the_code_says(small_site: Path) -> None:
+    (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
+    entries = {
+        "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
+        "seacrane.analysis.Balance": "class", "seacrane.analysis.Balance.vessel_wrench": "property",
+    }  # fmt: skip
+    lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
+    (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "entry.html").read_text(encoding="utf-8").split("<article")[1]
+    words = re.sub(r"<[^>]+>", "", page)
+    assert "ArrayLike" in words and "NDArray[complex128]" in words and "NDArray[integer]" in words
+    assert "Mapping[str, NDArray[float64]]" in words and "NDArray[float64] | None" in words
+    assert not re.search("SupportsArray|NestedSequence|TypeAlias|dtype", words)
+
+
+@pytest.mark.slow("makes a site")
+def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
+    small_site: Path, offline: Any
+) -> None:
+    pytest.importorskip("ipykernel", reason="the site's packages are missing: pip install seacrane[docs]")
+    log = small_site / "log"
+    shutil.copy(ROOT / "docs" / "live.md", small_site / "docs")
+    (small_site / "docs" / "view.md").write_text("# View\n", encoding="utf-8")
+    (small_site / "docs" / "notebook.md").write_text(NOTEBOOK.format(path=str(log)), encoding="utf-8")
+    links = "- [Live](live.md)\n- [View](view.md)\n- [Notebook](notebook.md)\n"
+    (small_site / "docs" / "index.md").write_text(INDEX + links, encoding="utf-8")
+    for _ in range(2):
+        done = build(small_site, "--fresh-env")
+        assert done.returncode == 0, done.stderr
+    assert log.read_text() == "run;", "the second build takes the outputs of the first"
+    site = small_site / "out" / "docs"
+    assert "42 is printed" in (site / "notebook.html").read_text(encoding="utf-8")
+    assert 'src="case2.html' in (site / "live.html").read_text(encoding="utf-8")
+    assert 'id="data"' in (site / "case2.html").read_text(encoding="utf-8")
+    assert offline.outside(small_site / "out") == []
+
+
+LOADS = {
+    "script": '<script src="https://cdn.example/x.js"></script>',
+    "style sheet": '<link rel="stylesheet" href="//cdn.example/x.css">',
+    "picture": '<p style="background: url(http://cdn.example/x.png)">',
+    "set of pictures": '<img src="a.png" srcset="b.png 1x, https://cdn.example/c.png 2x">',
+    "frame": "<iframe srcdoc='<script src=\"https://cdn.example/x.js\"></script>'></iframe>",
+    "import": "<style>@import 'https://cdn.example/x.css';</style>",
+}
+
+
+@pytest.mark.parametrize("what", LOADS)
+def test_what_a_page_would_load_from_a_network_is_found(what: str, tmp_path: Path, offline: Any) -> None:
+    page = tmp_path / "page.html"
+    free = '<a href="https://example.org">to read</a><link rel="canonical" href="https://example.org/page">'
+    page.write_text(f"<html>{free}<img src='data:image/png;base64,AA'></html>", encoding="utf-8")
+    assert offline.outside(tmp_path) == []
+    page.write_text(f"<html>{free}{LOADS[what]}</html>", encoding="utf-8")
+    (found,) = offline.outside(tmp_path)
+    assert "cdn.example" in found
+
+
+@pytest.mark.slow("makes a site")
+def test_the_search_finds_without_a_network(small_site: Path) -> None:
+    command = chromium.found()
+    if command is None:
+        pytest.skip("no Chromium: install Debian's package chromium")
+    assert build(small_site).returncode == 0
+    address = (small_site / "out" / "search.html").as_uri()
+    with chromium.tab(command) as tab:
+        tab.ask("Page.navigate", url=f"{address}?q=navigation")
+        tab.wait_for("document.querySelector('#search-results li a') !== null")
+        assert "page.html" in tab.value("document.querySelector('#search-results li a').href")
+        assert all(one.startswith(("file:", "data:")) for one in tab.requests), tab.requests
+
+
+@pytest.mark.slow("builds a site")
+def test_a_link_that_leads_nowhere_fails_the_build(small_site: Path) -> None:
+    (small_site / "docs" / "page.md").write_text("# Page\n\n[Gone](gone.md)\n", encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode != 0
+    assert "gone.md" in done.stderr

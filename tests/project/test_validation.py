@@ -1,0 +1,127 @@
+"""docs/validation.md: it shows every row of its file as their sources say; a sample is computed again."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+MARK = re.compile(r"<!-- table benchmarks/results/validation\.csv; .*rows: subject = (.*) -->")
+ROUNDING = 1e-11  # differences below it depend on the compiler
+
+
+@pytest.fixture
+def modules(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Imports a module of the benchmarks."""
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    return importlib.import_module
+
+
+@pytest.fixture
+def published(modules: Any) -> dict[str, dict[str, str]]:
+    """Rows of the file, by what was compared with what."""
+    files = modules("compared.files")
+    rows = files.records(files.RESULTS / "validation.csv")
+    return {f"{row['compared']}; {row['with']}": row for row in rows}
+
+
+def test_every_subject_of_the_file_is_on_the_page(published: dict[str, dict[str, str]]) -> None:
+    shown = MARK.findall(PAGE)
+    assert len(shown) == len(set(shown))
+    assert set(shown) == {row["subject"] for row in published.values()}
+
+
+def test_tests_that_rows_name_exist(published: dict[str, dict[str, str]]) -> None:
+    assert len(published) > 60
+    named = {row["test"].strip("`") for row in published.values()}
+    assert [name for name in named if not (ROOT / name).is_file()] == []
+
+
+def test_no_row_exceeds_its_bound(published: dict[str, dict[str, str]]) -> None:
+    bounded = [row for row in published.values() if row["bound"]]
+    assert len(bounded) > 20
+    for row in bounded:
+        assert number(row["largest difference"]) <= number(row["bound"]), row["compared"]
+
+
+def number(text: str) -> float:
+    """A cell's number; of per cent, the share."""
+    value = float(text.split()[0])
+    return value / 100.0 if text.endswith("%") else value
+
+
+FROM_FILES = ("mechanisms", "ships", "peers", "linear_model", "wave_sum", "database", "wires")
+
+
+@pytest.mark.parametrize("name", FROM_FILES)
+def test_rows_from_other_files_are_as_these_say(
+    name: str, modules: Any, published: dict[str, dict[str, str]]
+) -> None:
+    for row in getattr(modules("compared.files"), name)():
+        assert tuple(published[f"{row.compared}; {row.reference}"].values()) == row.cells
+
+
+SAMPLE = {
+    "engine.jacobians": {},
+    "engine.going_on": {},
+    "engine.momentum": {},
+    "engine.formulations": {"names": ("case 2",)},
+    "engine.energy": {"names": ("heavy top",)},
+    "engine.books": {"names": ("case 2",)},
+    "crane.statics": {},
+    "crane.masses": {},
+    "sea.spectrum": {},
+    "sea.drift": {},
+    "hull.hydrostatics": {},
+    "roll_and_mooring.roll_damping": {},
+    "roll_and_mooring.moorings": {},
+    "events.bouncing_ball": {},
+    "reeving.closed_forms": {},
+    "reeving.exudyn": {},
+}
+
+
+@pytest.mark.parametrize("name", SAMPLE)
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_a_sample_computed_again_is_as_published(
+    name: str, modules: Any, published: dict[str, dict[str, str]]
+) -> None:
+    """Within the bound; the same number where it is not made of rounding."""
+    module, function = name.split(".")
+    for row in getattr(modules(f"compared.{module}"), function)(**SAMPLE[name]):
+        told = number(published[f"{row.compared}; {row.reference}"]["largest difference"])
+        assert row.difference <= row.limit
+        if told > ROUNDING and row.difference > ROUNDING and row.limit > 1e-6:
+            assert row.difference == pytest.approx(told, rel=0.1)
+
+
+@pytest.mark.parametrize("method", ["rk4", "tsit5"])
+def test_orders_computed_again_are_as_published(method: str, modules: Any) -> None:
+    orders, files = modules("compared.orders"), modules("compared.files")
+    rows = {row["method"]: row for row in files.records(files.RESULTS / "validation-orders.csv")}
+    ((name, order, measured),) = orders.orders((method,))
+    assert rows[name]["order"] == order
+    assert float(rows[name]["measured"]) == pytest.approx(float(measured), abs=0.1)
+
+
+def test_the_facts_of_the_readme_are_those_of_the_files(modules: Any) -> None:
+    facts, table = modules("facts"), modules("measure.table")
+    head, rows = table.read(facts.RESULTS / "facts.csv")
+    assert tuple(head) == facts.HEAD
+    assert [tuple(row) for row in rows] == facts.facts()
+
+
+def test_a_difference_beyond_its_bound_ends_the_call(modules: Any) -> None:
+    validation, rows = modules("validation"), modules("compared.row")
+    about: dict[str, Any] = {"subject": "s", "compared": "c", "reference": "r", "unit": "m", "test": "t"}
+    kept = rows.Row(**about, difference=1e-9, limit=1e-9)
+    assert validation.checked(kept) is kept
+    with pytest.raises(SystemExit, match="c: 2e-09 exceeds 1e-09"):
+        validation.checked(rows.Row(**about, difference=2e-9, limit=1e-9))
+    with pytest.raises(SystemExit, match="nan exceeds"):
+        validation.checked(rows.Row(**about, difference=float("nan"), limit=1e-9))

@@ -1,0 +1,64 @@
+"""Random scenes with limits: none crashes, stops for a wrong reason or refuses its own state."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+# Each ended a run once: a crash, dense output outside the last step, a limit passed, sets without end.
+FOUND = [29, 208, 261, 275, 297, 309, 432, 453, 493]
+# What a scene may end by: the method, its tolerance, or an angle that is not defined where it came to.
+OWN_FAULT = (
+    "corrector convergence failed", "Newton's iteration", "step size has collapsed", "run stands still",
+    "turns by", "pitch is near", "chatters, # events", "are not finite", "constraints depend on each other",
+    "leave nothing to move", "prescribed rates contradict", "and it solves for every reaction",
+)  # fmt: skip
+
+
+def outcomes(seeds: Iterable[int]) -> dict[int, str]:
+    """By seed; a process that dies leaves the seed that it was at without one."""
+    script = Path(__file__).parents[1] / "scenes" / "limit_scenes.py"
+    told = subprocess.run(
+        [sys.executable, str(script), *map(str, seeds)], capture_output=True, text=True, timeout=3600
+    )
+    return {int(seed): text for seed, text in re.findall(r"^(\d+) (.*)$", told.stdout, re.M)}
+
+
+def bad(seeds: Iterable[int]) -> dict[int, str]:
+    seeds = list(seeds)
+    told = outcomes(seeds)
+    found = {seed: told.get(seed, "") or "crashed, or was not reached" for seed in seeds}
+    return {
+        seed: text
+        for seed, text in found.items()
+        if not text.startswith("ok") and not any(fault in text for fault in OWN_FAULT)
+    }
+
+
+@pytest.mark.parametrize("first", [pytest.param(0, marks=pytest.mark.slow("many random scenes")), 30])
+def test_random_scenes_with_limits_run_to_their_end(first: int) -> None:
+    assert bad(range(first, first + 30)) == {}
+
+
+def test_scenes_that_once_ended_a_run_wrongly_go_on() -> None:
+    assert bad(FOUND) == {}
+
+
+def test_contacts_that_no_force_can_part_end_by_name_and_not_by_a_crash() -> None:
+    assert "no set of its limits is consistent" in outcomes([1722])[1722]
+
+
+@pytest.mark.slow("a thousand random scenes")
+def test_a_thousand_random_scenes_with_limits_neither_crash_nor_stop_for_a_wrong_reason() -> None:
+    found = {
+        seed: text for first in range(1000, 2000, 50) for seed, text in bad(range(first, first + 50)).items()
+    }
+    assert not any("crash" in text or "own state" in text or "dense" in text for text in found.values()), (
+        found
+    )
+    assert len(found) <= 10, found  # sets that no pivoting finds, after a method has left its joints open
