@@ -25,6 +25,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m seeded_faults", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="FAULT", help="all when left out")
     parser.add_argument("--check", action="store_true", help="only whether each fault has its place")
+    parser.add_argument("--before", type=Path, help="found.csv of another time: its tests look first")
     parser.add_argument("--night", action="store_true", help="slow tests look for what others do not find")
     args = parser.parse_args()
     wanted = [fault for fault in faults() if not args.names or fault.name in args.names]
@@ -42,6 +43,7 @@ def main() -> int:
         return 0
     table = HOME / "found.csv"
     known = _known(table)
+    before = _known(args.before, "test") if args.before else {}
     hunt = Hunt(ROOT, HOME)
     with table.open("a", newline="", encoding="utf-8") as out:
         rows = csv.writer(out, lineterminator="\n")
@@ -50,9 +52,9 @@ def main() -> int:
         for fault in wanted:
             if fault.name in known:
                 continue
-            before = _seconds()
-            who, test = hunt.finder(fault, by_night=args.night)
-            rows.writerow((fault.name, fault.file, who, test, f"{_seconds() - before:.0f}"))
+            began = _seconds()
+            who, test = hunt.finder(fault, first=before.get(fault.name, ""), by_night=args.night)
+            rows.writerow((fault.name, fault.file, who, test, f"{_seconds() - began:.0f}"))
             out.flush()
             print(f"{fault.name}: {who} {test}", flush=True)
     found = _known(table)
@@ -63,11 +65,11 @@ def main() -> int:
     return int(bool(missed))
 
 
-def _known(table: Path) -> dict[str, str]:
+def _known(table: Path, column: str = "found_by") -> dict[str, str]:
     if not table.exists():
         return {}
     with table.open(encoding="utf-8") as rows:
-        return {row["fault"]: row["found_by"] for row in csv.DictReader(rows)}
+        return {row["fault"]: row[column] for row in csv.DictReader(rows)}
 
 
 def _seconds() -> float:

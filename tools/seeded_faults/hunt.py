@@ -40,17 +40,17 @@ class Hunt:
             if not self._succeeds(command):
                 raise RuntimeError(f"{command} fails without a fault; see {self.log}")
 
-    def finder(self, fault: Fault, *, by_night: bool = False) -> tuple[str, str]:
+    def finder(self, fault: Fault, *, first: str = "", by_night: bool = False) -> tuple[str, str]:
         """Who finds a fault first, and the name of a test; ("nobody", "").
 
-        The compiler, the engine's own tests, the tests that name the file, the rest of the day; by night the
-        slow ones too.
+        The compiler, the engine's own tests, the file of the test that found it another time (`first`), the
+        tests that name the fault's file, the rest of the day; by night the slow ones too.
         """
         file = self.tree / fault.file
         sound = file.read_text(encoding="utf-8")
         file.write_text(fault.seeded(sound), encoding="utf-8")
         try:
-            for who, command in self._ways(fault, by_night=by_night):
+            for who, command in self._ways(fault, first, by_night=by_night):
                 if not self._succeeds(command):
                     names = FAILED.findall(self._said) or PROGRAM.findall(self._said)
                     return who, names[0] if names else ""
@@ -58,11 +58,16 @@ class Hunt:
         finally:
             file.write_text(sound, encoding="utf-8")
 
-    def _ways(self, fault: Fault, *, by_night: bool) -> Iterator[tuple[str, str]]:
+    def _ways(self, fault: Fault, first: str, *, by_night: bool) -> Iterator[tuple[str, str]]:
         if fault.in_engine:
             yield "compiler", "cmake --build build/package --target seacrane_tests"
             yield "engine's tests", "ctest --test-dir build/package --stop-on-failure -j 2"
         yield "compiler", "make build"
+        known = sorted(
+            str(path) for path in (self.tree / "tests").rglob(Path(first.partition("::")[0]).name or "-")
+        )
+        if known:
+            yield "the same test", f"{PYTEST} {shlex.join(known)}"
         near = self._near(Path(fault.file).stem)
         if near:
             yield "near tests", f"{PYTEST} {shlex.join(near)}"
