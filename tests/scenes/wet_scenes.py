@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 from seacrane import Scene, _core, simulate
 from seacrane.run import Run
 from seacrane.run.lanes import module_of
+from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
+from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
@@ -24,6 +26,24 @@ def quaternion(turn: Rotation) -> tuple[float, ...]:
     """Scalar first."""
     x, y, z, w = turn.as_quat()
     return w, x, y, z
+
+
+def random_parts(rng: np.random.Generator) -> Iterator[Part]:
+    """Of all kinds."""
+
+    def place() -> dict[str, Any]:
+        turn = Rotation.random(random_state=int(rng.integers(1 << 30))).as_matrix()
+        return {"point": rng.uniform(-1.0, 1.0, 3), "axes": turn}
+
+    yield BoxPart(size=rng.uniform(0.5, 2.0, 3), strips=(2, 1), perforation=0.15, fill=0.6, **place())
+    yield CylinderPart(length=3.0, diameter=0.7, end_drag=0.8, slam=5.15, **place())
+    yield SpherePart(diameter=1.3, **place())
+    yield PlatePart(size=(2.0, 1.5), thickness=0.1, **place())
+    yield TablePart(
+        height=1.0, depths=(0.0, 0.4, 1.0, 2.0), volumes=(0.0, 0.3, 0.8, 0.8), drag_area=(1.0, 2.0, 3.0),
+        added_masses=((0.0, 0.0, 0.0), (50.0, 60.0, 200.0), (110.0, 150.0, 350.0), (120.0, 180.0, 400.0)),
+        source="this test", **place(),
+    )  # fmt: skip
 
 
 def hung_on_links(hook: float = 4.0, **load: Any) -> Scene:

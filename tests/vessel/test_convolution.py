@@ -47,10 +47,8 @@ def fitted_kernel(step: float, duration: float = 200.0) -> Array:
 def with_kernel(scene: Scene, functions: RetardationFunctions) -> Scene:
     """The scene with its vessel's memory replaced."""
     names = ("added_mass", "linear_damping", "quadratic_damping", "restoring", "mooring_stiffness")
-    vessel = scene.vessels["vessel"]
+    out, vessel = scene.copy(vessels={}), scene.vessels["vessel"]
     kept: dict[str, Any] = {name: getattr(vessel, name) for name in (*names, "mooring_damping")}
-    out = scene.copy()
-    out.vessels = {}
     out.add_vessel(body="vessel", memory=functions, **kept)
     return out
 
@@ -60,10 +58,8 @@ def convolved(step: float, **sea: Any) -> Scene:
     return with_kernel(scene, RetardationFunctions(step=step, kernel=fitted_kernel(step)))
 
 
-def run(scene: Scene, t_end: float = 30.0, **settings: Any) -> Result:
-    return simulate(
-        scene, **{"t_end": t_end, "dt_out": 0.25, "rtol": 1e-10, "channels": CHANNELS, **settings}
-    )
+def run(scene: Scene, t_end: float = 30.0, **more: Any) -> Result:
+    return simulate(scene, t_end, **{"dt_out": 0.25, "rtol": 1e-10, "channels": CHANNELS, **more})
 
 
 def distance(found: Array, expected: Array) -> float:
@@ -85,13 +81,8 @@ def test_same_motion_as_states_of_the_same_kernel_to_fourth_order(by_states: Arr
 
 def started(scene: Scene) -> Scene:
     """The scene with its vessel under way at the start."""
-    body = scene.bodies["vessel"]
     out = scene.copy()
-    out.bodies = {}
-    out.add_body(
-        name="vessel", mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
-        velocity=(0.0, 0.2, 0.3), angular_velocity=(0.02, 0.01, 0.0),
-    )  # fmt: skip
+    out.replace("vessel", kind="body", velocity=(0.0, 0.2, 0.3), angular_velocity=(0.02, 0.01, 0.0))
     return out
 
 

@@ -13,7 +13,6 @@ from reference.vessel import MemoryModel as ReferenceMemory
 
 from seacrane import Result, Scene, cases, simulate
 from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -137,17 +136,3 @@ def test_states_equal_convolution_with_the_fitted_kernel(scene: Any, t_end: floa
     """mu(t) = int K(t - tau) u(tau) dtau, K = C exp(A t) B, of the whole recorded history; in case 2 with
     the deck's reaction and the balancing force."""
     np.testing.assert_array_less(memory_error(run(scene(), t_end)), 3e-5)
-
-
-def test_memory_states_count_and_leave() -> None:
-    with_memory, without = cases.vessel().compile(), cases.vessel(memory="none").compile()
-    states = sum(len(block.A) for block in vessel_parameters(shipped_database()).memory.blocks)
-    assert with_memory.memory_states == with_memory.states - without.states == states > 40
-    assert without.memory_states == 0
-
-
-def test_rigid_mass_matrix_of_the_paper() -> None:
-    """Equation (12): the vessel's mass matrix about {0} is that of the database."""
-    p = vessel_parameters(shipped_database())
-    found = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia)
-    np.testing.assert_allclose(found, shipped_database().mass_matrix, rtol=1e-12, atol=1e-3)

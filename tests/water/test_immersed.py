@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -248,26 +248,10 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
     assert torque[:2] == pytest.approx(RHO * G * np.array([moment[1], -moment[0]]), abs=1e-3 * scale)
 
 
-def random_parts(rng: np.random.Generator) -> Iterator[Part]:
-    def place() -> dict[str, Any]:
-        turn = Rotation.random(random_state=int(rng.integers(1 << 30))).as_matrix()
-        return {"point": rng.uniform(-1.0, 1.0, 3), "axes": turn}
-
-    yield BoxPart(size=rng.uniform(0.5, 2.0, 3), strips=(2, 1), perforation=0.15, fill=0.6, **place())
-    yield CylinderPart(length=3.0, diameter=0.7, end_drag=0.8, slam=5.15, **place())
-    yield SpherePart(diameter=1.3, **place())
-    yield PlatePart(size=(2.0, 1.5), thickness=0.1, **place())
-    yield TablePart(
-        height=1.0, depths=(0.0, 0.4, 1.0, 2.0), volumes=(0.0, 0.3, 0.8, 0.8), drag_area=(1.0, 2.0, 3.0),
-        added_masses=((0.0, 0.0, 0.0), (50.0, 60.0, 200.0), (110.0, 150.0, 350.0), (120.0, 180.0, 400.0)),
-        source="this test", **place(),
-    )  # fmt: skip
-
-
 def hanging(seed: int) -> Scene:
     """A load with parts of all kinds that swings on two links through the surface."""
     scene = wet.hung_on_links()
-    scene.add_immersed("load", parts=list(random_parts(np.random.default_rng(seed))), density=RHO)
+    scene.add_immersed("load", parts=list(wet.random_parts(np.random.default_rng(seed))), density=RHO)
     return scene
 
 

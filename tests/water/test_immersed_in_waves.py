@@ -9,7 +9,6 @@ import pytest
 import wet_scenes as wet
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
@@ -17,7 +16,7 @@ from seacrane.description.forces import add_load
 from seacrane.run.lanes import module_of
 from seacrane.scene import Waves
 from seacrane.sea import Current
-from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
+from seacrane.water import BoxPart, CylinderPart, SpherePart
 
 Array = NDArray[np.float64]
 
@@ -91,25 +90,6 @@ def test_a_small_neutral_sphere_moves_as_the_water() -> None:
     assert found == pytest.approx(alone.y[:2].T, abs=1e-6)
 
 
-def cluster(scene: Scene, drag: float = 1.0) -> None:
-    turn = Rotation.from_rotvec([0.4, -0.7, 0.3]).as_matrix()
-    table = TablePart(
-        height=1.0, depths=(0.0, 0.4, 1.0, 2.0), volumes=(0.0, 0.3, 0.8, 0.8), drag_area=(1.0, 2.0, 3.0),
-        added_masses=((0.0, 0.0, 0.0), (50.0, 60.0, 200.0), (110.0, 150.0, 350.0), (120.0, 180.0, 400.0)),
-        source="this test", point=(0.2, 0.9, 0.2), axes=turn,
-    )  # fmt: skip
-    scene.add_immersed(
-        "load", density=RHO,
-        parts=[
-            BoxPart(size=(2.0, 1.4, 0.8), strips=(2, 1), perforation=0.2, fill=0.5, drag=drag, axes=turn),
-            CylinderPart(length=3.0, diameter=0.6, drag=drag, point=(0.4, -0.8, 0.5), axes=turn.T),
-            PlatePart(size=(2.0, 1.5), thickness=0.05, drag=drag, point=(-0.6, 0.3, -0.7)),
-            SpherePart(diameter=1.3, point=(0.3, -0.2, 0.4)),
-            table,
-        ],
-    )  # fmt: skip
-
-
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_body_in_a_current_moves_as_one_that_is_towed_through_still_water(formulation: str) -> None:
@@ -121,7 +101,7 @@ def test_a_body_in_a_current_moves_as_one_that_is_towed_through_still_water(form
             name="load", mass=2500.0, inertia=(1500.0, 2500.0, 3500.0), position=(0.0, 0.0, 1.0),
             velocity=np.array([0.5, 0.2, -2.0]) - (u if towed else 0.0), angular_velocity=(0.3, -0.4, 0.2),
         )  # fmt: skip
-        cluster(scene)
+        scene.add_immersed("load", parts=list(wet.random_parts(np.random.default_rng(7))), density=RHO)
         if not towed:
             course = float(np.rad2deg(np.arctan2(u[1], u[0])))
             current = Current(speed=float(np.hypot(*u[:2])), direction_deg=course)
@@ -137,7 +117,7 @@ def test_a_body_in_a_current_moves_as_one_that_is_towed_through_still_water(form
 def hanging(seed: int, hs: float = 1.5) -> Scene:
     """A load with parts of all kinds that swings on two links through a sea with a current."""
     scene = wet.hung_on_links()
-    cluster(scene)
+    scene.add_immersed("load", parts=list(wet.random_parts(np.random.default_rng(7))), density=RHO)
     current = Current(speed=0.7, direction_deg=100.0)
     scene.add_sea(vessel=None, hs=hs, tp=6.0, seed=seed, direction_deg=30.0, current=current)
     return scene
