@@ -42,15 +42,19 @@ HEAVE = {"heave": "wave_force[heave].max"}
 
 
 @cache
+def drifting() -> HydroDatabase:
+    heading, omega = np.linspace(0.0, np.pi, 13), np.linspace(0.2, 2.6, 9)
+    drift = DriftCoefficients(heading=heading, omega=omega, coefficient=np.full((13, 9, 6), 100.0))
+    return replace(shipped_database(), name="drifting", drift=drift)
+
+
+@cache
 def rich() -> HydroDatabase:
     """With every part that a database may have."""
-    shipped = shipped_database()
-    zero = np.zeros((shipped.omega.size, 6, 6))
-    heading, omega = np.linspace(0.0, np.pi, 13), np.linspace(0.2, 2.6, 9)
+    shipped, zero = shipped_database(), np.zeros((shipped_database().omega.size, 6, 6))
+    tank = AdditionalMatrices(cause="slack tank", added_mass=zero, damping=zero, restoring=zero)
     return replace(
-        shipped, name="rich", motion_rao=0.1 * shipped.force / 1e6,
-        drift=DriftCoefficients(heading=heading, omega=omega, coefficient=np.full((13, 9, 6), 100.0)),
-        additional=(AdditionalMatrices(cause="slack tank", added_mass=zero, damping=zero, restoring=zero),),
+        drifting(), name="rich", motion_rao=0.1 * shipped.force / 1e6, additional=(tank,),
         memory=fit_memory(database=shipped, kind="per-pair"),
     )  # fmt: skip
 
@@ -118,18 +122,19 @@ def test_digests_vessels_and_copies_know_their_database() -> None:
 
 @pytest.mark.filterwarnings("ignore:.*damping ratio")  # the fluid memory is left out
 def test_answers_take_the_database_of_the_scene() -> None:
-    scene, asked = afloat(rich()), {"omega": 0.7, "direction": np.pi, "body": "vessel"}
+    scene, asked = afloat(drifting()), {"omega": 0.7, "direction": np.pi, "body": "vessel"}
     rao = motion_rao(scene, **asked)
     assert np.abs(rao[2]) > 0.01
-    np.testing.assert_array_equal(rao, motion_rao(scene, database=replace(rich()), **asked))
+    np.testing.assert_array_equal(rao, motion_rao(scene, database=replace(drifting()), **asked))
     sea = {"spectrum": jonswap(hs=1.0, tp=8.0), "direction": np.pi, "body": "vessel"}
     assert response_statistics(scene, **sea).std[2] > 0.0
-    assert linear_model(scene, memory="database").memories[0].database is rich()
+    assert linear_model(scene, memory="database").memories[0].database is drifting()
     assert len(natural_modes(scene, memory="database").eigenvalues)
     scene.add_drift(outside="hold")
     scene.use_actual_position()
+    assert scene.waves.hull().drift is not None and scene.waves.hull().force_by_heading is not None
     scene.use_slow_position()
-    at_once = afloat(rich(), phase="slow", drift=True).waves
+    at_once = afloat(drifting(), phase="slow", drift=True).waves
     np.testing.assert_array_equal(scene.waves.hull().drift, at_once.hull().drift)
 
 

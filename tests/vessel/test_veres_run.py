@@ -77,18 +77,22 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: i
     np.testing.assert_array_less(np.abs(fit - source) / np.abs(source), [0.01, 0.02, 0.09, 0.12, 0.02, 0.03])
 
 
-def test_regular_wave_returns_wamits_motion(shared: Path) -> None:
-    """Of the tanker, by convolution, which has no fit, so that what is left is the files' own 1 %."""
+@pytest.fixture(scope="module")
+def tanker(shared: Path) -> HydroDatabase:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        tanker = load_database(shared / "wamit")
-    for heading_deg, omega in ((135.0, 0.45), (135.0, 0.60), (90.0, 0.70), (160.0, 0.35)):
-        heading = int(np.argmin(np.abs(np.degrees(tanker.heading) - heading_deg)))
-        frequency = int(np.argmin(np.abs(tanker.omega - omega)))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            scene = cases.vessel(database=tanker, hs=0.0, mooring_period=None, memory="convolution")
-        # Its slowest memory and motions decay in 1500 s.
-        found = simulated_rao(tanker, scene, heading, frequency, t_end=1500.0, rtol=1e-9)
-        largest = np.abs(tanker.motion_rao[:, frequency]).max(axis=0)
-        np.testing.assert_array_less(np.abs(found - tanker.motion_rao[heading, frequency]), 0.01 * largest)
+        return load_database(shared / "wamit")
+
+
+@pytest.mark.parametrize(("deg", "omega"), [(135.0, 0.45), (135.0, 0.60), (90.0, 0.70), (160.0, 0.35)])
+def test_regular_wave_returns_wamits_motion(tanker: HydroDatabase, deg: float, omega: float) -> None:
+    """Of the tanker, by convolution, which has no fit, so that what is left is the files' own 1 %."""
+    heading = int(np.argmin(np.abs(np.degrees(tanker.heading) - deg)))
+    frequency = int(np.argmin(np.abs(tanker.omega - omega)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        scene = cases.vessel(database=tanker, hs=0.0, mooring_period=None, memory="convolution")
+    # Its slowest memory and motions decay in 1500 s.
+    found = simulated_rao(tanker, scene, heading, frequency, t_end=1500.0, rtol=1e-9)
+    largest = np.abs(tanker.motion_rao[:, frequency]).max(axis=0)
+    np.testing.assert_array_less(np.abs(found - tanker.motion_rao[heading, frequency]), 0.01 * largest)

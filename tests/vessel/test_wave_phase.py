@@ -144,7 +144,7 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
     broken = np.array(force.values)
     broken[1, 2, 3] = np.nan
     gaps = Scene()
-    gaps.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)))
+    gaps.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)), memory="none")
     gaps.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
     paper = Scene(name="paper")
     paper.add_vessel(database(), kinematics="paper")
