@@ -64,6 +64,12 @@ def test_a_group_is_moved_as_its_hulls_are() -> None:
     assert pair.at({}) is pair
     with pytest.raises(SceneError, match="no body 'barge'"):
         pair.at({"barge": point})
+    hull = shipped_database().select(every=12, every_heading=6)
+    places = {"a": (0.0, 0.0, 1.0), "b": (300.0, 0.0, 1.0)}
+    line = HydroGroup.from_databases(databases={"a": hull, "b": hull}, positions=places)
+    aside = line.at({"b": (0.0, 5.0, 0.0)})
+    assert line.port_starboard_symmetric and not aside.port_starboard_symmetric
+    assert aside.heading.size == 2 * (line.heading.size - 1)
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.AssumedInertiaWarning")

@@ -210,6 +210,7 @@ def test_what_makes_no_ballast_is_refused() -> None:
         (lambda: scene.add_ballast(heel_deg=40.0), "heel_deg is 40"),
         (lambda: scene.add_ballast(heel_deg=None, trim_deg=None), "ask for one"),
         (lambda: barge().add_ballast(tanks={}), "at least one Tank"),
+        (lambda: barge().add_slack_tank(moment=1e9), "slack tank: moment"),
         (lambda: Tank(point=(0.0, 0.0, 0.0), capacity=4.0, content=5.0), "content is 5"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):

@@ -31,7 +31,7 @@ from seacrane import (
     summary,
 )
 from seacrane.analysis import drag_in_sea, response_summed
-from seacrane.analysis.drag_in_sea import mean_slope
+from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.ensembles import coefficient_scatter
 from seacrane.ensembles.coefficient_scatter import SHARES
@@ -206,6 +206,10 @@ def test_drag_of_a_box_becomes_the_damping_of_its_sea() -> None:
     assert linear.drag_damping["load.1"][2, 2] == pytest.approx(damping, rel=1e-3)
     told = response_statistics(scene, spectrum=spectrum, direction=DIRECTION, body="load")
     assert told.std[2] == pytest.approx(heave, rel=1e-3)
+    sea = {"hs": 3.0, "tp": 8.0, "direction_deg": np.degrees(DIRECTION), "seed": 2, "count": 400}
+    wavy = hung(4.0, sea=sea)
+    found = drag_in_components(linear_model(wavy), wavy.waves).drag_damping["load.1"]
+    assert found == pytest.approx(linear.drag_damping["load.1"], rel=0.03, abs=1.0)
 
 
 def test_the_response_to_a_realised_sea_is_that_of_a_run_in_small_waves() -> None:
