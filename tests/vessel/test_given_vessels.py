@@ -265,6 +265,8 @@ BAD: list[tuple[Callable[[], Any], str]] = [
     (lambda: raos(values=raos().values * ([1.0] * 3 + [180.0 / np.pi] * 3)), "pitch"),  # degrees per metre
     (lambda: raos(heading=np.degrees(HEADINGS)), "heading.*rad"),
     (lambda: raos(omega=LONG_WAVES[::-1]), "omega"),
+    (lambda: raos(heading=[0, 0, 1, 2, 3]), "heading.*increase"),
+    (lambda: raos(values=np.full((5, 4, 6), np.nan)), "not finite"),
     (lambda: raos(values=np.zeros((4, 5, 6))), "values.*shape"),
     (lambda: raos(heading=HEADINGS[:1], values=np.zeros((1, 4, 6))).at([0.5], [1.0]), "heading 57.2958 deg"),
     (lambda: history(time=np.linspace(40.0, 0.0, 50)), "time.*increase"),

@@ -182,6 +182,7 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
     ("openings", "given", "message"),
     [
         ([MOUTH], {}, "no opening is in its lid"),
+        ([MOUTH], {"air": "trapped"}, "air is"),
         ([MOUTH], {"air": "shut"}, "give exponent"),
         ([MOUTH], {"air": "free", "exponent": 1.2}, "leave exponent out"),
         ([MOUTH], {"air": "shut", "exponent": 1.6}, "exponent is 1.6"),

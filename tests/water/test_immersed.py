@@ -116,6 +116,8 @@ def test_strips_share_all_that_a_part_has(part: Part) -> None:
     assert sum(p.drag for p in strips) == pytest.approx(whole[0].drag, rel=1e-12)
     assert sum(np.prod(p.size) for p in strips) == pytest.approx(np.prod(whole[0].size), rel=1e-12)
     assert np.mean([p.offset for p in strips], axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
+    for nothing in (BoxPart(size=(0, 0, 0)), SpherePart(diameter=0), CylinderPart(length=0, diameter=1)):
+        assert list(nothing.pieces(RHO)) == []
 
 
 TIMES = [0.02, 0.05, 0.1, 0.2, 0.3]

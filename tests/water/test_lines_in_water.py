@@ -299,3 +299,19 @@ def test_what_makes_no_line_in_water_is_refused_by_name(given: dict[str, Any], m
             "diameter": 0.1, "medium": "sea",
         } | given)  # fmt: skip
         scene.compile()
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
+    """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
+    scene = Scene(name="raft", gravity=G)
+    with_ends(scene, [(0.0, 0.0, -50.0), (4.0, 0.0, -50.0)], mass=30.0)
+    scene.add_joint(kind="weld", name="glue", first="one", second="two")
+    span = {"diameter": 0.2, "length": 4.0, "density": RHO, "drag_coefficient": 1.0}
+    add_load(scene, _core.ImmersedSpan(name="water", first="one", second="two", **span))
+    water = RHO * area(0.2) * 4.0
+    result = simulate(scene, t_end=1.0, dt_out=0.1, channels=["velocity"], formulation=formulation, **EXACT)
+    speed = np.asarray(result.select("velocity", body="two", axis="z"))
+    drag, weight, mass = 0.5 * RHO * 0.2 * 4.0, (water - 60.0) * G, water + 60.0
+    final = np.sqrt(weight / drag)
+    assert speed == pytest.approx(final * np.tanh(drag * final * np.asarray(result.time) / mass), rel=1e-7)
