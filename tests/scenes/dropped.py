@@ -25,42 +25,30 @@ AT_END = 2e-6  # of a step: a touch so near to its end is at it
 
 
 @dataclass(frozen=True)
-class Meeting:
-    """When a point comes inside first, where, how fast, and the way out there."""
-
-    time: float
-    place: NDArray[Any]
-    speed: float
-    way: NDArray[Any]
-
-
-@dataclass(frozen=True)
 class Drop:
-    """A body, one point of it, a surface of the ground, and how it is stepped; with where they meet."""
+    """A body, one point of it, a surface of the ground, how it is stepped; when and how fast they meet."""
 
     scene: Scene
     how: dict[str, Any]
     end: float
     thick: float
-    met: Meeting
+    met: tuple[float, float]
 
     def misses(self) -> str:
         """What is wrong with the first contact of a run; empty: nothing."""
         result = simulate(self.scene, self.end, channels=["contact_gap"], dt_out=0.002, **self.how)
         hits = [one for one in result.events if one.kind == "contact"]
+        time, speed = self.met
         if not hits:
-            return (
-                f"steps over {self.thick:.3g} m at t = {self.met.time:.6g} s, with {self.met.speed:.4g} m/s"
-            )
-        late, fast = hits[0].time - self.met.time, hits[0].speed - self.met.speed
+            return f"steps over {self.thick:.3g} m at t = {time:.6g} s, with {speed:.4g} m/s"
+        late, fast = hits[0].time - time, hits[0].speed - speed
         off = 1e-5 + (2e3 if self.how["integrator"] in BY_NEWTON else 100.0) * self.how["rtol"]  # m
         round_edge = min(0.05, 0.5 * self.thick)
-        at_end = AT_END * self.met.time * self.met.speed
-        if abs(late) * self.met.speed > off + at_end or abs(fast) > off * (1.0 + 30.0 / round_edge):
+        if abs(late) * speed > off + AT_END * time * speed or abs(fast) > off * (1.0 + 30.0 / round_edge):
             return f"touches {late:.3g} s late, {fast:.3g} m/s too fast"
         deepest = -float(result["contact_gap"].min())
         if deepest > 0.45 * self.thick:
-            return f"sinks {deepest:.3g} m into {self.thick:.3g} m, met with {self.met.speed:.4g} m/s"
+            return f"sinks {deepest:.3g} m into {self.thick:.3g} m, met with {speed:.4g} m/s"
         return ""
 
 
@@ -103,7 +91,7 @@ def _drop(rng: np.random.Generator, shape: str) -> Drop | None:
         "formulation": "redundant" if method == "ida" else ("recursive", "redundant")[rng.integers(2)],
     }
     least = {"box": float(min(contact.size)), "post": float(min(contact.size[1:])), "pipe": thick}
-    return Drop(scene, how, met.time + rng.uniform(0.1, 1.0), least.get(shape, np.inf), met)
+    return Drop(scene, how, met[0] + rng.uniform(0.1, 1.0), least.get(shape, np.inf), met)
 
 
 def _surface(
@@ -132,13 +120,12 @@ def _met(
     down: NDArray[Any],
     until: float,
     thick: float,
-) -> Meeting | None:
-    """Where the parabola comes inside first; nothing where it grazes, or starts inside."""
+) -> tuple[float, float] | None:
+    """When the parabola comes inside first, and how fast; nothing where it grazes, or starts inside."""
     axes, place = np.asarray(contact.axes), np.asarray(contact.place)
 
     def beside(t: float) -> tuple[float, NDArray[Any]]:
-        local = axes.T @ (position + velocity * t + 0.5 * down * t**2 - place)
-        gap, way = contact.distance(local)
+        gap, way = contact.distance(axes.T @ (position + velocity * t + 0.5 * down * t**2 - place))
         return gap, axes @ way
 
     fastest = float(np.linalg.norm(velocity) + np.linalg.norm(down) * until)
@@ -150,7 +137,5 @@ def _met(
     if t == 0.0:
         return None
     time = float(brentq(lambda t: beside(t)[0], before, t, xtol=1e-13))
-    way = beside(time)[1]
-    speed = -float(way @ (velocity + down * time))
-    at = position + velocity * time + 0.5 * down * time**2
-    return Meeting(time, at, speed, way) if speed > 0.5 else None
+    speed = -float(beside(time)[1] @ (velocity + down * time))
+    return (time, speed) if speed > 0.5 else None

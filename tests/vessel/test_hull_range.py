@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import Any
 
@@ -9,7 +10,9 @@ import numpy as np
 import pytest
 
 from seacrane import Result, Scene, simulate
+from seacrane.description.outline import ship_size
 from seacrane.hydro import shipped_database
+from seacrane.run import Run
 from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
 from seacrane.validity.left_range import findings
 from seacrane.warnings import (
@@ -19,7 +22,9 @@ from seacrane.warnings import (
     MeanPositionWarning,
     MooringTurnWarning,
     NoWaveLoadsWarning,
+    ScatteredWavesWarning,
 )
+from seacrane.water import SpherePart
 
 G = 9.80665
 
@@ -39,51 +44,33 @@ def told(scene: Scene, **settings: Any) -> tuple[Result, dict[type[Warning], str
     return result, {w.category: str(w.message) for w in caught}
 
 
-def pushed(
-    scene: Scene, *, surge: float = 0.0, sway: float = 0.0, lever: float = 0.0, body: str = "hull"
-) -> Scene:
-    """A force that follows the hull, at a lever ahead of its origin."""
-    scene.add_point_force(
-        name=f"tug at {body}", body=body, point=(lever, 0.0, 0.0), force=(surge, sway, 0.0), body_axes=True
-    )
-    return scene
-
-
 def stiffness(scene: Scene) -> Any:
     return np.asarray(scene.vessels["hull"].mooring_stiffness)
 
 
 def test_a_drift_along_the_waves_beyond_the_phase_warns_and_across_them_does_not() -> None:
-    wavenumber = (2.0 * np.pi / 8.0) ** 2 / G
-    allowed = LARGEST_PHASE / wavenumber
+    allowed = LARGEST_PHASE / ((2.0 * np.pi / 8.0) ** 2 / G)
     for along, across, expected in ((0.6, 0.0, False), (2.0, 0.0, True), (0.0, 2.0, False)):
         scene = moored()
-        surge, sway, _ = stiffness(scene)
-        # A force that comes at once overshoots to twice its displacement less damping.
-        pushed(scene, surge=0.6 * along * allowed * surge, sway=0.6 * across * allowed * sway)
+        # A force that comes at once, and follows the hull, overshoots to twice its displacement less damping.
+        push = 0.6 * allowed * np.array([along, across, 0.0]) * stiffness(scene)
+        scene.add_point_force(name="tug", body="hull", force=push, body_axes=True)
         result, found = told(scene)
-        assert (MeanPositionWarning in found) == expected
-        assert set(found) <= {MeanPositionWarning}
+        assert set(found) == ({MeanPositionWarning} if expected else set())
         if expected:
             assert "'hull': is " in found[MeanPositionWarning]
-            assert "phase='slow'" in found[MeanPositionWarning]
             assert str(result.stats["validity"]) == found[MeanPositionWarning]
 
 
-def test_motions_of_wave_frequency_are_no_drift() -> None:
+def test_motions_of_wave_frequency_are_no_drift_and_slow_ones_pass_the_low_pass() -> None:
     scene = moored()
-    time = np.arange(0.0, 200.0, 0.5)
+    time = np.arange(0.0, 1000.0, 0.5)
     motion = np.zeros((time.size, 6))
     motion[:, 0] = 8.0 * np.sin(2.0 * np.pi / 8.0 * time)
     motion[:, 5] = np.radians(15.0) * np.sin(2.0 * np.pi / 7.0 * time)
     assert not findings(scene, time, {"vessel_motion": motion}, {})
-    slow = slowly(time, motion, 8.0)
-    within = slow[40:-40]  # at its ends a run has half the outputs to take means of
+    within = slowly(time, motion, 8.0)[40:-40]  # at its ends a run has half the outputs to take means of
     assert np.abs(within[:, 0]).max() < 0.05 * 8.0 and np.abs(within[:, 5]).max() < 0.05 * np.radians(15.0)
-
-
-def test_slow_motions_of_the_mooring_pass_the_low_pass() -> None:
-    time = np.arange(0.0, 1000.0, 0.5)
     values = np.sin(2.0 * np.pi / 200.0 * time)[:, None]
     assert np.abs(slowly(time, values, 8.0)).max() == pytest.approx(1.0, abs=0.03)
 
@@ -98,15 +85,9 @@ def test_loads_of_another_heading_than_the_start_warn_at_once() -> None:
 
 
 def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
-    scene = Scene(name="under way")
-    scene.add_vessel(shipped_database(), name="hull", mooring_period=None)
-    hull = scene.bodies.pop("hull")
-    scene.add_body(
-        name="hull", mass=hull.mass, inertia=hull.inertia, center_of_mass=hull.center_of_mass,
-        velocity=(5.0, 0.0, 0.0),
-    )  # fmt: skip
-    _, calm = told(scene, t_end=60.0)
-    assert not calm
+    scene = moored(hs=0.0, mooring_period=None)
+    scene.replace("hull", kind="body", velocity=(5.0, 0.0, 0.0))
+    assert not told(scene, t_end=60.0)[1]
     scene.add_sea(vessel="hull", hs=1.0, count=40)
     result, found = told(scene, t_end=60.0)
     assert result["vessel_motion"][-1, 0] > 100.0
@@ -122,15 +103,12 @@ def test_a_hull_that_turns_beyond_its_mooring_warns() -> None:
     for share, expected in ((0.4, False), (1.3, True)):
         scene = moored(hs=0.0)
         lever = 40.0
-        moment = share * np.pi * float(stiffness(scene)[2])
+        force = 0.5 * share * np.pi * float(stiffness(scene)[2]) / lever
         for side in (1.0, -1.0):  # a couple
-            scene.add_point_force(
-                name=f"thruster {side:+.0f}", body="hull", point=(side * lever, 0.0, 0.0),
-                force=(0.0, 0.5 * side * moment / lever, 0.0), body_axes=True,
-            )  # fmt: skip
+            at = {"point": (side * lever, 0.0, 0.0), "force": (0.0, side * force, 0.0), "body_axes": True}
+            scene.add_point_force(name=f"thruster {side:+.0f}", body="hull", **at)
         _, found = told(scene, t_end=400.0)
         assert (MooringTurnWarning in found) == expected
-    assert "'hull': passes half a turn" in found[MooringTurnWarning]
     free = moored(hs=0.0, mooring_period=None)
     time, motion = np.array([0.0, 1.0]), np.zeros((2, 6))
     motion[:, 5] = 3.0, -3.0
@@ -152,14 +130,75 @@ def test_the_second_hull_is_judged_too() -> None:
 
 
 def test_the_peak_is_found_from_the_components() -> None:
-    scene = Scene(name="peak")
-    scene.add_vessel(shipped_database())
-    for tp in (7.0, 10.0, 14.0):
-        scene.waves = None
-        scene.add_sea(hs=2.0, tp=tp, count=200)
-        assert scene.waves is not None
-        assert peak_frequency(scene.waves) == pytest.approx(2.0 * np.pi / tp, rel=0.1)
-    scene.waves = None
-    scene.add_sea(hs=2.0, count=1)
-    assert scene.waves is not None
-    assert peak_frequency(scene.waves) == pytest.approx(float(scene.waves.omega[0]), rel=1e-12)
+    for sea, omega, within in (
+        *(({"tp": tp, "count": 200}, 2.0 * np.pi / tp, 0.1) for tp in (7.0, 10.0, 14.0)),
+        ({"count": 1}, None, 1e-12),
+    ):
+        scene = Scene(name="peak")
+        scene.add_vessel(shipped_database())
+        scene.add_sea(hs=2.0, **sea)
+        expected = scene.waves.omega[0] if omega is None else omega
+        assert peak_frequency(scene.waves) == pytest.approx(expected, rel=within)
+
+
+def lowered(
+    *, y: float, x: float = 0.0, z: float = -3.0, hs: float | None = 2.0, heading: float = 0.0, **more: Any
+) -> Scene:
+    """A load in the water beside the shipped hull, y and x in her axes."""
+    scene = Scene(name="lowered")
+    scene.add_vessel(shipped_database(), position=(40.0, -20.0, 0.0), heading_deg=heading)
+    if hs is not None:
+        scene.add_sea(hs=hs, tp=9.0, direction_deg=150.0, seed=2)
+    turn = np.radians(heading)
+    place = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ [x, y] + [40.0, -20.0]
+    scene.add_body(name="load", mass=9e3, inertia=(9e3, 9e3, 9e3), position=(*place, z))
+    scene.add_immersed(
+        "load", parts=[SpherePart(diameter=2.0, point=(0.0, 0.0, dz)) for dz in (0.0, 4.0)], **more
+    )
+    return scene
+
+
+def scattered(scene: Scene) -> list[str]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        Run(scene, 1.0)
+    return [str(one.message) for one in caught if one.category is ScatteredWavesWarning]
+
+
+BREADTH = ship_size(lowered(y=50.0).bodies["vessel"])[1]
+
+
+@pytest.mark.parametrize("heading", [0.0, 65.0])
+def test_a_part_within_a_breadth_is_told_with_both_lengths(heading: float) -> None:
+    (message,) = scattered(lowered(y=-(0.5 * BREADTH + 6.0), heading=heading))
+    away, across = (float(one) for one in re.findall(r"(\S+) m\b", message)[:2])
+    assert away == pytest.approx(6.0, abs=0.01)
+    assert across == pytest.approx(BREADTH, rel=1e-2)
+    assert re.search(r"'load\.[12]'.*side of 'vessel'", message)
+
+
+@pytest.mark.parametrize(
+    ("place", "near"),
+    [
+        ({"y": 0.0}, True),  # through a moonpool
+        ({"y": 1.45}, True),  # of the breadth, from the centre plane
+        ({"y": 1.55}, False),
+        ({"y": 1.45, "hs": None}, False),
+        ({"y": 0.0, "x": 1000.0}, False),
+        ({"y": 1.0, "z": -200.0}, False),  # where hardly a wave is left
+    ],
+)
+def test_it_is_told_where_it_counts(place: dict[str, Any], near: bool) -> None:
+    given = {**place, "y": place["y"] * BREADTH}
+    assert bool(scattered(lowered(**given))) == near
+
+
+def test_a_factor_that_is_stated_is_not_told_and_multiplies_the_waves() -> None:
+    """Half of the waves twice is the waves: a load far from all hulls, in a linear sea."""
+    assert not scattered(lowered(y=0.0, wave_factor=1.3))
+    half, whole = (
+        simulate(lowered(y=500.0, hs=hs, wave_factor=factor), 5.0, channels=["position"], rtol=1e-9)
+        for hs, factor in ((4.0, 0.5), (2.0, 1.0))
+    )
+    one, other = (run.select("position", body="load") for run in (half, whole))
+    assert one == pytest.approx(other, abs=1e-7)

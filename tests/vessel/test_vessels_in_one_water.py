@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
 from seacrane.analysis import response_summed
-from seacrane.description.hydrodynamics import group_of
 from seacrane.hydro import HydroDatabase, HydroGroup, MemoryModel, fit_memory, shipped_database
 from seacrane.hydro.group.parts import joined_memory
 from seacrane.inputs.frames import rotation_matrix
@@ -41,26 +40,21 @@ def apart() -> HydroGroup:
         databases={"a": hull(), "b": hull()},
         positions={"a": (0.0, 0.5 * FAR, 0.0), "b": (10.0, -0.5 * FAR, 0.0)},
     )
-    return with_memory(group, pair_of_memories())
-
-
-def with_memory(group: HydroGroup, memory: MemoryModel) -> HydroGroup:
-    return replace(group, memory=memory)
+    return replace(group, memory=pair_of_memories())
 
 
 @lru_cache(maxsize=1)
 def pair_of_memories() -> MemoryModel:
     memory = hull().memory
-    assert memory is not None
     return joined_memory([memory, memory])
 
 
-def mixed(share: float = 0.2, group: HydroGroup | None = None) -> HydroGroup:
+def mixed(share: float = 0.2) -> HydroGroup:
     """The same whose hulls take a share of each other's mirrored motions along in the water.
 
     With T = I + share P the added mass is T^T A T, the damping and the memory alike: passive as before.
     """
-    whole = apart() if group is None else group
+    whole = apart()
     mix = np.eye(12) + share * np.kron([[0.0, 1.0], [1.0, 0.0]], MIRROR)
     memory = pair_of_memories()
     blocks = []
@@ -131,25 +125,19 @@ def test_coupling_is_felt_and_both_formulations_agree() -> None:
     assert np.abs(redundant - motion(afloat(apart(), sea=SEA, heading_deg=25.0), "a", **STEPS)).max() > 0.01
 
 
-def test_other_names_in_another_order_move_alike() -> None:
-    group = mixed()
-    one = afloat(group, sea=SEA)
-    other = afloat(group.ordered(["b", "a"]), sea=SEA, names=["barge", "ship"])
-    for name, called in (("a", "ship"), ("b", "barge")):
-        np.testing.assert_allclose(
-            motion(other, called, **STEPS), motion(one, name, **STEPS), rtol=0.0, atol=1e-10
-        )
-
-
-def test_a_mirrored_pair_moves_mirrored() -> None:
-    """In waves along the plane between them; the database of one hull is that of its mirror image."""
-    group = HydroGroup.from_databases(
-        databases={"a": hull(), "b": hull()}, positions={"a": (0.0, FAR, 0.0), "b": (0.0, -FAR, 0.0)}
-    )
-    scene = afloat(mixed(group=with_memory(group, pair_of_memories())), sea=SEA | {"direction_deg": 0.0})
-    port, starboard = motion(scene, "a", **STEPS), motion(scene, "b", **STEPS)
-    assert np.abs(port).max() > 0.1
-    np.testing.assert_allclose(port, starboard @ MIRROR, rtol=0.0, atol=1e-9)
+def test_other_names_in_another_order_and_files_move_alike(tmp_path: Path) -> None:
+    group, scenes = mixed(), {}
+    one = scenes["a", "b"] = afloat(group, sea=SEA)
+    scenes["ship", "barge"] = afloat(group.ordered(["b", "a"]), sea=SEA, names=["barge", "ship"])
+    one.save(tmp_path / "pair.json")
+    scenes["a", "b"] = Scene.load(tmp_path / "pair.json")
+    assert scenes["a", "b"] == one and scenes["a", "b"].groups["group"] == one.groups["group"]
+    for names, scene in scenes.items():
+        for name, called in zip(("a", "b"), names, strict=True):
+            found, expected = motion(scene, called, **STEPS), motion(one, name, **STEPS)
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-10)
+    with pytest.raises(SceneError, match="group 'group'"):
+        one.remove("b", kind="vessel")
 
 
 def test_a_free_pair_keeps_its_energy() -> None:
@@ -196,7 +184,6 @@ def test_small_waves_move_it_as_the_coupled_frequency_domain(body: str) -> None:
     largest = np.abs(expected[0]).max()
     np.testing.assert_allclose(expected[1], expected[0], rtol=0.0, atol=1e-12 * largest)
     np.testing.assert_allclose(2.0 * found[0] - found[1], expected[0], rtol=0.0, atol=1e-6 * largest)
-    assert scene.waves is not None
     amplitude, omega = float(scene.waves.amplitude[0]), float(scene.waves.omega[0])
     rao = motion_rao(model, omega=omega, direction=np.radians(60.0 - 25.0), body=body, point=centre)
     np.testing.assert_allclose(np.abs(rao) * amplitude, np.abs(summed.amplitude[0]), rtol=1e-9)
@@ -205,7 +192,6 @@ def test_small_waves_move_it_as_the_coupled_frequency_domain(body: str) -> None:
 def scaled(factor: float) -> HydroDatabase:
     """A hull whose motions move the water by another factor."""
     memory = hull().memory
-    assert memory is not None
     parts = ("added_mass", "additional_added_mass", "additional_stiffness")
     blocks = tuple(replace(one, B=factor * one.B, C=factor * one.C) for one in memory.blocks)
     masses = {key: factor**2 * getattr(memory, key) for key in parts}
@@ -226,51 +212,22 @@ def test_natural_modes_are_those_of_hulls_that_move_alike_and_against_each_other
     np.testing.assert_allclose(np.sort_complex(found), both, rtol=1e-6)
 
 
-def test_files_copies_and_removals(tmp_path: Path) -> None:
-    scene = afloat(mixed(), sea=SEA)
-    scene.save(tmp_path / "pair.json")
-    again = Scene.load(tmp_path / "pair.json")
-    assert again == scene and again.groups["group"] == scene.groups["group"]
-    np.testing.assert_array_equal(
-        motion(again, "a", t_end=2.0, **STEPS), motion(scene, "a", t_end=2.0, **STEPS)
-    )
-    with pytest.raises(SceneError, match=r"group 'group'.* refer to it"):
-        scene.remove("b", kind="vessel")
-    found = group_of(scene, "b")
-    assert found is not None and found.vessels == ["a", "b"]
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"names": ["a"]}, "names are a; give one for each"),
-        ({"memory": "convolution"}, "memory 'convolution' of a group is not available"),
-        ({"position": (0.0, 0.0)}, "group 'group': position has shape"),
-    ],
-)
-def test_what_cannot_be_is_refused_by_name(change: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        afloat(apart(), **change)
-
-
-def test_a_reference_point_off_the_water_is_refused_by_name() -> None:
+def test_a_vessel_tied_to_another_needs_the_redundant_form_and_what_cannot_be_is_refused() -> None:
+    tied = afloat(mixed())
+    tied.add_joint(kind="spherical", name="tie", first="a", second="b", point=(5.0, 0.0, 0.0))
+    assert np.all(np.isfinite(motion(tied, "b", t_end=1.0)))
     first, second = apart().bodies
     higher = replace(first, position=np.add(first.position, (0.0, 0.0, 1.0)))
-    with pytest.raises(SceneError, match="reference point of 'a' is 1 m above the still water"):
-        afloat(replace(apart(), bodies=(higher, second)))
-
-
-def test_a_vessel_tied_to_another_needs_the_redundant_form() -> None:
-    scene = afloat(mixed())
-    scene.add_joint(kind="spherical", name="tie", first="a", second="b", point=(5.0, 0.0, 0.0))
-    with pytest.raises(SceneError, match="of group 'group' does not float freely"):
-        simulate(scene, t_end=1.0, formulation="recursive")
-    assert np.all(np.isfinite(motion(scene, "b", t_end=1.0)))
-
-
-def test_a_database_of_one_vessel_does_not_hold_the_memory_of_a_group() -> None:
-    with pytest.raises(SceneError, match="that of all motions of group 'group'"):
-        linear_model(afloat(mixed()), vessel="a", memory="database")
+    for call, message in (
+        (lambda: simulate(tied, t_end=1.0, formulation="recursive"), "does not float freely"),
+        (lambda: afloat(replace(apart(), bodies=(higher, second))), "'a' is 1 m above"),
+        (lambda: afloat(apart(), names=["a"]), "names are a"),
+        (lambda: afloat(apart(), memory="convolution"), "memory 'convolution'"),
+        (lambda: afloat(apart(), position=(0.0, 0.0)), "position"),
+        (lambda: linear_model(afloat(mixed()), vessel="a", memory="database"), "of group 'group'"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            call()
 
 
 def test_leaving_the_place_beside_each_other_is_named() -> None:

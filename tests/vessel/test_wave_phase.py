@@ -1,4 +1,4 @@
-"""Wave loads at the vessel's actual position and heading, against the mean ones and closed forms."""
+"""Wave loads at a hull's actual position and heading, and at the slow part of them, against closed forms."""
 
 from __future__ import annotations
 
@@ -10,16 +10,19 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.signal import lsim
 
-from seacrane import Curve, Scene, SceneError, _core, simulate
+from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import ByHeading, HullLoads, Waves
+from seacrane.validity.hull_range import peak_frequency
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 G = 9.80665
+CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
 TIMES = np.array([0.0, 0.4, 17.3, 99.0, 1234.5])
 
 
@@ -32,11 +35,9 @@ def spread_sea(count: int = 60) -> _core.WaveComponents:
     """Components of many directions, some of them alike, as spread seas have them."""
     rng = np.random.default_rng(4)
     return _core.WaveComponents(
-        omega=np.sort(rng.uniform(0.35, 2.0, count)),
-        amplitude=rng.uniform(0.01, 0.2, count),
-        phase=rng.uniform(0.0, 6.28, count),
-        direction=np.repeat(rng.uniform(-4.0, 8.0, count // 3), 3),
-    )
+        omega=np.sort(rng.uniform(0.35, 2.0, count)), amplitude=rng.uniform(0.01, 0.2, count),
+        phase=rng.uniform(0.0, 6.28, count), direction=np.repeat(rng.uniform(-4.0, 8.0, count // 3), 3),
+    )  # fmt: skip
 
 
 def positioned(waves: _core.WaveComponents) -> _core.PositionedWaveLoad:
@@ -61,67 +62,50 @@ def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y:
         assert np.all(drift == 0.0)
 
 
-def test_moving_a_vessel_moves_its_load_as_calculus_says() -> None:
-    waves, load = spread_sea(), positioned(spread_sea())
-    t, x, y, h = 12.0, 3.0, -2.0, 1e-3
-    travel = np.array(waves.wavenumber) * np.cos(waves.direction)
-    phasor = waves.amplitude * np.exp(1j * (np.array(waves.omega) * t + waves.phase))
-    phasor = phasor * np.exp(-1j * (travel * x + np.array(waves.wavenumber) * np.sin(waves.direction) * y))
-    transfer = database().force_at(waves.omega, waves.direction)
-    expected = ((-1j * travel * phasor) @ transfer).real
-    got = (load.evaluate(t, x=x + h, y=y)[0] - load.evaluate(t, x=x - h, y=y)[0]) / (2.0 * h)
-    scale = np.abs(transfer).T @ waves.amplitude
-    assert np.all(np.abs(got - expected) < 1e-7 * scale)
-    # The whole time derivative along a path is that in time plus that in place.
-    speed = 4.0
-    rate = ((1j * (np.array(waves.omega) - travel * speed) * phasor) @ transfer).real
-    along = (
-        load.evaluate(t + h, x=x + speed * h, y=y)[0] - load.evaluate(t - h, x=x - speed * h, y=y)[0]
-    ) / (2.0 * h)
-    assert np.all(np.abs(along - rate) < 1e-5 * scale)
+SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-def regular_sea(*, omega: float, direction_deg: float) -> Waves:
-    direction = np.radians(direction_deg)
-    heading, _ = database().full_circle()
-    return Waves(
-        omega=np.array([omega]),
-        amplitude=np.array([0.8]),
-        phase=np.array([0.3]),
-        direction=np.array([direction]),
-        hulls={
-            "vessel": HullLoads(
-                transfer=database().force_at(np.array([omega]), direction),
-                force_by_heading=ByHeading(
-                    heading=heading, values=database().force_at(np.array([omega])[None, :], heading[:, None])
-                ),
-            )
-        },
-    )
+def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve) -> Scene:
+    """A hull whose six coordinates are given; in a short-crested sea where a phase is asked for."""
+    scene = Scene(name="driven")
+    scene.add_vessel(database(), mooring_period=None, memory="none")
+    scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
+    for name in SIX:
+        scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
+    if phase:
+        scene.add_sea(hs=2.0, tp=8.0, count=12)
+    if phase == "slow":
+        scene.use_slow_position(cutoff=cutoff)
+    if phase == "actual":
+        scene.use_actual_position()
+    return scene
 
 
 @pytest.mark.warns("ForwardSpeedWarning")
 @pytest.mark.parametrize(("direction_deg", "yaw"), [(180.0, 0.0), (0.0, 0.0), (130.0, 0.4)])
 def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw: float) -> None:
-    speed, omega = 5.0, 0.9
-    scene = Scene(name="towed")
-    scene.add_vessel(database(), mooring_period=None, memory="none")
-    scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
-    ahead = Curve.pieces(starts=[0.0], coefficients=[[0.0, speed, 0.0, 0.0, 0.0, 0.0]])
-    for coordinate in ("x", "y", "z", "roll", "pitch", "yaw"):
-        curve = Curve.constant(value=yaw if coordinate == "yaw" else 0.0)
-        scene.add_driver(joint="tow", coordinate=coordinate, curve=ahead if coordinate == "x" else curve)
-    scene.waves = regular_sea(omega=omega, direction_deg=direction_deg)
+    speed, omega, direction = 5.0, 0.9, np.radians(direction_deg)
+    heading, _ = database().full_circle()
+    table = ByHeading(heading=heading, values=database().force_at([[omega]], heading[:, None]))
+    loads = HullLoads(transfer=database().force_at(np.array([omega]), direction), force_by_heading=table)
+    scene = driven(x=steady(0.0, speed), yaw=Curve.constant(value=yaw))
+    scene.waves = Waves(
+        omega=np.array([omega]), amplitude=np.array([0.8]), phase=np.array([0.3]),
+        direction=np.array([direction]), hulls={"vessel": loads},
+    )  # fmt: skip
     result = simulate(scene, t_end=60.0, dt_out=0.25)
-    encounter = omega - omega**2 / G * speed * np.cos(np.radians(direction_deg))
+    encounter = omega - omega**2 / G * speed * np.cos(direction)
     assert abs(encounter - omega) > 0.2
-    transfer = database().force_at(omega, np.radians(direction_deg) - yaw)
+    transfer = database().force_at(omega, direction - yaw)
     wave = 0.8 * np.exp(1j * (encounter * result.time + 0.3))
-    expected = (wave[:, None] * transfer).real
     # Positions come from the driven joint, to 1e-9 m and better.
-    np.testing.assert_allclose(result.channels["wave_elevation"], wave.real, atol=1e-8)
-    error = np.abs(result.channels["wave_force"] - expected).max(axis=0)
+    np.testing.assert_allclose(result["wave_elevation"], wave.real, atol=1e-8)
+    error = np.abs(result["wave_force"] - (wave[:, None] * transfer).real).max(axis=0)
     assert np.all(error < 1e-7 * np.abs(transfer).max())
+
+
+def steady(start: float, speed: float, **more: Any) -> Curve:
+    return Curve.pieces(starts=[0.0], coefficients=[[start, speed, 0, 0, 0, 0]], **more)
 
 
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
@@ -129,7 +113,6 @@ def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene.add_vessel(database(), mooring_period=100.0)
     scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40)
     scene.use_actual_position()
-    assert scene.waves is not None
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
 
@@ -138,36 +121,13 @@ def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
 def test_a_free_vessel_feels_where_it_is_and_its_energy_balances() -> None:
     scene = actual_scene()
     result = simulate(scene, t_end=60.0, dt_out=0.5, rtol=1e-8)
-    assert np.abs(result.channels["energy_balance"]).max() < 1e-6 * result.channels["absolute_work"][-1]
-    assert scene.waves is not None
-    load = positioned(scene.waves.components())
-    motion = result.channels["vessel_motion"]
-    at = [load.evaluate(t, x=m[0], y=m[1], yaw=m[5]) for t, m in zip(result.time, motion, strict=True)]
-    scale = np.abs(result.channels["wave_force"]).max(axis=0)
-    assert np.all(np.abs([force for force, _, _ in at] - result.channels["wave_force"]) < 1e-9 * scale)
+    assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
+    expected = load_at(scene, result.time, result["vessel_motion"][:, [0, 1, 5]])
+    scale = np.abs(result["wave_force"]).max(axis=0)
+    assert np.all(np.abs(expected - result["wave_force"]) < 1e-9 * scale)
     mean = actual_scene(force_by_heading=None)
     other = simulate(mean, t_end=60.0, dt_out=0.5, rtol=1e-8)
-    assert np.abs(other.channels["wave_force"] - result.channels["wave_force"]).max() > 0.02 * scale.max()
-
-
-def test_turning_ship_and_sea_together_changes_nothing() -> None:
-    """Motions in axes of the mean heading know nothing of where north is."""
-    motions = []
-    for turn in (0.0, 0.6):
-        scene = Scene(name="turned")
-        scene.add_vessel(database(), mooring_period=100.0)
-        hull = scene.bodies["vessel"]
-        scene.bodies["vessel"] = _core.Body(
-            name="vessel",
-            mass=hull.mass,
-            inertia=hull.inertia,
-            center_of_mass=hull.center_of_mass,
-            quaternion=(np.cos(turn / 2.0), 0.0, 0.0, np.sin(turn / 2.0)),
-        )
-        scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
-        scene.use_actual_position()
-        motions.append(simulate(scene, t_end=60.0, dt_out=1.0, rtol=1e-9).channels["vessel_motion"])
-    assert np.all(np.abs(motions[0] - motions[1]) < 1e-6 * np.abs(motions[0]).max(axis=0))
+    assert np.abs(other["wave_force"] - result["wave_force"]).max() > 0.02 * scale.max()
 
 
 def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
@@ -179,57 +139,158 @@ def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
     assert np.all(error < 1e-8 * mean.magnitude())
 
 
-def test_a_scene_file_keeps_the_loads_of_all_headings(tmp_path: Path) -> None:
-    scene = actual_scene()
-    scene.save(tmp_path / "scene.json")
-    again = Scene.load(tmp_path / "scene.json")
-    assert scene.waves is not None
-    assert again.waves is not None
-    assert again.waves.hull().force_by_heading is not None
-    assert scene.waves.hull().force_by_heading is not None
-    np.testing.assert_array_equal(
-        again.waves.hull().force_by_heading.values, scene.waves.hull().force_by_heading.values
-    )
-    first, second = (simulate(s, t_end=5.0, dt_out=1.0) for s in (scene, again))
-    np.testing.assert_array_equal(first.channels["vessel_motion"], second.channels["vessel_motion"])
-
-
 def test_what_makes_no_sense_is_refused_by_name() -> None:
-    with pytest.raises(SceneError, match="needs a sea; call add_sea first"):
-        Scene(name="calm").use_actual_position()
-    with pytest.raises(SceneError, match="choose evaluation='exact'"):
-        actual_scene(evaluation="fft").compile()
-    force = positioned_values()
-    with pytest.raises(SceneError, match=r"values need the shape \(\d+, 40, 6\)"):
-        actual_scene(force_by_heading=ByHeading(heading=force.heading, values=force.values[:, :3])).compile()
-    with pytest.raises(SceneError, match="at most 45 deg apart"):
-        actual_scene(force_by_heading=ByHeading(heading=force.heading[::-1], values=force.values)).compile()
+    force = actual_scene().waves.hull().force_by_heading
     broken = np.array(force.values)
     broken[1, 2, 3] = np.nan
-    with pytest.raises(SceneError, match="value of component 2 is nan"):
-        actual_scene(force_by_heading=ByHeading(heading=force.heading, values=broken)).compile()
-    scene = actual_scene(drift=np.zeros((40, 6)))
-    with pytest.raises(SceneError, match="needs drift_by_heading"):
-        scene.compile()
-    with pytest.raises(ValueError, match="not finite"):
-        positioned(spread_sea()).evaluate(float("nan"))
+    gaps = Scene()
+    gaps.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)), memory="none")
+    gaps.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
     paper = Scene(name="paper")
     paper.add_vessel(database(), kinematics="paper")
-    paper.waves = actual_scene().waves
-    with pytest.raises(SceneError, match="yaw_following"):
-        paper.compile()
+    paper.waves = afloat("slow").waves
+    slow = afloat("slow")
+    slow.waves = replace(slow.waves, evaluation="fft")
+
+    def headings(heading: Array, values: Array) -> Scene:
+        return actual_scene(force_by_heading=ByHeading(heading=heading, values=values))
+
+    for call, message in (
+        (Scene(name="calm").use_actual_position, "needs a sea"),
+        (Scene(name="calm").use_slow_position, "needs a sea"),
+        (actual_scene(evaluation="fft").compile, "evaluation='exact'"),
+        (slow.compile, "evaluation='exact'"),
+        (headings(force.heading, force.values[:, :3]).compile, r"shape \(\d+, 40, 6\)"),
+        (headings(force.heading[::-1], force.values).compile, "45 deg"),
+        (headings(force.heading, broken).compile, "component 2 is nan"),
+        (gaps.use_actual_position, "'beam only': headings.*45 deg"),
+        (actual_scene(drift=np.zeros((40, 6))).compile, "drift_by_heading"),
+        (paper.compile, "yaw_following"),
+        (lambda: afloat("mean").use_slow_position(cutoff=float("nan")), "frequency"),
+        (lambda: afloat("mean").waves.changed(cutoff=0.1), "no force_by_heading"),
+        (lambda: afloat("mean").waves.changed(cutoff=-1.0), "cutoff is -1"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            call()
+    with pytest.raises(ValueError, match="not finite"):
+        positioned(spread_sea()).evaluate(float("nan"))
 
 
-def test_headings_must_cover_the_circle() -> None:
-    scene = Scene()
-    scene.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)))
-    scene.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
-    with pytest.raises(SceneError, match=r"database 'beam only': headings .* leave gaps above 45 deg"):
-        scene.use_actual_position()
+def slow_gain(omega: float, cutoff: float) -> complex:
+    """What the low-pass leaves of a motion at omega: one less the high-pass."""
+    s = 1j * omega / cutoff
+    return complex((2.0 * s + 1.0) / (s**3 + 2.0 * s**2 + 2.0 * s + 1.0))
 
 
-def positioned_values() -> ByHeading:
-    waves = actual_scene().waves
-    assert waves is not None
-    assert waves.hull().force_by_heading is not None
-    return waves.hull().force_by_heading
+def load_at(scene: Scene, time: Array, pose: Array) -> Array:
+    """Wave loads (n, 6) at poses x, y, yaw (n, 3)."""
+    load = positioned(scene.waves.components())
+    return np.array([load.evaluate(t, x=p[0], y=p[1], yaw=p[2])[0] for t, p in zip(time, pose, strict=True)])
+
+
+@pytest.mark.warns("ForwardSpeedWarning")
+def test_a_slow_position_is_the_low_passed_one_of_drift_turn_and_waves() -> None:
+    """Steady drift, slow swings of sway and yaw and oscillations in all three: gain and phase of each."""
+    drift, swing, wave = 0.4, 0.06, 1.1
+    curves = {
+        "x": steady(3.0, drift, cosines=[[1.5, wave, 0.2]]),
+        "y": steady(0.0, 0.0, cosines=[[25.0, swing, 0.0]]),
+        "yaw": Curve.harmonic(amplitude=0.5, omega=swing, phase=-0.4),
+    }
+    scene = driven(phase="slow", **curves)
+    result = simulate(scene, t_end=140.0, dt_out=0.5, rtol=1e-8)
+    time = result.time
+
+    def part(amplitude: float, omega: float, phase: float) -> Array:
+        return np.real(amplitude * slow_gain(omega, CUTOFF) * np.exp(1j * (omega * time + phase)))
+
+    # A drift that was there from the start on is followed from there, without lag.
+    slow = [3.0 + drift * time + part(1.5, wave, 0.2), part(25.0, swing, 0.0), part(0.5, swing, -0.4)]
+    expected = load_at(scene, time, np.stack(slow, axis=1))
+    later = time > 90.0  # the start's transient is exp(-w t / 2)
+    scale = np.abs(expected).max()
+    assert np.abs(result["wave_force"] - expected)[later].max() < 1e-5 * scale
+    whole = np.stack([curve.evaluate(time)[:, 0] for curve in curves.values()], axis=1)
+    assert np.abs(load_at(scene, time, whole) - expected)[later].max() > 0.05 * scale
+
+
+@pytest.mark.warns("ForwardSpeedWarning")
+def test_a_steady_drift_is_followed_from_the_start_on() -> None:
+    slow, actual = (
+        simulate(driven(phase=phase, x=steady(0.0, 2.0)), t_end=30.0, dt_out=0.5, rtol=1e-8)["wave_force"]
+        for phase in ("slow", "actual")
+    )
+    assert np.abs(slow - actual).max() < 1e-7 * np.abs(actual).max()
+
+
+def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
+    scene = Scene(name="afloat")
+    scene.add_vessel(database(), mooring_period=120.0, memory=memory)
+    scene.add_sea(phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
+    return scene
+
+
+def test_the_motion_of_a_free_hull_through_the_filter_is_where_its_loads_are_taken() -> None:
+    """The filter once more, as a transfer function over the recorded motion."""
+    scene = afloat("slow", direction_deg=70.0)
+    result = simulate(scene, t_end=60.0, dt_out=0.02, rtol=1e-8, channels=["vessel_motion", "wave_force"])
+    w = scene.waves.hull().cutoff
+    assert w == pytest.approx(0.2 * peak_frequency(scene.waves))
+    motion = result["vessel_motion"][:, [0, 1, 5]]
+    low_pass = ([2.0 * w**2, w**3], [1.0, 2.0 * w, 2.0 * w**2, w**3])
+    slow = np.stack([lsim(low_pass, U=motion[:, i], T=result.time)[1] for i in range(3)], axis=1)
+    expected = load_at(scene, result.time, slow)
+    assert np.abs(result["wave_force"] - expected).max() < 1e-6 * np.abs(expected).max()
+
+
+def test_formulations_and_merging_agree() -> None:
+    scene = cases.case2(phase="slow", count=20)
+    scene.waves = replace(scene.waves, negligible=0.0)
+    found = []
+    for formulation, merge in (("redundant", True), ("redundant", False), ("recursive", True)):
+        model = scene.compile(merge=merge)
+        run = Run(scene, t_end=4.0, dt_out=0.5, model=model, rtol=1e-9, formulation=formulation)
+        run.advance(4.0)
+        channels = run.core.channels()
+        found.append(np.column_stack([channels["vessel_motion"], channels["wave_force"]]))
+    for other in found[1:]:
+        assert np.all(np.abs(other - found[0]) < 1e-6 * np.abs(found[0]).max(axis=0))
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
+    settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "dt_out": 0.5}
+    whole = Run(afloat("slow"), t_end=8.0, **settings)
+    whole.advance(3.3)
+    left = whole.core.state
+    later = Run(afloat("slow"), t_end=8.0, start=left, **settings)
+    for going in (whole, later):
+        going.advance(8.0)
+    one, other = (np.array(going.core.state.values) for going in (whole, later))
+    assert not np.array_equal(one, left.values)
+    np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize("memory", ["none", "passive", "convolution"])
+def test_any_memory_goes_with_it(memory: str) -> None:
+    motions = [
+        simulate(afloat("slow", memory=kind), t_end=20.0, dt_out=0.5)["vessel_motion"]
+        for kind in (memory, "per-pair")
+    ]
+    limit = 0.5 if memory == "none" else 0.05
+    assert np.abs(motions[0] - motions[1]).max() < limit * np.abs(motions[1]).max()
+
+
+def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path) -> None:
+    scene = afloat("slow")
+    scene.save(tmp_path / "scene.json")
+    again = Scene.load(tmp_path / "scene.json")
+    one, other = scene.waves.hull(), again.waves.hull()
+    assert other.cutoff == one.cutoff > 0.0
+    np.testing.assert_array_equal(other.force_by_heading.values, one.force_by_heading.values)
+    first, second = (simulate(s, t_end=3.0, dt_out=1.0)["vessel_motion"] for s in (scene, again))
+    np.testing.assert_array_equal(first, second)
+    states = scene.compile().memory_states
+    scene.use_actual_position()
+    assert scene.compile().memory_states == states - 9

@@ -42,34 +42,24 @@ def test_it_accelerates_with_its_added_mass() -> None:
     assert fall == pytest.approx(-0.1 * MASS * scene.gravity / (MASS + ADDED[2, 2]), rel=0.1)
 
 
-def test_statics_and_balance_know_its_weight() -> None:
-    scene = submerged()
-    assert at_rest_of(scene) == pytest.approx(MASS * scene.gravity, rel=1e-6)
-    assert balance_at_rest() == pytest.approx(MASS * scene.gravity)
-
-
-def at_rest_of(scene: Scene) -> float:
+@pytest.mark.parametrize("floats", [None, True, False])
+def test_statics_and_balance_know_its_weight_and_files_it(floats: bool | None, tmp_path: Path) -> None:
+    scene = submerged() if floats is None else submerged(floats=floats)
+    weight = 0.0 if floats else MASS * scene.gravity
     rest = simulate(scene, t_end=0.01, start=equilibrium(scene))
-    return float(rest.select("line_tension", line="wire")[0])
-
-
-def balance_at_rest() -> float:
-    scene = submerged()
+    assert rest.select("line_tension", line="wire")[0] == pytest.approx(weight, rel=1e-6, abs=1e-3 * MASS)
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+    assert Scene.load(tmp_path / "scene.json").vessels["load"].floats == bool(floats)
+    with pytest.raises(SceneError, match="no body" if floats else "vessels are none"):
+        scene.add_ballast(vessel="load")
     scene.remove("wire")
     scene.add_joint(
-        kind="distance",
-        name="rod",
-        first="ground",
-        second="load",
-        point=(0, 0, 0),
+        kind="distance", name="rod", first="ground", second="load", point=(0, 0, 0),
         second_point=(0, 0, -DEPTH),
-    )
-    return balance(scene).weight
-
-
-def test_it_is_no_vessel_to_be_ballasted() -> None:
-    with pytest.raises(SceneError, match="the vessels are none"):
-        submerged().add_ballast(vessel="load")
+    )  # fmt: skip
+    if not floats:
+        assert balance(scene).weight == pytest.approx(weight)
 
 
 def heaved(**hydrodynamics: object) -> np.ndarray:
@@ -83,11 +73,3 @@ def test_what_heave_restores_floats_as_before() -> None:
     np.testing.assert_array_equal(heaved(), heaved(floats=True))
     assert abs(heaved()).max() <= 0.5 + 1e-6
     assert heaved(floats=False).min() < -0.5  # its weight comes on top
-
-
-@pytest.mark.parametrize("floats", [True, False])
-def test_files_say_whether_it_floats(floats: bool, tmp_path: Path) -> None:
-    scene = submerged(floats=floats)
-    scene.save(tmp_path / "scene.json")
-    assert Scene.load(tmp_path / "scene.json") == scene
-    assert Scene.load(tmp_path / "scene.json").vessels["load"].floats == floats

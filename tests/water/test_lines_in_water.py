@@ -10,17 +10,14 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from test_jacobian import largest_error, moving
+from wet_scenes import EXACT, FORMS, RHO, G, goes_on_bit_for_bit
 
 from seacrane import Scene, SceneError, _core, natural_modes, simulate
 from seacrane.description.forces import add_load
 from seacrane.result import heavy_line_tension
-from seacrane.run import Run
 from seacrane.sea import Current
 
 Array = NDArray[np.float64]
-G, RHO = 9.80665, 1025.0
-EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11}
-FORMS = ("recursive", "redundant")
 
 
 def area(diameter: float) -> float:
@@ -69,9 +66,6 @@ def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "recursive
     return simulate(scene, t_end=t_end, dt_out=dt_out, channels=channels, formulation=formulation, **EXACT)
 
 
-# --- engine: formulations, ledger, restart, Jacobian ----------------------------------------------------
-
-
 @pytest.mark.parametrize("waves", [False, True])
 def test_both_formulations_agree_and_the_ledger_closes(waves: bool) -> None:
     one, other = (run(tossed(waves=waves), 2.0, 0.1, form) for form in FORMS)
@@ -82,13 +76,7 @@ def test_both_formulations_agree_and_the_ledger_closes(waves: bool) -> None:
 
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_run_continues_bit_for_bit(formulation: str) -> None:
-    given: dict[str, Any] = {"formulation": formulation, "integrator": "dopri5", "dt_out": 0.1}
-    whole = Run(tossed(), 1.0, **given)
-    whole.advance(0.47)
-    rest = Run(tossed(), 1.0, start=whole.state, outputs_from=0.0, **given)
-    for one in (whole, rest):
-        one.advance(1.0)
-    assert np.array_equal(whole.state.values, rest.state.values)
+    goes_on_bit_for_bit(tossed(), t_end=1.0, at=0.47, formulation=formulation)
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -100,24 +88,19 @@ def test_the_exact_jacobian_is_that_of_differences(seed: int) -> None:
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_line_in_a_current_moves_as_one_that_is_towed_through_still_water(formulation: str) -> None:
     """Relativity of Galileo: added mass, its moment, slam and drag see the speed over the water alone."""
-    u = np.array([1.3, -0.6, 0.0])
-
-    def scene_of(carried: bool) -> Scene:
+    u, runs = np.array([1.3, -0.6, 0.0]), []
+    for flows in (True, False):
         scene = Scene(name="towed", gravity=G)
-        if carried:
+        if flows:
             speed, angle = float(np.hypot(*u[:2])), float(np.degrees(np.arctan2(u[1], u[0])))
             scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=speed, direction_deg=angle))
-        own = np.array([[0.5, 0.2, -2.0], [-0.4, 0.6, 1.0]]) - (0.0 if carried else u)
+        own = np.array([[0.5, 0.2, -2.0], [-0.4, 0.6, 1.0]]) - (0.0 if flows else u)
         with_ends(scene, [(0.0, 0.0, 1.0), (6.0, 2.0, -1.5)], mass=60.0, velocities=own)
         wet_line(scene, diameter=0.3, mass_per_length=60.0)
-        return scene
-
-    carried, towed = (run(scene_of(one), 1.5, 0.1, formulation) for one in (True, False))
+        runs.append(run(scene, 1.5, 0.1, formulation))
+    carried, towed = runs
     moved = np.asarray(towed["position"]) + u * np.asarray(towed.time)[:, None, None]
     assert np.asarray(carried["position"]) == pytest.approx(moved, abs=1e-8)
-
-
-# --- forces against closed forms ------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("along", [(50.0, 0.0, 0.0), (0.0, 0.0, 50.0)], ids=["level", "upright"])
@@ -145,14 +128,13 @@ def test_a_line_that_sinks_takes_on_its_terminal_speed_as_its_equation_says(alon
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) -> None:
     """A neutral rod of two masses beside the equations of Kirchhoff in a plane: momentum is kept."""
-    length, mass, diameter = 4.0, 30.0, 0.2
-    scene = Scene(name="askew", gravity=0.0)
-    angle, speed = 0.3, np.array([2.0, 0.0, 0.0])
+    length, mass, diameter, angle = 4.0, 30.0, 0.2, 0.3
+    scene, speed = Scene(name="askew", gravity=0.0), np.array([2.0, 0.0, 0.0])
     half = 0.5 * length * np.array([np.cos(angle), 0.0, np.sin(angle)])
-    middle = np.array([0.0, 0.0, -50.0])
-    with_ends(scene, [middle - half, middle + half], mass=mass, velocities=[speed, speed])
-    scene.add_joint(kind="distance", name="rod", first="one", second="two", point=middle - half,
-                    second_point=middle + half)  # fmt: skip
+    ends = [np.array([0.0, 0.0, -50.0]) + side * half for side in (-1.0, 1.0)]
+    with_ends(scene, ends, mass=mass, velocities=[speed, speed])
+    scene.add_joint(kind="distance", name="rod", first="one", second="two", point=ends[0],
+                    second_point=ends[1])  # fmt: skip
     add_load(scene, _core.ImmersedSpan(
         name="water", first="one", second="two", density=RHO, diameter=diameter, length=length,
         drag_coefficient=0.0,
@@ -163,9 +145,8 @@ def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) ->
         """Of x, z, angle, and its rate; the momentum is that of the start."""
         along, across = np.array([np.cos(y[2]), np.sin(y[2])]), np.array([-np.sin(y[2]), np.cos(y[2])])
         slide, side = along @ momentum / (2.0 * mass), across @ momentum / (2.0 * mass + added)
-        velocity = slide * along + side * across
         turning = -added * slide * side / ((2.0 * mass + added) * length**2 / 4.0)
-        return np.array([*velocity, y[3], turning])
+        return np.array([*(slide * along + side * across), y[3], turning])
 
     across = np.array([-np.sin(angle), np.cos(angle)])
     momentum = 2.0 * mass * speed[[0, 2]] + added * across * (across @ speed[[0, 2]])
@@ -176,23 +157,6 @@ def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) ->
     assert turned == pytest.approx(alone.y[2], abs=1e-7)
     assert np.ptp(turned) > 1.0, "it turns broadside and beyond"
     assert 0.5 * (one + two)[:, [0, 2]] == pytest.approx(alone.y[:2].T, abs=1e-7)
-
-
-@pytest.mark.parametrize("formulation", FORMS)
-def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
-    """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
-    scene = Scene(name="raft", gravity=G)
-    with_ends(scene, [(0.0, 0.0, -50.0), (4.0, 0.0, -50.0)], mass=30.0)
-    scene.add_joint(kind="weld", name="glue", first="one", second="two")
-    add_load(scene, _core.ImmersedSpan(
-        name="water", first="one", second="two", density=RHO, diameter=0.2, length=4.0, drag_coefficient=1.0,
-    ))  # fmt: skip
-    water = RHO * area(0.2) * 4.0
-    result = simulate(scene, t_end=1.0, dt_out=0.1, channels=["velocity"], formulation=formulation, **EXACT)
-    speed = np.asarray(result.select("velocity", body="two", axis="z"))
-    drag, weight, mass = 0.5 * RHO * 0.2 * 4.0, (water - 60.0) * G, water + 60.0
-    final = np.sqrt(weight / drag)
-    assert speed == pytest.approx(final * np.tanh(drag * final * np.asarray(result.time) / mass), rel=1e-7)
 
 
 def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
@@ -218,40 +182,30 @@ def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
     assert np.log2(np.divide(found[:-1], found[1:])) == pytest.approx([2.0, 2.0], abs=0.05)
 
 
-def long_wire(length: float, segments: int) -> Scene:
-    """25 kg/m and EA 4e8 N with 60 t below it, and 50 t of water that move up and down with those."""
-    scene = Scene(name="long wire", gravity=G)
-    stretched = length * (1.0 + 60e3 * G / 4e8)
-    scene.add_body(name="load", mass=60e3, inertia=(1e5,) * 3, position=(0.0, 0.0, -20.0 - stretched))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments, diameter=0.06,
-        medium="sea",
-    )  # fmt: skip
-    add_load(scene, _core.ImmersedPart(
-        name="water", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
-        depths=[0.0, 2.0], added_masses=[(0.0, 0.0, 0.0), (0.0, 0.0, 50e3)],
-    ))  # fmt: skip
-    return scene
-
-
-def bounce(length: float, segments: int) -> float:
-    """Period of the first mode along the wire, s."""
-    modes = natural_modes(long_wire(length, segments))
-    along = modes.energy_share[:, :, 2].sum(axis=1) > 0.99
-    return float(modes.natural_period[along].max())
-
-
-@pytest.mark.parametrize(
-    ("length", "period"), [(100.0, 1.04589), (300.0, 1.82519), (1000.0, 3.41919), (3000.0, 6.34502)]
-)
+@pytest.mark.parametrize(("length", "period"), [(100.0, 1.04589), (3000.0, 6.34502)])
 def test_a_load_on_a_long_wire_bounces_with_the_wire_s_own_mass(length: float, period: float) -> None:
-    """x tan x = m L / M, x = omega L / c: with second order in the segments, 20 are within 2e-4."""
+    """x tan x = m L / M, x = omega L / c: with second order in the segments, 20 are within 2e-4. 25 kg/m and
+    EA 4e8 N with 60 t below it, and 50 t of water that move up and down with those."""
     share = 25.0 * length / 110e3
     x = brentq(lambda x: x * np.tan(x) - share, 1e-6, 0.5 * np.pi - 1e-6, xtol=1e-14)
     exact = 2.0 * np.pi * length / (x * np.sqrt(4e8 / 25.0))
     assert exact == pytest.approx(period, abs=6e-6)
-    errors = [bounce(length, n) - exact for n in (5, 10, 20)]
+    errors, low = [], -20.0 - length * (1.0 + 60e3 * G / 4e8)
+    for segments in (5, 10, 20):
+        scene = Scene(name="long wire", gravity=G)
+        scene.add_body(name="load", mass=60e3, inertia=(1e5,) * 3, position=(0.0, 0.0, low))
+        scene.add_line(
+            "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+            rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments, diameter=0.06,
+            medium="sea",
+        )  # fmt: skip
+        add_load(scene, _core.ImmersedPart(
+            name="water", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
+            depths=[0.0, 2.0], added_masses=[(0.0, 0.0, 0.0), (0.0, 0.0, 50e3)],
+        ))  # fmt: skip
+        modes = natural_modes(scene)
+        along = modes.energy_share[:, :, 2].sum(axis=1) > 0.99
+        errors.append(float(modes.natural_period[along].max()) - exact)
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2.0, 2.0], abs=0.02)
     assert abs(errors[-1]) < 2e-4 * exact
 
@@ -290,91 +244,74 @@ def test_a_current_draws_a_long_wire_aside_as_its_integral_says() -> None:
     assert drawn_aside(0.5, 10) == pytest.approx(stretched, rel=1e-3)  # with the angles that it has
 
 
-# --- rest, and how a line is described ------------------------------------------------------------------
-
-
-def through_the_surface(**given: Any) -> Scene:
+def test_a_wire_hangs_by_its_weight_less_the_water_that_it_displaces() -> None:
     """A load of 1 t on 60 m of wire from 20 m above the water."""
     scene = Scene(name="wet and dry", gravity=G)
     scene.add_body(name="load", mass=1e3, inertia=(1e3,) * 3, position=(0.0, 0.0, -40.0))
-    line: dict[str, Any] = {"EA": 1e8, "mass_per_length": 30.0, "segments": 12, "diameter": 0.08}
     scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 20.0), second_point=(0.0, 0.0, 0.0),
-                   rung="with mass", medium="sea", length=60.0, **line | given)  # fmt: skip
-    return scene
-
-
-def test_a_wire_hangs_by_its_weight_less_the_water_that_it_displaces() -> None:
-    result = simulate(through_the_surface(), t_end=0.1, start="rest")
-    upper, lower = heavy_line_tension(result, line="wire")[-1]
+                   rung="with mass", medium="sea", length=60.0, EA=1e8, mass_per_length=30.0, segments=12,
+                   diameter=0.08)  # fmt: skip
+    upper, lower = heavy_line_tension(simulate(scene, t_end=0.1, start="rest"), line="wire")[-1]
     assert upper == pytest.approx((1e3 + 30.0 * 60.0 - RHO * area(0.08) * 40.0) * G, rel=1e-5)
     assert lower == pytest.approx(1e3 * G, rel=1e-5)
 
 
 @pytest.mark.parametrize(
-    ("mass_per_length", "top"), [(30.0, 3.0), (5.1, -30.0), (1.0, -30.0)],
-    ids=["sinks", "nearly floats", "floats"],
+    ("mass_per_length", "top", "end"),
+    [(30.0, 3.0, -7.0), (5.1, -30.0, -40.0), (1.0, -30.0, -40.0), (2.0, 3.0, -25.0)],
+    ids=["sinks", "nearly floats", "floats", "on the surface"],
 )  # fmt: skip
-def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: float) -> None:
+def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: float, end: float) -> None:
     """Between two fixed points: through the surface, and below it heavier than water and lighter."""
     scene = Scene(name="slack", gravity=G)
-    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, top - 10.0))
+    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, end))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
     scene.add_line(
         "line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0),
         rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12, diameter=0.08,
         medium="sea", density=RHO,
     )  # fmt: skip
-    result = simulate(scene, t_end=1.0, rtol=1e-9, channels=["position"])
-    place = np.asarray(result["position"])
+    given: dict[str, Any] = {"start": "rest"} if end == -25.0 else {}
+    place = np.asarray(simulate(scene, t_end=1.0, rtol=1e-9, channels=["position"], **given)["position"])
     assert np.ptp(place, axis=0).max() < 1e-5
     inner = place[0, 1:-1, 2]  # of its masses
-    assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
-
-
-def test_a_line_that_floats_on_the_surface_finds_its_rest() -> None:
-    """Lighter than water, from above it to 25 m below."""
-    scene = Scene(name="afloat", gravity=G)
-    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, -25.0))
-    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(
-        "line", "ground", "end", first_point=(0.0, 0.0, 3.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=1e6, length=60.0, mass_per_length=2.0, segments=12, diameter=0.08, medium="sea",
-    )  # fmt: skip
-    result = simulate(scene, t_end=1.0, rtol=1e-9, start="rest", channels=["position"])
-    place = np.asarray(result["position"])
-    assert np.ptp(place, axis=0).max() < 1e-8
-    afloat = np.abs(place[0, :, 2]) < 0.1
-    assert afloat.sum() >= 5
-
-
-def test_coefficients_say_where_they_are_from() -> None:
-    scene = through_the_surface(drag_coefficient=1.0)
-    source = scene.loads["wire.1 water"].source
-    assert source == (
-        "added mass: 1, a circle in ideal flow (Lamb, art. 68); drag across: 1, given; "
-        "drag along: 0.01, unverified"
-    )
+    if given:
+        assert (np.abs(inner) < 0.1).sum() >= 5
+    else:
+        assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"diameter": 0.0}, "diameter is 0.0 m; give a finite number above zero"),
-        ({"density": 1.025}, "density is 1.025, which looks like t/m3; give kg/m3"),
-        ({"flow": (1.0, 0.0, 0.0)}, "is in the sea and has a flow; give the current to add_sea"),
-        ({"medium": "water"}, "medium is 'water'; choose 'air' or 'sea'"),
+        ({"density": 1.025}, "t/m3"),
+        ({"flow": (1.0, 0.0, 0.0)}, "has a flow"),
+        ({"medium": "water"}, "'air' or 'sea'"),
         ({"medium": "air", "added_mass_coefficient": 2.0}, "added_mass_coefficient is of a line in water"),
-        ({"medium": "air", "drag_coefficient_along": 0.1}, "drag_coefficient_along is of a line in water"),
-        ({"added_mass_coefficient": -1.0}, "added_mass_coefficient"),
     ],
 )
 def test_what_makes_no_line_in_water_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     with_ends(scene, [(0.0, 0.0, -1.0), (0.0, 0.0, -6.0)], mass=1e3)
-    line: dict[str, Any] = {
-        "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3, "diameter": 0.1,
-        "medium": "sea",
-    }  # fmt: skip
     with pytest.raises(SceneError, match=message):
-        scene.add_line("line", rung="with mass", **line | given)
+        scene.add_line("line", rung="with mass", **{
+            "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3,
+            "diameter": 0.1, "medium": "sea",
+        } | given)  # fmt: skip
         scene.compile()
+
+
+@pytest.mark.parametrize("formulation", FORMS)
+def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
+    """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
+    scene = Scene(name="raft", gravity=G)
+    with_ends(scene, [(0.0, 0.0, -50.0), (4.0, 0.0, -50.0)], mass=30.0)
+    scene.add_joint(kind="weld", name="glue", first="one", second="two")
+    span = {"diameter": 0.2, "length": 4.0, "density": RHO, "drag_coefficient": 1.0}
+    add_load(scene, _core.ImmersedSpan(name="water", first="one", second="two", **span))
+    water = RHO * area(0.2) * 4.0
+    result = simulate(scene, t_end=1.0, dt_out=0.1, channels=["velocity"], formulation=formulation, **EXACT)
+    speed = np.asarray(result.select("velocity", body="two", axis="z"))
+    drag, weight, mass = 0.5 * RHO * 0.2 * 4.0, (water - 60.0) * G, water + 60.0
+    final = np.sqrt(weight / drag)
+    assert speed == pytest.approx(final * np.tanh(drag * final * np.asarray(result.time) / mass), rel=1e-7)

@@ -11,18 +11,19 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson
 from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation
-from test_immersed import EXACT, FORMS, SLICE, dropped, hanging, heights, sunk_and_risen
+from test_immersed import SLICE, dropped, hanging, heights, sunk_and_risen
 from test_lines_in_water import tossed
+from wet_scenes import EXACT, FORMS, RHO, G, quaternion
 
-from seacrane import Scene, _core, simulate
+from seacrane import Scene, simulate
 from seacrane.description.channels import FIXED
 from seacrane.run import Run
 from seacrane.scene import Waves
 from seacrane.water import BoxPart, CylinderPart, SpherePart
 
 Array = NDArray[np.float64]
-G, RHO = 9.80665, 1025.0
 BUOYANCY, WAVES, ADDED, DRAG, SLAM = range(5)
+assert FIXED["cause"] == ("buoyancy", "waves", "added mass", "drag", "slam")
 
 
 def in_waves(scene: Scene) -> None:
@@ -36,25 +37,15 @@ def in_waves(scene: Scene) -> None:
 def tumbling(part: Any, *, waves: bool) -> Scene:
     """A free body with one part, which falls through the surface."""
     scene = Scene(name="tumbling", gravity=G)
-    x, y, z, w = Rotation.random(random_state=3).as_quat()
     scene.add_body(
         name="load", mass=3000.0, inertia=(2000.0, 2500.0, 3000.0), position=(0.0, 0.0, 1.5),
         center_of_mass=(0.1, -0.2, 0.1), velocity=(1.0, 0.5, -3.0), angular_velocity=(0.4, -0.3, 0.5),
-        quaternion=(w, x, y, z),
+        quaternion=quaternion(Rotation.random(random_state=3)),
     )  # fmt: skip
     if waves:
         in_waves(scene)
     scene.add_immersed("load", parts=[part], density=RHO)
     return scene
-
-
-def elevation(scene: Scene, place: Array, time: float) -> float:
-    """m, above or below a place."""
-    return float(scene.sea_at(points=place[None, :], times=[time]).elevation[0, 0])
-
-
-def test_the_causes_are_those_of_the_core() -> None:
-    assert FIXED["cause"] == ("buoyancy", "waves", "added mass", "drag", "slam")
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -68,9 +59,7 @@ def test_the_causes_are_those_of_the_core() -> None:
     ],
     ids=lambda part: part.kind,
 )
-def test_the_forces_of_all_causes_are_mass_times_acceleration_less_weight(
-    part: Any, waves: bool, formulation: str
-) -> None:
+def test_all_forces_are_mass_times_acceleration_less_weight(part: Any, waves: bool, formulation: str) -> None:
     result = simulate(
         tumbling(part, waves=waves), t_end=2.0, dt_out=0.02, formulation=formulation,
         channels=["acceleration", "immersed_force"],
@@ -131,16 +120,16 @@ def test_the_work_by_cause_is_the_change_of_energy_deep_in_waves() -> None:
     assert np.abs(power[:, WAVES]).max() > 10.0 * np.abs(power[:, SLAM]).max()
     z, speed = (np.asarray(result.select(name, body="load")) for name in ("position", "velocity"))
     work = simpson(power.sum(axis=1), x=result.time)
-    sunk = np.array([elevation(scene, z[i], t) - z[i, 2] for i, t in ((0, 0.0), (-1, 4.0))])
+    surface = [
+        scene.sea_at(points=z[i][None, :], times=[t]).elevation[0, 0] for i, t in ((0, 0.0), (-1, 4.0))
+    ]
+    sunk = np.array(surface) - z[[0, -1], 2]
     added = np.array(
         [np.interp(d + 0.5 * size, element.depths, np.asarray(element.added_masses)[:, 2]) for d in sunk]
     )
     energy = 0.5 * (mass + added) * np.sum(speed[[0, -1]] ** 2, axis=1) + mass * G * z[[0, -1], 2]
     energy += RHO * G * volume * sunk
     assert energy[1] - energy[0] == pytest.approx(work, rel=2e-5)
-
-
-# --- momentum -------------------------------------------------------------------------------------------
 
 
 def integral(values: Array, times: Array) -> Array:
@@ -208,13 +197,3 @@ def test_slam_takes_by_its_power_what_its_state_says(formulation: str) -> None:
     )  # fmt: skip
     power = np.asarray(result.select("water_power", wet="load.1", cause="slam"))
     assert -integral(power, np.asarray(result.time)) == pytest.approx(1270.2809, rel=3e-6)
-
-
-def test_causes_are_on_request() -> None:
-    model = hanging(0).compile()
-    asked = {"immersed_force", "immersed_momentum", "immersed_shed", "water_power"}
-    assert asked <= set(model.channel_names(defaults_only=False)) - set(model.channel_names())
-    assert isinstance(model, _core.Model)
-    dry = Scene(name="dry", gravity=G)
-    dry.add_body(name="load", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    assert not asked & set(dry.compile().channel_names(defaults_only=False))

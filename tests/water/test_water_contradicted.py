@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -10,12 +11,9 @@ import pytest
 from seacrane import Curve, Scene, SceneError, shipped_database, simulate
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.warnings import LineRungWarning
-from seacrane.water import BoxPart, PlatePart, SpherePart, TablePart
+from seacrane.water import BoxPart, PlatePart, TablePart
 
 G = 9.80665
-
-
-# --- hulls ----------------------------------------------------------------------------------------------
 
 
 def afloat() -> Scene:
@@ -24,20 +22,12 @@ def afloat() -> Scene:
     return scene
 
 
-@pytest.mark.parametrize(
-    "part",
-    [BoxPart(size=(20.0, 10.0, 4.0)), SpherePart(diameter=2.0), PlatePart(size=(9.0, 1.0), thickness=0.1)],
-    ids=lambda part: part.kind,
-)
+@pytest.mark.parametrize("part", [BoxPart(size=(20.0, 10.0, 4.0)), PlatePart(size=(9.0, 1.0), thickness=0.1)])
 def test_what_a_hull_that_floats_displaces_is_not_counted_twice(part: Any) -> None:
     scene = afloat()
     scene.add_immersed("vessel", parts=[part], name="bottom")
-    with pytest.raises(
-        SceneError, match=r"'bottom\.1': displaces .* m3 as a part of 'vessel', which floats by"
-    ):
+    with pytest.raises(SceneError, match=r"'bottom\.1': displaces .* m3 as a part of 'vessel'.*volume"):
         scene.compile()
-    with pytest.raises(SceneError, match="without volume"):
-        simulate(scene, 1.0)
 
 
 def test_parts_of_a_hull_without_volume_or_in_the_air_are_taken() -> None:
@@ -46,17 +36,6 @@ def test_parts_of_a_hull_without_volume_or_in_the_air_are_taken() -> None:
     scene.add_immersed("vessel", parts=[BoxPart(size=(4.0, 4.0, 2.0), point=(0.0, 0.0, 12.0))], name="hut")
     heave = simulate(scene, 5.0, dt_out=1.0).select("position", body="vessel", axis="z")
     assert np.abs(heave - heave[0]).max() < 1e-6
-
-
-def test_a_hull_that_is_led_takes_no_buoyancy_and_is_not_judged() -> None:
-    scene = Scene(name="led", gravity=G)
-    scene.add_given_vessel(shipped_database())
-    scene.add_sea(hs=1.0, tp=8.0, direction_deg=90.0, seed=1, gamma=3.3)
-    scene.add_immersed("vessel", parts=[BoxPart(size=(4.0, 4.0, 4.0))])
-    assert list(scene.compile().axes["load"]) == ["vessel.1"]
-
-
-# --- seabeds --------------------------------------------------------------------------------------------
 
 
 def landed(*, bed: float, depth: float, tp: float = 8.0) -> Scene:
@@ -71,52 +50,23 @@ def landed(*, bed: float, depth: float, tp: float = 8.0) -> Scene:
 @pytest.mark.parametrize(
     ("bed", "depth", "tp", "told"),
     [
-        (14.0, np.inf, 8.0, "contact 'bed': lies 14 m below z = 0, and the sea is of infinite depth"),
-        (80.0, 14.0, 8.0, "lies 80 m below z = 0, and the sea is 14 m deep"),
-        (40.0, np.inf, 16.0, "wavenumbers differ by"),
-        (14.0, 14.0, 8.0, ""),
-        (60.0, np.inf, 8.0, ""),
+        (14.0, np.inf, 8.0, "'bed': lies 14 m.*infinite depth"), (80.0, 14.0, 8.0, "lies 80 m.*14 m deep"),
+        (40.0, np.inf, 16.0, "wavenumbers differ by"), (14.0, 14.0, 8.0, ""), (60.0, np.inf, 8.0, ""),
         (14.0, np.inf, 5.0, ""),
     ],
-)
-def test_a_seabed_has_the_depth_of_the_sea_where_waves_feel_it(
-    bed: float, depth: float, tp: float, told: str
-) -> None:
+)  # fmt: skip
+def test_a_seabed_has_the_depth_of_the_sea(bed: float, depth: float, tp: float, told: str) -> None:
     scene = landed(bed=bed, depth=depth, tp=tp)
-    if not told:
+    with pytest.raises(SceneError, match=told) if told else nullcontext():
         scene.compile()
-        return
-    with pytest.raises(SceneError, match=told):
-        scene.compile()
-
-
-def test_the_seabed_of_a_chain_counts_too() -> None:
-    scene = Scene(name="chain", gravity=G)
-    scene.add_body("buoy", mass=1e4, inertia=(1e4,) * 3)
-    scene.add_line(
-        "chain", first="ground", first_point=(40.0, 0.0, -14.0), second="buoy", rung="with mass", EA=1e7,
-        length=45.0, mass_per_length=40.0, segments=4,
-        seabed={"depth": 14.0, "stiffness": 1e5, "friction": 0.0},
-    )  # fmt: skip
-    scene.compile()
-    scene.add_sea(vessel=None, hs=1.5, tp=8.0)
-    with pytest.raises(SceneError, match=r"seabed of 'chain.*lies 14 m below"):
-        scene.compile()
-
-
-# --- parts without volume -------------------------------------------------------------------------------
 
 
 def frame(height: float = 1.0) -> TablePart:
     rows = [[0.0] * 3, [1e3] * 3, [1e3] * 3]
     return TablePart(
-        height=height,
-        depths=[0, 1, 2],
-        volumes=[0, 0, 0],
-        added_masses=rows,
-        drag_area=(1, 1, 1),
+        height=height, depths=[0, 1, 2], volumes=[0, 0, 0], added_masses=rows, drag_area=(1, 1, 1),
         source="mine",
-    )
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
@@ -144,9 +94,6 @@ def test_its_drag_is_that_of_the_height_that_is_wet() -> None:
         pulls.append(-force[0] / (0.5 * 1025.0 * 9.0))
     share = np.array([0.25, 0.5, 1.0, 1.0])  # with a rounded end
     assert pulls == pytest.approx(share + share**2 - share**3, rel=1e-6)
-
-
-# --- lines ----------------------------------------------------------------------------------------------
 
 
 def lowered(start: float, *, side: float = 9.0) -> Scene:
@@ -179,3 +126,17 @@ def test_what_came_out_and_was_struck_again_is_run_again_with_elastic_lines() ->
         run = simulate(scene, 12.0, dt_out=0.1)
     assert run.stats["line_rungs"].startswith("w: elastic: a first run was not")
     assert run["position"][:, 0, 2].max() > 0.1, "it was out"
+
+
+def test_the_seabed_of_a_chain_counts_too() -> None:
+    scene = Scene(name="chain", gravity=G)
+    scene.add_body("buoy", mass=1e4, inertia=(1e4,) * 3)
+    scene.add_line(
+        "chain", first="ground", first_point=(40.0, 0.0, -14.0), second="buoy", rung="with mass", EA=1e7,
+        length=45.0, mass_per_length=40.0, segments=4,
+        seabed={"depth": 14.0, "stiffness": 1e5, "friction": 0.0},
+    )  # fmt: skip
+    scene.compile()
+    scene.add_sea(vessel=None, hs=1.5, tp=8.0)
+    with pytest.raises(SceneError, match=r"seabed of 'chain.*14 m"):
+        scene.compile()

@@ -1,7 +1,6 @@
 """Water entry of a wedge and of a cylinder: the equation's own solutions, and the coefficients they rest on.
 
-The printed solutions are of an integration of the equation of docs/water.md that shares no code with ours. Of
-the cylinder they count drag from when its centre is below the surface.
+The printed solutions are of an integration of the equation of docs/water.md that shares no code with ours.
 """
 
 from __future__ import annotations
@@ -15,18 +14,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from seacrane import Scene, _core, simulate
-from seacrane.water import CylinderPart, TablePart, circle_added_mass
+from seacrane import _core
+from seacrane.water import circle_added_mass
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]
 WEDGE = {  # m/s at the times of the set
     "table with pile-up": [4.70, 3.95, 3.28, 2.77, 2.40, 2.12, 1.73],
     "table of the plate as broad as the level water": [4.87, 4.37, 3.81, 3.33, 2.93, 2.61, 2.15],
-}
-CYLINDER = {  # depth over diameter at the times of the set
-    "half as heavy as water": [0.504, 0.643, 1.069, 1.272],
-    "as heavy as water": [0.326, 0.617, 1.498, 1.737, 2.668],
 }
 
 
@@ -49,20 +44,6 @@ def test_the_wedge_slows_down_as_the_printed_solution(by: str, wedge: Any) -> No
     assert found == pytest.approx(WEDGE[by], rel=0.01)
 
 
-@pytest.mark.warns("UnitWarning")
-def test_the_wedge_keeps_its_momentum_and_the_impulse_of_weight_and_buoyancy(wedge: Any) -> None:
-    """m v + A v; the force of a run is not asked."""
-    time = np.linspace(0.0, 40.0, 401)
-    for factor in wedge.factors().values():
-        speed = wedge.speeds(time, factor)
-        depth = np.concatenate([[0.0], np.cumsum(0.5e-3 * (speed[1:] + speed[:-1]) * np.diff(time))])
-        half = depth / np.tan(wedge.DEADRISE)
-        force = wedge.MASS * wedge.G - wedge.RHO * wedge.G * half * depth
-        impulse = np.sum(0.5e-3 * (force[1:] + force[:-1]) * np.diff(time))
-        momentum = (wedge.MASS + wedge.RHO * factor * half**2) * speed
-        assert momentum[-1] - momentum[0] == pytest.approx(impulse, abs=2e-4 * momentum[0])
-
-
 def test_the_added_mass_of_a_wedge_alone_is_that_of_the_strip_theory(wedge: Any) -> None:
     """Its closed form beside sources on the section, without waves; a square on its corner has 1.1887."""
     height = 1.0 / np.tan(wedge.DEADRISE)
@@ -72,34 +53,7 @@ def test_the_added_mass_of_a_wedge_alone_is_that_of_the_strip_theory(wedge: Any)
     assert told["infinite_added_mass"][1, 1] / height**2 == pytest.approx(expected, rel=0.01)
 
 
-def late_drag(cylinder: Any, drag: float) -> TablePart:
-    """Of a metre of the cylinder, from when its centre is below the surface; it keeps no water out."""
-    thin = 1e-4 * cylinder.DIAMETER
-    return TablePart(
-        height=thin, depths=(0.0, thin), volumes=(0.0, 1e-9), added_masses=np.zeros((2, 3)),
-        drag_area=(0.0, 0.0, drag * cylinder.DIAMETER), source="this test",
-    )  # fmt: skip
-
-
-@pytest.mark.warns("UnitWarning")
-@pytest.mark.parametrize("words", CYLINDER)
-def test_the_cylinder_sinks_as_the_printed_solution(words: str, cylinder: Any) -> None:
-    share, drag, d = cylinder.SHARES[words], cylinder.DRAG[words], cylinder.DIAMETER
-    mass = share * cylinder.RHO * np.pi / 4.0 * d**2
-    scene = Scene(name="cylinder", gravity=cylinder.G)
-    scene.add_body(
-        name="cylinder", mass=mass, inertia=(mass, mass, mass), position=(0.0, 0.0, 0.5 * d),
-        velocity=(0.0, 0.0, -cylinder.SPEED),
-    )  # fmt: skip
-    parts = [CylinderPart(length=1.0, diameter=d, strips=1, drag=0.0), late_drag(cylinder, drag)]
-    scene.add_immersed("cylinder", parts=parts, density=cylinder.RHO)
-    times = cylinder.DEPTHS[words][:, 0] * cylinder.UNIT
-    result = simulate(scene, t_end=float(times[-1]) + 1e-3, dt_out=2.5e-4, rtol=1e-8)
-    depth = 0.5 - result.select("position", body="cylinder", axis="z") / d
-    assert np.interp(times, result.time, depth) == pytest.approx(CYLINDER[words], rel=0.01)
-
-
-@pytest.mark.parametrize("words", CYLINDER)
+@pytest.mark.parametrize("words", ["half as heavy as water", "as heavy as water"])
 def test_drag_of_a_cylinder_grows_with_the_volume_that_is_wet(words: str, cylinder: Any) -> None:
     """The same equation by another integrator, with its own table of added mass."""
     share, drag, d = cylinder.SHARES[words], cylinder.DRAG[words], cylinder.DIAMETER
@@ -124,11 +78,3 @@ def test_drag_of_a_cylinder_grows_with_the_volume_that_is_wet(words: str, cylind
     span = (0.0, float(times[-1] * cylinder.UNIT))
     alone = solve_ivp(rates, span, [0.0, cylinder.SPEED], t_eval=times * cylinder.UNIT, rtol=1e-8, atol=1e-10)
     assert found == pytest.approx(alone.y[0] / d, rel=1e-4)
-
-
-def test_points_of_the_heavy_cylinder_are_no_measurement_of_a_fall_from_this_speed(cylinder: Any) -> None:
-    """Two are at or below free fall, which no water can help: they are shown, and not judged."""
-    time, depth = cylinder.DEPTHS["as heavy as water"].T
-    over = depth / cylinder.free_fall(time)
-    assert over[0] == pytest.approx(1.0, abs=0.005) and over[1] == pytest.approx(1.12, abs=0.005)
-    assert np.all(over[2:] < 0.7)

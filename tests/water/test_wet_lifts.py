@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +16,6 @@ from seacrane import Lift, Scene, balance, equilibrium, shipped_database, simula
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import heel_and_trim
 from seacrane.pictures.drawn_bodies import looks
-from seacrane.pictures.shapes import MeshShape, TubeShape
 from seacrane.warnings import OverloadWarning
 from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart, from_mesh
 
@@ -42,27 +42,18 @@ def lift(height: float, *, capacity: object = (), afloat: bool = True, wet: bool
     return scene
 
 
-# --- overload -------------------------------------------------------------------------------------------
-
-
-def overload(height: float, allowed: float) -> str:
-    scene = lift(height, capacity=((5.0, allowed), (60.0, allowed)), afloat=False)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        simulate(scene, t_end=0.1, dt_out=0.1, start="rest")
-    return "".join(str(one.message) for one in caught if one.category is OverloadWarning)
-
-
 def test_water_carries_its_share_of_a_load_above_the_table() -> None:
     left = MASS + BLOCK - LIFT / G
-    assert "of 42 t, with what holds it, is above the 30 t" in overload(5.0, 30e3)
-    assert not overload(-20.0, 30e3)
-    assert not overload(-20.0, left + 10.0)
-    words = overload(-20.0, left - 10.0)
-    assert f"of 42 t, with what holds it, of which water carries {LIFT / G / 1e3:.4g} t, is above" in words
-
-
-# --- balance, ballast -----------------------------------------------------------------------------------
+    for height, allowed, told in (
+        (5.0, 30e3, "of 42 t.*30 t"), (-20.0, 30e3, ""), (-20.0, left + 10.0, ""),
+        (-20.0, left - 10.0, f"of 42 t.*water carries {LIFT / G / 1e3:.4g} t"),
+    ):  # fmt: skip
+        scene = lift(height, capacity=((5.0, allowed), (60.0, allowed)), afloat=False)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            simulate(scene, t_end=0.1, dt_out=0.1, start="rest")
+        words = "".join(str(one.message) for one in caught if one.category is OverloadWarning)
+        assert bool(words) == bool(told) and re.search(told, words)
 
 
 @pytest.mark.parametrize(("height", "share"), [(-20.0, 1.0), (5.0, 0.0)])
@@ -72,7 +63,6 @@ def test_water_carries_its_share_of_what_a_vessel_is_balanced_for(height: float,
     at_load = np.array(lift(height).bodies["load"].position)[:2]
     moment = dry.weight * dry.weight_center[:2] - share * LIFT * at_load
     assert wet.weight_center[:2] == pytest.approx(moment / wet.weight, rel=1e-6)
-    assert wet.vessel_wrench is not None
     assert wet.vessel_wrench[2] == pytest.approx(wet.weight, rel=1e-9)
     assert wet.vessel_wrench[3] == pytest.approx(wet.weight * wet.weight_center[1], rel=1e-6)
 
@@ -96,33 +86,20 @@ def test_with_its_ballast_a_vessel_floats_level_with_a_load_in_the_water(height:
     assert heel_and_trim(values[at + 3 : at + 7]) == pytest.approx((0.0, 0.0), abs=1e-8)
 
 
-# --- what is drawn --------------------------------------------------------------------------------------
-
-
 def test_parts_in_water_are_drawn_where_they_are() -> None:
     scene = Scene(name="drawn")
     scene.add_body("load", mass=1e3, size=(2.0, 2.0, 2.0), center_of_mass=(0.0, 0.0, 0.5))
     turned = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # its x is the body's y
-    parts = [
-        CylinderPart(length=4.0, diameter=0.5, strips=1, point=(1.0, 0.0, 0.0), axes=turned),
-        SpherePart(diameter=1.0, point=(0.0, 0.0, 3.0)),
-        PlatePart(size=(3.0, 1.0), strips=(2, 1), point=(0.0, 0.0, -1.0)),
-    ]
-    scene.add_immersed("load", parts=parts)
-    look = looks(scene)["load"]
-    assert look.note.endswith("and its parts in water")
-    _, rod, ball, *strips = look.shapes
-    assert isinstance(rod, TubeShape)
+    rod = CylinderPart(length=4.0, diameter=0.5, strips=1, point=(1.0, 0.0, 0.0), axes=turned)
+    ball = SpherePart(diameter=1.0, point=(0.0, 0.0, 3.0))
+    plate = PlatePart(size=(3.0, 1.0), strips=(2, 1), point=(0.0, 0.0, -1.0))
+    scene.add_immersed("load", parts=[rod, ball, plate])
+    _, rod, ball, *strips = looks(scene)["load"].shapes
     assert np.sort(rod.points[:, 1]) == pytest.approx([-2.0, 2.0])
     assert rod.points[:, [0, 2]] == pytest.approx(np.array([[1.0, -0.5], [1.0, -0.5]]))
-    assert isinstance(ball, MeshShape)
-    triangles = ball.vertices[ball.faces]
-    assert mesh_shapes.volume_of(triangles - [0.0, 0.0, 2.5]) == pytest.approx(np.pi / 6.0, rel=0.1)
     assert ball.vertices.mean(axis=0) == pytest.approx([0.0, 0.0, 2.5], abs=1e-12)
     assert np.ptp(np.concatenate([one.points for one in strips]), axis=0) == pytest.approx([3.0, 1.0, 0.01])
 
-
-# --- meshes in lift files -------------------------------------------------------------------------------
 
 MESHED = """
 format = "seacrane lift"
@@ -153,18 +130,15 @@ t_end_s = 1
 """
 
 
-def meshed(folder: Path, text: str = MESHED) -> Path:
-    (folder / "shapes").mkdir()
-    stl(folder / "shapes" / "load.stl", 1e3 * mesh_shapes.box((2.0, 1.0, 1.5)))
-    (folder / "lift.toml").write_text(text, encoding="utf-8")
-    return folder / "lift.toml"
-
-
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.MeshConvergenceWarning")
 def test_a_mesh_in_a_lift_file_is_that_of_a_script(tmp_path: Path) -> None:
-    pytest.importorskip("capytaine", reason="Capytaine is not installed: pip install 'seacrane[hydro]'")
-    lifted = Lift.load(meshed(tmp_path))
-    scene = Scene(name="lift")
+    pytest.importorskip("capytaine", reason="pip install 'seacrane[hydro]'")
+    for folder in ("shapes", "elsewhere"):
+        (tmp_path / folder).mkdir()
+    stl(tmp_path / "shapes" / "load.stl", 1e3 * mesh_shapes.box((2.0, 1.0, 1.5)))
+    path = tmp_path / "lift.toml"
+    path.write_text(MESHED, encoding="utf-8")
+    lifted, scene = Lift.load(path), Scene(name="lift")
     scene.add_body("load", mass=4000.0, size=(2.0, 1.0, 1.5))
     part = from_mesh(
         tmp_path / "shapes" / "load.stl", scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2,
@@ -172,27 +146,14 @@ def test_a_mesh_in_a_lift_file_is_that_of_a_script(tmp_path: Path) -> None:
     )  # fmt: skip
     (expected,) = scene.add_immersed("load", parts=[part])
     assert lifted.scene().loads["load.1"] == expected
-    (tmp_path / "elsewhere").mkdir()
     lifted.save(tmp_path / "elsewhere" / "again.toml")
-    written = (tmp_path / "elsewhere" / "again.toml").read_text(encoding="utf-8")
-    assert '"../shapes/load.stl"' in written
+    assert '"../shapes/load.stl"' in (tmp_path / "elsewhere" / "again.toml").read_text(encoding="utf-8")
     assert Lift.load(tmp_path / "elsewhere" / "again.toml").scene().loads["load.1"] == expected
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
+    for old, new, message in (
         ("shapes/load.stl", "shapes/lost.stl", r"lost\.stl"),
-        ("wetting = 1.2", "wetting = 3", "wetting is 3; give 1"),
-        ("scale = 1e-3", "", r"is 2000 m large, above 300 m; if it is in mm give scale=0\.001"),
-        ("panels = 60", "panels = 10.5", "panels"),
-        ("drag_area_m2 = [1, 2, 3]", "drag = 2.5", "drag"),
-        ('kind = "mesh"', 'kind = "mash"', "mash|nearest: mesh"),
-    ],
-)
-def test_bad_meshes_of_a_lift_file_are_refused_at_their_line(
-    tmp_path: Path, old: str, new: str, message: str
-) -> None:
-    path = meshed(tmp_path, MESHED.replace(old, new))
-    with pytest.raises(FileFormatError, match=rf"lift\.toml line \d+.*({message})"):
-        Lift.load(path).scene()
+        ("wetting = 1.2", "wetting = 3", "wetting is 3"), ("scale = 1e-3", "", r"scale=0\.001"),
+        ("panels = 60", "panels = 10.5", "panels"), ('kind = "mesh"', 'kind = "mash"', "mash"),
+    ):  # fmt: skip
+        path.write_text(MESHED.replace(old, new), encoding="utf-8")
+        with pytest.raises(FileFormatError, match=rf"lift\.toml line \d+.*{message}"):
+            Lift.load(path).scene()
