@@ -145,7 +145,7 @@ def test_notebooks_show_the_front(measured: Trade) -> None:
     best = measured.pareto
     html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()
     assert html.count("<tr>") == 1 + len(best) and f"{len(best)} of {len(measured.rows)} settings" in html
-    assert best[0].method.integrator in html and "<th>payload_position</th>" in html
+    assert best[0].method.integrator in html and "<th>payload_position [m]</th>" in html
     assert "<i>" not in html and "&lt;i&gt;lift" in html
 
 

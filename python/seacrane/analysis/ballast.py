@@ -24,7 +24,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
@@ -38,7 +38,7 @@ FAR = 1.0  # likewise of one force, which stands for weights on both sides
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ballast:
+class Ballast(Answer):
     """What `Scene.add_ballast` added, and how the vessel rests with it.
 
     Attributes
@@ -66,18 +66,18 @@ class Ballast:
     changes: Mapping[str, float] = field(default_factory=dict)
     forces: tuple[_core.PointForce, ...] = ()
 
-    def __str__(self) -> str:
+    def _shown(self) -> Table:
         told = (
             f"ballast of {self.vessel!r}: {self.weight / 1e3:.4g} kN for a heel of "
             f"{np.degrees(self.heel):.4g} deg and a trim of {np.degrees(self.trim):.4g} deg"
         )
         if not self.contents:
-            return f"{told}, at {self.center[0]:.4g}, {self.center[1]:.4g} m"
+            told += f", at {self.center[0]:.4g}, {self.center[1]:.4g} m"
         rows = [
             [name, f"{kg / 1e3:.4g}", f"{self.changes[name] / 1e3:+.4g}"]
             for name, kg in self.contents.items()
         ]
-        return f"{told}\n{text_table(['tank', 'content [t]', 'change [t]'], rows, right=(1, 2))}"
+        return Table(head=["tank", "content [t]", "change [t]"], rows=rows, right=(1, 2), title=told)
 
 
 def add_ballast(

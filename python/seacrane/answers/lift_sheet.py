@@ -21,9 +21,9 @@ from seacrane.description.suspension import Hung, Suspension, hung_loads, suspen
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
-from seacrane.plotting.html import notebook_table, table
+from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.html import table
 from seacrane.plotting.tabular import Tabular
-from seacrane.plotting.text import text_table
 from seacrane.result import Result
 from seacrane.result.units import read_as
 
@@ -70,7 +70,7 @@ class SheetRow:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class LiftSheet(Tabular):
+class LiftSheet(Tabular, Answer):
     """The numbers of a lift calculation. Made by `lift_sheet`; prints as a table, forces in kN.
 
     Attributes
@@ -105,11 +105,8 @@ class LiftSheet(Tabular):
     def __repr__(self) -> str:
         return f"<LiftSheet of {self.load!r} in {self.scene!r}: {len(self.rows)} rows>"
 
-    def __str__(self) -> str:
-        return f"{self._title()}\n{text_table(HEAD, self._cells(), right=(1,))}"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self._cells(), caption=self._title())
+    def _shown(self) -> Table:
+        return Table(head=HEAD, rows=self._cells(), right=(1,), title=self._title())
 
     def html(self) -> str:
         """The table alone, as HTML."""

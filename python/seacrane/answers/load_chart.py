@@ -25,9 +25,8 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
-from seacrane.plotting.html import notebook_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.tabular import Tabular
-from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
     import xarray
@@ -42,7 +41,7 @@ LEAST_SHARE = 1e-3  # of the described load, which is tried first beside it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class LoadChart(Tabular):
+class LoadChart(Tabular, Answer):
     """The allowable load over radius and slew angle. Made by `load_chart`; prints as a table.
 
     Attributes
@@ -74,11 +73,9 @@ class LoadChart(Tabular):
     def __repr__(self) -> str:
         return f"<LoadChart of {self.scene!r}: {len(self.slews)} slews x {len(self.radii)} radii>"
 
-    def __str__(self) -> str:
-        return f"{self._title()}\n{text_table(*self._cells(), right=range(1 + len(self.slews)))}"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(*self._cells(), caption=self._title())
+    def _shown(self) -> Table:
+        head, rows = self._cells()
+        return Table(head=head, rows=rows, right=range(1 + len(self.slews)), title=self._title())
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists by name."""

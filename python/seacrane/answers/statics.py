@@ -23,9 +23,8 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
-from seacrane.plotting.html import notebook_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.tabular import Tabular
-from seacrane.plotting.text import text_table
 from seacrane.result.units import read_as
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
@@ -41,7 +40,7 @@ Pose = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Statics(Tabular):
+class Statics(Tabular, Answer):
     """A lift at rest in every pose asked for. Made by `statics`; prints as a table.
 
     Attributes
@@ -80,12 +79,10 @@ class Statics(Tabular):
         grid = " x ".join(f"{np.size(v)} {name}" for name, v in self.poses.items()) or "as described"
         return f"<Statics of {self.scene!r}: {grid}; {', '.join(self.columns)}>"
 
-    def __str__(self) -> str:
+    def _shown(self) -> Table:
         head, rows = self._cells()
-        return f"{self.scene}, at rest\n{text_table(head, rows, right=range(int(not self.poses), len(head)))}"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(*self._cells(), caption=f"{self.scene}, at rest")
+        right = range(int(not self.poses), len(head))
+        return Table(head=head, rows=rows, right=right, title=f"{self.scene}, at rest")
 
     def to_dict(self) -> dict[str, list[Any] | float]:
         """Columns as plain lists over the grid."""

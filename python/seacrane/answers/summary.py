@@ -19,9 +19,9 @@ from seacrane.description.wet_parts import wet_bodies
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.keywords import named
-from seacrane.plotting.html import notebook_table, table
+from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.html import table
 from seacrane.plotting.tabular import Tabular
-from seacrane.plotting.text import text_table
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
 from seacrane.result.extremes import inside
@@ -92,7 +92,7 @@ class SummaryRow:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Summary(Tabular):
+class Summary(Tabular, Answer):
     """The numbers of a run. Made by `summary`; prints as a table, in the units in which they are read.
 
     Attributes
@@ -140,17 +140,18 @@ class Summary(Tabular):
         return f"<Summary of {self.scene!r}: {len(self.rows)} rows, {self.start:g} to {self.end:g} s>"
 
     def __str__(self) -> str:
-        lines = [f"{self.scene}, {self.start:g} to {self.end:g} s"]
-        if self.rows:
-            lines.append(text_table(HEAD, self._cells(), right=range(2, len(HEAD))))
-        tables = [one for one in (self.contacts, self.utilisation) if one]
-        return "\n".join([*lines, *self.notes(), *(text for one in tables for text in ("", str(one)))])
+        return "\n\n".join(str(one) for one in self._tables())
 
     def _repr_html_(self) -> str:
-        caption = f"{self.scene}, {self.start:g} to {self.end:g} s"
-        used = self.utilisation._repr_html_() if self.utilisation else ""
-        hit = self.contacts._repr_html_() if self.contacts else ""
-        return notebook_table(HEAD, self._cells(), caption=caption, notes=self.notes()) + hit + used
+        return "".join(one.html() for one in self._tables())
+
+    def _shown(self) -> Table:
+        title = f"{self.scene}, {self.start:g} to {self.end:g} s"
+        right = range(2, len(HEAD))
+        return Table(head=HEAD, rows=self._cells(), right=right, title=title, remarks=self.notes())
+
+    def _tables(self) -> list[Table]:
+        return [self._shown(), *(one._shown() for one in (self.contacts, self.utilisation) if one)]
 
     def html(self) -> str:
         """The table alone, as HTML."""

@@ -17,7 +17,7 @@ from seacrane.ensembles.kept import Kept
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.result import Result
 from seacrane.scene.scene import Scene
 
@@ -43,7 +43,7 @@ CASES = {
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class CoefficientScatter:
+class CoefficientScatter(Answer):
     """Numbers of a lift with other coefficients in water. Made by `coefficient_scatter`; prints as a table.
 
     Attributes
@@ -65,7 +65,9 @@ class CoefficientScatter:
         described = self.values[DESCRIBED][name]
         return {case: row[name] - described for case, row in self.values.items() if case != DESCRIBED}
 
-    def __str__(self) -> str:
+    __repr__ = Answer.__str__
+
+    def _shown(self) -> Table:
         names = list(self.values[DESCRIBED])
         rows = []
         for case, row in self.values.items():
@@ -82,10 +84,7 @@ class CoefficientScatter:
             f"{self.sources[shape]}"
             for shape, one in self.shares.items()
         ]
-        right = tuple(range(1, 1 + len(names)))
-        return "\n".join([text_table(["coefficients", *names], rows, right=right), *told])
-
-    __repr__ = __str__
+        return Table(head=["coefficients", *names], rows=rows, right=range(1, 1 + len(names)), remarks=told)
 
 
 def coefficient_scatter(

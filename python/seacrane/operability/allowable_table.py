@@ -13,8 +13,7 @@ from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ ROUNDING = 1e-9  # degrees
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class AllowableHs:
+class AllowableHs(Answer):
     """Allowable significant wave heights. Made by `allowable_hs`; prints as a table.
 
     Attributes
@@ -161,15 +160,10 @@ class AllowableHs:
         shape = " x ".join(f"{size} {name}" for name, size in self.dataset["allowable_hs"].sizes.items())
         return f"<AllowableHs of {self.scene!r}: {shape}>"
 
-    def __str__(self) -> str:
-        right = range(1 + self.dataset.sizes["direction_deg"])
-        return "\n".join([self._title(), text_table(*self._cells(), right=right), *self._words()])
-
-    def _repr_html_(self) -> str:
-        return notebook_table(*self._cells(), caption=self._title(), notes=self._words())
-
-    def _title(self) -> str:
-        return f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves"
+    def _shown(self) -> Table:
+        head, rows = self._cells()
+        title = f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves"
+        return Table(head=head, rows=rows, right=range(len(head)), title=title, remarks=self._words())
 
     def told_criteria(self) -> list[str]:
         """The criteria in words, each after its letter."""

@@ -14,8 +14,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.scatter import ScatterDiagram
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 
 if TYPE_CHECKING:
     import xarray
@@ -25,7 +24,7 @@ HEAD = ("Tp [s]", "of the time [%]", "allowed [%]")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Availability:
+class Availability(Answer):
     """Share of the time in which the lift may go ahead. Made by `availability`; prints as a table.
 
     Attributes
@@ -52,17 +51,12 @@ class Availability:
     def __repr__(self) -> str:
         return f"<Availability: {self.percent:.1f} %>"
 
-    def __str__(self) -> str:
-        return f"{self._title()}\n{text_table(HEAD, self._rows(), right=(0, 1, 2))}"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self._rows(), caption=self._title())
-
-    def _title(self) -> str:
-        return (
+    def _shown(self) -> Table:
+        title = (
             f"Availability {self.percent:.1f} % of the time by {self.source}; {self.alpha_factor}; "
             f"{self.outside_percent:.1f} % beyond the table, counted as not allowed"
         )
+        return Table(head=HEAD, rows=self._rows(), right=(0, 1, 2), title=title)
 
     def _rows(self) -> list[list[str]]:
         weight = self.dataset["probability"]

@@ -15,8 +15,7 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 
 if TYPE_CHECKING:
     import xarray
@@ -29,7 +28,7 @@ ROUNDING = 1e-9  # of a step
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class WeatherWindows:
+class WeatherWindows(Answer):
     """When a lift may start and how long one waits. Made by `weather_windows`; prints as a table.
 
     Attributes
@@ -67,21 +66,14 @@ class WeatherWindows:
     def __repr__(self) -> str:
         return f"<WeatherWindows of {self.hours:g} h: {self.dataset.sizes['window']}>"
 
-    def __str__(self) -> str:
-        return f"{self._title()}\n{text_table(HEAD, self._rows(), right=range(1, 6))}\n{self._words()}"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self._rows(), caption=f"{self._title()} {self._words()}")
-
-    def _title(self) -> str:
+    def _shown(self) -> Table:
         count = self.dataset.sizes["window"]
-        return f"Windows of {self.hours:g} h in {self.source}: {count}; {self.alpha_factor}"
-
-    def _words(self) -> str:
-        return (
+        title = f"Windows of {self.hours:g} h in {self.source}: {count}; {self.alpha_factor}"
+        words = (
             f"{self.unknown_percent:.1f} % not known and {self.outside_percent:.1f} % beyond the table count "
             f"as not workable; {self.censored_percent:.1f} % wait past the end and are left out."
         )
+        return Table(head=HEAD, rows=self._rows(), right=range(1, 6), title=title, remarks=[words])
 
     def _rows(self) -> list[list[str]]:
         names = ("workable_percent", "may_start_percent", "waiting_mean", "waiting_p50", "waiting_p90")

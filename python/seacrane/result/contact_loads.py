@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.result.result import Result
 
 HEAD = ("contact", "on", "first at [s]", "fastest [m/s]", "largest press [kN]", "of", "at [s]", "re-hits")
@@ -48,7 +47,7 @@ class ContactLoad:
 
 
 @dataclass(frozen=True, repr=False)
-class ContactLoads(Sequence[ContactLoad]):
+class ContactLoads(Sequence[ContactLoad], Answer):
     """Every contact of a run, in the order of its scene; prints as a table."""
 
     loads: tuple[ContactLoad, ...]
@@ -73,11 +72,11 @@ class ContactLoads(Sequence[ContactLoad]):
     def __repr__(self) -> str:
         return f"<ContactLoads of {len(self)} contacts>"
 
-    def __str__(self) -> str:
-        return text_table(HEAD, self.cells(), right=(2, 3, 4, 6, 7)) if self.loads else "no contacts"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self.cells(), caption="Contacts, over the whole run")
+    def _shown(self) -> Table:
+        return Table(
+            head=HEAD, rows=self.cells(), right=(2, 3, 4, 6, 7), title="" if self.loads else "no contacts",
+            caption="Contacts, over the whole run",
+        )  # fmt: skip
 
     def cells(self) -> list[list[str]]:
         """Texts of the table, row by row."""

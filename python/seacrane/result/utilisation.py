@@ -14,8 +14,7 @@ from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.result.extremes import Extremes
 from seacrane.result.units import read_as
 
@@ -56,7 +55,7 @@ class Utilised:
 
 
 @dataclass(frozen=True, repr=False)
-class Utilisation(Sequence[Utilised]):
+class Utilisation(Sequence[Utilised], Answer):
     """Every limit state of a scene, in the order in which they were added; prints as a table."""
 
     states: tuple[Utilised, ...]
@@ -86,11 +85,11 @@ class Utilisation(Sequence[Utilised]):
     def __repr__(self) -> str:
         return f"<Utilisation of {len(self)} limit states: {self.largest:.3g} at most>"
 
-    def __str__(self) -> str:
-        return text_table(HEAD, self.cells(), right=(1, 2, 4, 5)) if self.states else "no limit states"
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self.cells(), caption="Utilisation of limit states, 1 at the limit")
+    def _shown(self) -> Table:
+        return Table(
+            head=HEAD, rows=self.cells(), right=(1, 2, 4, 5), title="" if self.states else "no limit states",
+            caption="Utilisation of limit states, 1 at the limit",
+        )  # fmt: skip
 
     def cells(self) -> list[list[str]]:
         """Texts of the table, row by row."""

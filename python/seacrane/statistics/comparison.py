@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.plotting.html import notebook_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.tabular import write_csv
-from seacrane.plotting.text import text_table
 from seacrane.result.units import read_as
 from seacrane.series.clock import step_of
 from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
@@ -29,7 +28,7 @@ HIGHEST = 0.999  # of the variance that a picture of spectra shows
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Comparison:
+class Comparison(Answer):
     """A run and a record at the same times. Made by `compare`; prints as a table, in kN and deg.
 
     Attributes
@@ -153,15 +152,15 @@ class Comparison:
         """Write the table as comma-separated values, the unit in the name of each column."""
         return write_csv(path, self.to_dataframe(), index="time [s]")
 
-    def __str__(self) -> str:
-        return "\n".join(
-            [self._caption(), text_table(self._head(), self._rows(), right=(1, 2, 3, 4)), self.source]
-        )
+    __repr__ = Answer.__str__
 
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return notebook_table(self._head(), self._rows(), caption=f"{self._caption()} {self.source}")
+    def _shown(self) -> Table:
+        unit = read_as(self.unit)[1]
+        of = [f"{name} [{unit}]" for name in ("run", "record", "run - record")]
+        return Table(
+            head=["", *of, "% of the record's range"], rows=self._rows(), right=(1, 2, 3, 4),
+            title=self._caption(), remarks=[self.source],
+        )  # fmt: skip
 
     def _caption(self) -> str:
         later = "later" if self.shift >= 0.0 else "earlier"
@@ -169,10 +168,6 @@ class Comparison:
             f"{self.channel} against {self.column}: {self.time.size} samples, the record "
             f"{abs(self.shift):.4g} s {later} than the run, correlation {self.correlation:.4f}"
         )
-
-    def _head(self) -> list[str]:
-        unit = read_as(self.unit)[1]
-        return ["", f"run [{unit}]", f"record [{unit}]", f"run - record [{unit}]", "% of the record's range"]
 
     def _rows(self) -> list[list[str]]:
         factor, extent = read_as(self.unit)[0], float(np.ptp(self.record))

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
-from seacrane.plotting.text import text_table
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
 from seacrane.warnings import FewSeedsWarning
 
@@ -29,7 +29,7 @@ FEW = 10  # seeds
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Distribution:
+class Distribution(Answer):
     """How a number is distributed over seeds and, say, start times in their seas. Prints as a table.
 
     What begins at several times in one sea depends on one another, so that intervals come from seeds drawn
@@ -96,20 +96,18 @@ class Distribution:
         seeds, each = self.values.shape
         return f"<Distribution of {self.name!r}: {seeds} seeds with {each} values each>"
 
-    def __str__(self) -> str:
+    def _shown(self) -> Table:
         unit = f" [{self.unit}]" if self.unit else ""
         rows = [["mean", *_cells(self.mean)]]
         rows += [[f"{100.0 * share:g} %", *_cells(self.quantile(share))] for share in TOLD]
         rows += [["largest", f"{np.nanmax(self.values):.5g}", "", ""]]
         seeds, each = self.values.shape
-        lines = [
-            f"{self.name}: {seeds} seeds with {each} values each",
-            text_table(["not exceeded by", f"value{unit}", "low", "high"], rows, right=(1, 2, 3)),
-            "95 % intervals by resampling seeds.",
-        ]
-        if self.failed:
-            lines.append(f"{self.failed} values failed and are left out.")
-        return "\n".join(lines)
+        failed = [f"{self.failed} values failed and are left out."] if self.failed else []
+        return Table(
+            head=["not exceeded by", f"value{unit}", "low", "high"], rows=rows, right=(1, 2, 3),
+            title=f"{self.name}: {seeds} seeds with {each} values each",
+            remarks=["95 % intervals by resampling seeds.", *failed],
+        )  # fmt: skip
 
     @cached_property
     def _ordered(self) -> Array:

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -26,7 +25,7 @@ MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class RecordExtremes:
+class RecordExtremes(Answer):
     """Statistics of one record. Made by `record_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -97,28 +96,18 @@ class RecordExtremes:
         above = self.crests.size - np.searchsorted(self.crests, np.asarray(levels, dtype=float), side="right")
         return np.asarray(above / self.crests.size)
 
-    def __str__(self) -> str:
-        return f"{self._caption()}\n{text_table(HEAD, self._rows(), right=(1, 2, 3))}\n{self._tail_words()}"
+    __repr__ = Answer.__str__
 
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self._rows(), caption=f"{self._caption()} {self._tail_words()}")
-
-    def _caption(self) -> str:
-        return (
+    def _shown(self) -> Table:
+        title = (
             f"{self.name} [{self.unit}], {self.duration:.4g} s: mean {self.mean:.4g}, std {self.std:.4g}, "
             f"significant crest {self.significant:.4g}, largest {self.largest:.4g}, "
             f"period {self.period:.4g} s. Maximum in {self.exposure:g} s, 95 % intervals:"
         )
-
-    def _rows(self) -> list[list[str]]:
         rows = [self.gaussian.cells("Rayleigh, sqrt(2 ln N)"), self.clumped.cells("clumped, Vanmarcke")]
-        return (
-            rows
-            if self.over_threshold is None
-            else [*rows, self.over_threshold.cells("peaks over threshold")]
-        )
+        if self.over_threshold is not None:
+            rows.append(self.over_threshold.cells("peaks over threshold"))
+        return Table(head=HEAD, rows=rows, right=(1, 2, 3), title=title, remarks=[self._tail_words()])
 
     def _tail_words(self) -> str:
         if self.tail is None:

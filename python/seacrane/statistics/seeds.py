@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 from seacrane.statistics.estimate import CONFIDENCE, EULER, HEAD, P90_REDUCED, Estimate, Maximum
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.record import positive
@@ -28,7 +27,7 @@ NORMAL = 1.959964  # half width of the 95 % interval in standard deviations
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class SeedExtremes:
+class SeedExtremes(Answer):
     """Statistics of the maxima of several seeds. Made by `seed_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -101,28 +100,19 @@ class SeedExtremes:
         one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
         return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
 
-    def __str__(self) -> str:
-        return f"{self._caption()}\n{text_table(HEAD, self._rows(), right=(1, 2, 3))}\n{self._words()}"
+    __repr__ = Answer.__str__
 
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return notebook_table(HEAD, self._rows(), caption=f"{self._caption()} {self._words()}")
-
-    def _caption(self) -> str:
-        return (
+    def _shown(self) -> Table:
+        rows = [self.gumbel.cells("Gumbel"), self.empirical.cells("empirical")]
+        title = (
             f"{self.name} [{self.unit}], {self.maxima.size} seeds of {self.duration:g} s. "
             f"Maximum in {self.exposure:g} s, 95 % intervals:"
         )
-
-    def _rows(self) -> list[list[str]]:
-        return [self.gumbel.cells("Gumbel"), self.empirical.cells("empirical")]
-
-    def _words(self) -> str:
-        return (
+        words = (
             f"Fit: a Gumbel sample is worse with probability {self.fit_probability:.2g}. "
             f"+-2 % of the most probable maximum takes {self.seeds_needed()} seeds."
         )
+        return Table(head=HEAD, rows=rows, right=(1, 2, 3), title=title, remarks=[words])
 
 
 def seed_extremes(

@@ -16,12 +16,13 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
+from seacrane.plotting.answer import Answer, Table
 from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
 from seacrane.trading import simpler_scenes
 from seacrane.trading.diagram import COSTS, Measured, work_precision
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
-from seacrane.trading.trade_table import as_html, as_text, front, write_csv
+from seacrane.trading.trade_table import front, front_table, write_csv
 
 if TYPE_CHECKING:
     import xarray
@@ -35,7 +36,7 @@ ALIKE = 1.15  # times the least cost, which is no more than that
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Trade:
+class Trade(Answer):
     """Measured cost and error of the settings of one scene. Made by `trade`.
 
     Attributes
@@ -232,14 +233,12 @@ class Trade:
             return f"{told}. The budget ended before {self.not_measured} settings that may change the front"
         return f"{told}. No setting that was left out is expected to change the front"
 
-    def __str__(self) -> str:
+    def _shown(self) -> Table:
         said = [self.default, self.price]
         if self.metadata.get("stages"):
             said = ["errors are those of the extremes of each stage", *said]
-        return as_text(self.rows, self.quantities, self.reference.uncertainty, self.pareto, said)
-
-    def _repr_html_(self) -> str:
-        return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
+        known = self.reference.uncertainty
+        return front_table(self.rows, self.quantities, known, self.pareto, self.metadata, said)
 
     def plot(self, *, over: str = "cpu_s") -> Figure:
         """Work-precision diagrams: error of each quantity over cost, and what less physics loses.

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from seacrane.accuracy.quantities import Quantity
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Table
 from seacrane.trading.row import UNKNOWN, Row
 from seacrane.trading.row_file import write_table
 
@@ -45,13 +44,14 @@ def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_fro
     write_table(path, columns, cells, digits=6)
 
 
-def as_text(
+def front_table(
     rows: Sequence[Row],
     quantities: Mapping[str, Quantity],
     uncertainty: Mapping[str, float],
     best: Sequence[Row],
+    about: Mapping[str, Any],
     said: Sequence[str],
-) -> str:
+) -> Table:
     """How well the reference is known, the front of the first quantity, and what is said of both."""
     known = ", ".join(f"{name} {uncertainty[name]:.1g} {one.unit}" for name, one in quantities.items())
     head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "CPU [ms]"]
@@ -61,31 +61,16 @@ def as_text(
         for row in best
     ]  # fmt: skip
     unstable = sum(not row.stable for row in rows)
-    return "\n".join(
-        [
-            f"reference known within {known}",
-            f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:",
-            text_table([*head, *(f"{name} [{one.unit}]" for name, one in quantities.items())], cells),
-            *said,
-        ]
+    title = (
+        f"reference known within {known}\n"
+        f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:"
     )
-
-
-def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[Row], measured: int) -> str:
-    """The Pareto front of the first quantity, for notebooks."""
+    head += [f"{name} [{one.unit}]" for name, one in quantities.items()]
     caption = (
-        f"Trade of {about['scene']!r}, {about['t_end']:g} s: {len(best)} of {measured} settings, which no "
-        f"other beats in both CPU time and error of {quantities[0]}"
+        f"Trade of {about['scene']!r}, {about['t_end']:g} s: {len(best)} of {len(rows)} settings, which no "
+        f"other beats in both CPU time and error of {next(iter(quantities))}"
     )
-    head = ("formulation", "integrator", "setting", "memory", "waves", "rung", "CPU [ms]", *quantities)
-    rows = [
-        (
-            row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
-            float(f"{1e3 * row.cpu_s:.3g}"), *(float(f"{row.error(name):.2g}") for name in quantities),
-        )
-        for row in best
-    ]  # fmt: skip
-    return notebook_table(head, rows, caption=caption)
+    return Table(head=head, rows=cells, title=title, caption=caption, remarks=said)
 
 
 def _cells(row: Row, quantities: Sequence[str], pareto: bool) -> list[Any]:

@@ -12,7 +12,7 @@ from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.panels import cut_panels
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
-from seacrane.plotting.text import text_table
+from seacrane.plotting.answer import Answer, Table
 
 FloatArray = NDArray[np.float64]
 LARGEST = 90.0  # deg
@@ -21,7 +21,7 @@ TRIMS = ("free", "fixed")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class RightingArms:
+class RightingArms(Answer):
     """Righting arms over heel. Made by `righting_arms`; prints as a table.
 
     Attributes
@@ -49,13 +49,12 @@ class RightingArms:
 
     __repr__ = brief
 
-    def __str__(self) -> str:
+    def _shown(self) -> Table:
         columns = (np.degrees(self.heel), self.GZ, self.sinkage, np.degrees(self.trim))
         rows = [[f"{value:.4g}" for value in row] for row in zip(*columns, strict=True)]
         head = ["heel [deg]", "GZ [m]", "sinkage [m]", "trim [deg]"]
-        return (
-            f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m\n{text_table(head, rows, right=range(4))}"
-        )
+        title = f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m"
+        return Table(head=head, rows=rows, right=range(4), title=title)
 
 
 def righting_arms(
