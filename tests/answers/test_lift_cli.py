@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +31,8 @@ def test_a_lift_runs_as_its_file_says(pendulum: Path, capsys: pytest.CaptureFixt
     assert set(result.channels) == {"position", "constraint_error", "energy_balance"}
     np.testing.assert_array_equal(result.time, direct.time)
     np.testing.assert_array_equal(result["position"], direct["position"])
+    assert main(["report", str(pendulum)]) == 0
+    assert "pivot" in capsys.readouterr().out
 
 
 def test_options_go_before_the_file(pendulum: Path) -> None:
@@ -42,37 +45,21 @@ def test_options_go_before_the_file(pendulum: Path) -> None:
     assert set(result.channels) == {"position", "constraint_error", "energy_balance"}
 
 
-def test_a_scene_of_a_lift_is_saved_as_json_and_runs(pendulum: Path) -> None:
-    Lift.load(pendulum).scene().save(pendulum.parent / "scene.json")
-    out = pendulum.parent / "out"
-    assert main(["run", str(pendulum.parent / "scene.json"), "--out", str(out), "--t-end", "0.5"]) == 0
-    assert Result.load(out / "scene.nc").time[-1] == 0.5
-
-
-def test_the_model_of_a_lift_is_reported(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["report", str(pendulum)]) == 0
-    assert "pivot" in capsys.readouterr().out
-
-
 MISTAKES = {
-    "a key": (
-        PENDULUM.replace("mass_kg", "mass_t"),
-        "line 9: mass_t is unknown in [[body]] 1; nearest: mass_kg",
-    ),
-    "a value": (PENDULUM.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), "line 19: [[joint]] 1: "),
-    "another file": ("a = 1\n", "my_lift.toml: is TOML, as of a crane"),
-    "an option of a case": (HEAD, "--hs applies to the built-in cases only; set it inside my_lift.toml"),
+    "a key": (PENDULUM.replace("mass_kg", "mass_t"), r"line 9: .*mass_t.*body\]\] 1; nearest: mass_kg"),
+    "a value": (PENDULUM.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), r"line 19: \[\[joint\]\] 1: "),
+    "another file": ("a = 1\n", "my_lift.toml: .*TOML"),
+    "an option of a case": (HEAD, "--hs.*my_lift.toml"),
 }
 
 
-@pytest.mark.parametrize("case", MISTAKES)
-def test_a_mistake_is_one_line(case: str, pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text, words = MISTAKES[case]
-    pendulum.write_text(text)
-    more = ["--hs", "2"] if case == "an option of a case" else []
-    assert main(["run", str(pendulum), "--out", str(pendulum.parent / "out"), *more]) == 1
-    told = capsys.readouterr().err.strip()
-    assert words in told and "\n" not in told
+def test_a_mistake_is_one_line(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for case, (text, words) in MISTAKES.items():
+        pendulum.write_text(text)
+        more = ["--hs", "2"] if case == "an option of a case" else []
+        assert main(["run", str(pendulum), "--out", str(pendulum.parent / "out"), *more]) == 1
+        told = capsys.readouterr().err.strip()
+        assert re.search(words, told) and "\n" not in told, case
     assert not (pendulum.parent / "out").exists()
 
 

@@ -43,26 +43,18 @@ def one(record: dict[str, Any]) -> dict[str, Any]:
     return copy.deepcopy(record["scenes"][QUICK[0]])
 
 
-def runs(record: dict[str, Any]) -> list[dict[str, Any]]:
-    return [run for scene in record["scenes"].values() for run in scene["runs"].values()]
-
-
-def test_every_scene_is_recorded_by_two_methods(record: dict[str, Any]) -> None:
+def test_every_scene_load_and_integrator_is_recorded_with_its_settings(
+    record: dict[str, Any],
+) -> None:
+    scenes = record["scenes"].values()
     assert list(record["scenes"]) == list(CASES)
-    assert len(CASES) >= 60
-    assert min(len(scene["runs"]) for scene in record["scenes"].values()) >= 2
-
-
-def test_every_kind_of_load_and_every_integrator_is_in_it(record: dict[str, Any]) -> None:
-    assert {kind for scene in record["scenes"].values() for kind in scene["loads"]} == set(_core.LOAD_KINDS)
-    assert {run["settings"]["integrator"] for run in runs(record)} == set(integrator_names())
-
-
-def test_no_setting_is_left_to_its_default(record: dict[str, Any]) -> None:
-    for run in runs(record):
-        told = run["settings"]
-        named = {"integrator", "formulation", "rtol", "dt_out"}
-        assert told.keys() >= named | ({"dt"} if told["integrator"] in FIXED_STEP else set()), told
+    assert len(CASES) >= 60 and min(len(scene["runs"]) for scene in scenes) >= 2
+    assert {kind for scene in scenes for kind in scene["loads"]} == set(_core.LOAD_KINDS)
+    settings = [run["settings"] for scene in scenes for run in scene["runs"].values()]
+    assert {told["integrator"] for told in settings} == set(integrator_names())
+    for told in settings:
+        step = {"dt"} if told["integrator"] in FIXED_STEP else set()
+        assert told.keys() >= {"integrator", "formulation", "rtol", "dt_out"} | step, told
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -83,13 +75,11 @@ def test_a_planted_difference_is_found(record: dict[str, Any], tmp_path: Path, c
     assert QUICK[0] in told and "in position" in told and "not as recorded" in told
 
 
-def test_a_scene_that_fails_does_not_stop_the_others() -> None:
+def test_a_scene_that_fails_does_not_stop_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor a process that dies."""
     found = dict(run_all(["no such scene", QUICK[0]], 1))
     assert "no such scene" in found["no such scene"]
     assert found[QUICK[0]]["runs"]
-
-
-def test_a_process_that_dies_does_not_stop_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bits.__main__.recorded", os._exit)
     codes: Any = [1, 2]
     assert [found for _, found in run_all(codes, 1)] == ["its process ended"] * 2
@@ -99,10 +89,8 @@ def test_a_renamed_channel_is_matched_by_the_table(one: dict[str, Any]) -> None:
     now = copy.deepcopy(one)
     for run in now["runs"].values():
         run["channels"]["place"] = run["channels"].pop("position")
-    assert {(d.channel, d.what) for d in differences(one, now, NONE)} == {
-        ("position", "missing"),
-        ("place", "new"),
-    }
+    found = {(d.channel, d.what) for d in differences(one, now, NONE)}
+    assert found == {("position", "missing"), ("place", "new")}
     assert differences(one, now, Renamed(channels={"position": "place"})) == []
 
 

@@ -27,17 +27,15 @@ def house(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def edited(engine: Any, house: Path, text: str) -> str:
-    (house / "cpp" / "seacrane" / "one.hpp").write_text(text)
-    engine.engine.cache_clear()
-    digest: str = engine.engine(house)
-    return digest
-
-
 def test_code_changes_the_engine_and_comments_and_layout_do_not(engine: Any, house: Path) -> None:
     first = engine.engine(house)
-    assert edited(engine, house, "/// Two.\ndouble two() {\n  return 2.0; /* m */\n}\n") == first
-    assert edited(engine, house, "double two() { return 3.0; }") != first
+    for text, same in (
+        ("/// Two.\ndouble two() {\n  return 2.0; /* m */\n}\n", True),
+        ("double two() { return 3.0; }", False),
+    ):
+        (house / "cpp" / "seacrane" / "one.hpp").write_text(text)
+        engine.engine.cache_clear()
+        assert (engine.engine(house) == first) == same
     assert engine.code_of('say("a // b  c");  // d') == 'say("a // b  c");'
     assert engine.code_of("char c = '\"'; // \"\n int i;") == "charc='\"';inti;"
 
@@ -45,23 +43,17 @@ def test_code_changes_the_engine_and_comments_and_layout_do_not(engine: Any, hou
 def test_a_table_of_another_engine_is_named(
     engine: Any, house: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """One made of tables is of their engine."""
     table = importlib.import_module("measure.table")
     monkeypatch.setattr(engine, "engine", lambda root=house, real=engine.engine: real(house))
-    path = house / "benchmarks" / "results" / "speed.csv"
-    path.write_text("scene,ms\n")
-    assert engine.of_another(house) == [path]
-    assert "not recorded" in engine.words(path)
-    table.write(path, ("scene", "ms"), [("case2", "4")])
-    assert engine.of_another(house) == []
-    assert f"engine {engine.engine()}, " in engine.words(path)
-
-
-def test_a_table_made_of_tables_is_of_their_engine(engine: Any, house: Path) -> None:
     folder = house / "benchmarks" / "results"
-    table = importlib.import_module("measure.table")
     parts = [folder / "one.csv", folder / "two.csv"]
+    parts[0].write_text("scene,ms\n")
+    assert engine.of_another(house) == [parts[0]] and "not recorded" in engine.words(parts[0])
     for part in parts:
-        table.write(part, ("ms",), [("4",)])
+        table.write(part, ("scene", "ms"), [("case2", "4")])
+    assert engine.of_another(house) == []
+    assert f"engine {engine.engine()}, " in engine.words(parts[0])
     table.write(folder / "facts.csv", ("ms",), [("4",)], of=parts)
     assert engine.measured(folder / "facts.csv") == engine.measured(parts[0]) is not None
     told = json.loads((folder / engine.LIST).read_text())

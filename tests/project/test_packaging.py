@@ -19,27 +19,25 @@ def run_python(code: str) -> str:
     return finished.stdout
 
 
-def test_package_is_installed_not_imported_from_the_source_tree(repository: Path) -> None:
-    located = Path(run_python("import seacrane; print(seacrane.__file__)").strip())
-    assert not located.is_relative_to(repository / "python")
-
-
-def test_the_version_is_that_of_the_project(repository: Path) -> None:
+def test_package_is_installed_with_its_version_command_types_and_requirements(repository: Path) -> None:
+    """Not imported from the source tree; without solvers and development tools."""
+    located, version = run_python("import seacrane as s; print(s.__file__, s.__version__)").split()
+    assert not Path(located).is_relative_to(repository / "python")
     project = tomllib.loads((repository / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert run_python("import seacrane; print(seacrane.__version__)").strip() == project["version"]
+    assert version == project["version"]
+    (entry,) = metadata.entry_points(group="console_scripts", name="seacrane")
+    assert entry.value == "seacrane.cli:main" and callable(entry.load())
+    assert all((resources.files("seacrane") / name).is_file() for name in ("py.typed", "_core.pyi"))
+    always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
+    assert {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always} == {
+        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
+    }  # fmt: skip
 
 
 def test_import_leaves_the_heavy_libraries_alone() -> None:
-    loaded = run_python("import seacrane, sys; print(*sys.modules)").split()
-    assert "seacrane" in loaded
-    heavy = {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "h5py", "netCDF4", "tqdm"}
-    assert not (heavy | {"threadpoolctl"}) & set(loaded)
-
-
-def test_type_information_ships() -> None:
-    package = resources.files("seacrane")
-    assert (package / "py.typed").is_file()
-    assert (package / "_core.pyi").is_file()
+    loaded = set(run_python("import seacrane, sys; print(*sys.modules)").split())
+    heavy = "scipy xarray matplotlib pandas h5netcdf h5py netCDF4 tqdm threadpoolctl"
+    assert "seacrane" in loaded and not loaded & {*heavy.split()}
 
 
 def test_every_source_file_is_installed(repository: Path) -> None:
@@ -60,20 +58,6 @@ def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path:
     generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     assert committed == generated, "python/seacrane/_core.pyi is out of date: run `make stubs` and commit it"
-
-
-def test_command_line_entry_point() -> None:
-    (entry,) = metadata.entry_points(group="console_scripts", name="seacrane")
-    assert entry.value == "seacrane.cli:main"
-    assert callable(entry.load())
-
-
-def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
-    always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
-    names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
-    assert names == {
-        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
-    }  # fmt: skip
 
 
 def test_make_builds_on_every_core(repository: Path) -> None:
@@ -97,15 +81,8 @@ def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_
     for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
         shutil.copy(repository / name, tmp_path)
     shutil.copytree(repository / ".ci", tmp_path / ".ci")
-    for name in (
-        "cpp/seacrane",
-        "cpp/bindings",
-        "cpp/lanes",
-        "cmake",
-        "licenses",
-        "python/seacrane",
-        "examples",
-    ):
+    folders = "cpp/seacrane cpp/bindings cpp/lanes cmake licenses python/seacrane examples"
+    for name in folders.split():
         (tmp_path / name).mkdir(parents=True)
     source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
     for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):
