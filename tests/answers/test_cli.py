@@ -72,18 +72,14 @@ def test_every_command_explains_itself(capsys: pytest.CaptureFixture[str]) -> No
     assert main([]) == 2 and "usage: seacrane" in capsys.readouterr().err
 
 
-def test_help_loads_no_numerical_package() -> None:
+def test_the_version_is_printed_without_numerical_packages() -> None:
     script = (
         "import sys\nfrom seacrane.cli import main\n"
         "try:\n    main(['--help'])\nexcept SystemExit:\n    pass\n"
-        "heavy = {'numpy', 'scipy', 'xarray', 'matplotlib', 'netCDF4'} & set(sys.modules)\n"
-        "sys.exit(f'loaded {heavy}' if heavy else 0)"
+        "sys.exit(str({'numpy', 'scipy', 'xarray', 'matplotlib', 'netCDF4'} & set(sys.modules) or 0))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-
-
-def test_the_version_is_printed() -> None:
+    assert done.stderr.strip() == "0"
     first, *build = command_line("--version").stdout.splitlines()
     assert first == f"seacrane {__version__}"
     facts = dict(line.split(maxsplit=1) for line in build)
@@ -137,35 +133,33 @@ def lift(tmp_path_factory: pytest.TempPathFactory) -> tuple[Done, Path]:
     return command_line("run", "case2", "--out", folder, "--t-end", "5", "--dt-out", "0.5"), folder
 
 
+CHANNELS = (
+    "position velocity angular_velocity quaternion euler_xyz vessel_motion stroke stroke_rate cylinder_force "
+    "slew_angle slew_torque link_tension reaction_force reaction_moment wave_elevation wave_force "
+    "constraint_error constraint_rate_error constraint_error_before_projection energy_balance absolute_work"
+)
+STATS = (
+    "seacrane_version scene formulation integrator seed realised_hs simulated_s wall_s evaluations steps "
+    "rejected_steps states coordinates constraints degrees_of_freedom compiled_coordinates "
+    "compiled_constraints wave_components"
+)
+
+
 def test_a_run_writes_its_file_and_a_summary(lift: tuple[Done, Path]) -> None:
     done, folder = lift
     assert done.returncode == 0, done.stderr
-    assert sorted(path.name for path in folder.iterdir()) == ["case2.nc"]
+    assert [path.name for path in folder.iterdir()] == ["case2.nc"]
     (tension,) = [line.split() for line in done.stdout.splitlines() if line.startswith("hoist tension")]
     assert tension[2:4] == ["kN", "98.07"]
     assert "worst constraint error" in done.stdout and f"saved {folder / 'case2.nc'}" in done.stdout
     result = Result.load(folder / "case2.nc")
     np.testing.assert_allclose(result.time, np.arange(0, 5.25, 0.5))
     bodies = "vessel tower king main_barrel main_rod main_jib knuckle_barrel knuckle_rod knuckle_jib payload"
-    joints = "deck A B C D E F G main_cylinder knuckle_cylinder link"
-    channels = (
-        "position velocity angular_velocity quaternion euler_xyz vessel_motion stroke stroke_rate "
-        "cylinder_force slew_angle slew_torque link_tension reaction_force reaction_moment wave_elevation "
-        "wave_force constraint_error constraint_rate_error constraint_error_before_projection "
-        "energy_balance absolute_work"
-    )
-    stats = (
-        "seacrane_version scene formulation integrator seed realised_hs simulated_s wall_s "
-        "evaluations steps rejected_steps states coordinates constraints degrees_of_freedom "
-        "compiled_coordinates compiled_constraints wave_components"
-    )
-    assert sorted(result.coords["body"]) == sorted(bodies.split())
-    assert sorted(result.coords["joint"]) == sorted(joints.split())
-    assert set(channels.split()) <= set(result.channels)
-    assert set(stats.split()) <= set(result.stats)
-    assert result.stats["coordinates"] == 60 and result.stats["constraints"] == 46
-    assert result.stats["degrees_of_freedom"] == 14
-    assert result["constraint_error"].max() < 1e-9
+    assert set(result.coords["body"]) == set(bodies.split())
+    assert set(result.coords["joint"]) == {*"ABCDEFG", "deck", "main_cylinder", "knuckle_cylinder", "link"}
+    assert set(CHANNELS.split()) <= set(result.channels) and set(STATS.split()) <= set(result.stats)
+    counts = [result.stats[name] for name in ("coordinates", "constraints", "degrees_of_freedom")]
+    assert counts == [60, 46, 14] and result["constraint_error"].max() < 1e-9
 
 
 @pytest.mark.slow("many processes")
@@ -192,20 +186,15 @@ def test_show_and_report_tell_of_a_result_by_its_content(lift: tuple[Done, Path]
 
 
 def test_options_of_the_other_report_are_refused(
-    lift: tuple[Done, Path],
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
+    lift: tuple[Done, Path], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    monkeypatch.chdir(tmp_path)
-    result = lift[1] / "case2.nc"
+    result, out = lift[1] / "case2.nc", tmp_path / "x"
     for arguments, words in (
-        ((result,), "--out DIR"), ((result, "--json", "--out", "x"), "--json"),
-        (("case2", "--out", "x"), "--out and --overwrite"),
+        ((result,), "--out DIR"), ((result, "--json", "--out", out), "--json"),
+        (("case2", "--out", out), "--out and --overwrite"),
     ):  # fmt: skip
         code, line = told(capsys, "report", *arguments)
-        assert code == 1 and words in line
-    assert not list(tmp_path.iterdir())
+        assert code == 1 and words in line and not out.exists()
 
 
 def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
@@ -382,29 +371,17 @@ def test_the_reader_of_our_output_may_leave() -> None:
     assert done.returncode == 1 and done.stderr == ""
 
 
-@pytest.mark.parametrize(
-    ("error", "text"),
-    [
-        (OSError("two\nlines"), "two lines"),
-        (SceneError("body 'x' is heavy"), "body 'x' is heavy"),
-        (KeyError("no channel"), "unexpected KeyError: no channel"),
-        (ValueError(), "ValueError"),
-    ],
-)
-def test_errors_become_one_line(error: Exception, text: str) -> None:
-    assert explain(error) == text
-
-
-def test_json_has_no_words_for_infinity() -> None:
+def test_errors_become_one_line_and_infinity_has_no_word_in_json() -> None:
+    errors = [OSError("two\nlines"), SceneError("body 'x'"), KeyError("no channel"), ValueError()]
+    texts = ["two lines", "body 'x'", "unexpected KeyError: no channel", "ValueError"]
+    assert [explain(error) for error in errors] == texts
     value = {"a": np.array([1.0, np.inf]), "b": (np.float64("nan"), np.int64(2)), "c": None, "d": True}
     assert json.loads(to_json(value)) == {"a": [1.0, None], "b": [None, 2], "c": None, "d": True}
 
 
 TWO_HINGES = """
 import warnings
-
 import seacrane
-
 
 def scene():
     warnings.warn("look here", UserWarning)
@@ -422,13 +399,10 @@ def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> 
     """Not the line of the program that starts the command."""
     script = tmp_path / "door.py"
     script.write_text(TWO_HINGES)
-    program = [sys.executable, "-m", "seacrane"]
-    if launcher == "program":
-        program = [str(Path(sys.executable).with_name("seacrane"))]
-    command = [*program, "run", str(script), "--out", str(tmp_path), "--t-end", "0.1"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    module, program = [sys.executable, "-m", "seacrane"], [str(Path(sys.executable).with_name("seacrane"))]
+    command = [*(module if launcher == "module" else program), "run", str(script), "--out", str(tmp_path)]
+    done = subprocess.run([*command, "--t-end", "0.1"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     lines = [line for line in done.stderr.splitlines() if "redundant" in line]
-    start = "seacrane run: RedundantJointsWarning: "
-    assert lines and all(line.startswith(start) for line in lines)
-    assert f"{script}:8: UserWarning: look here" in done.stderr
+    assert lines and all(line.startswith("seacrane run: RedundantJointsWarning: ") for line in lines)
+    assert f"{script}:6: UserWarning: look here" in done.stderr

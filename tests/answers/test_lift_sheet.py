@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Lift, Result, Scene, SceneError, report, simulate, summary
+from seacrane import Result, Scene, SceneError, report, simulate, summary
 from seacrane.answers import lift_sheet
 
 G = 9.80665
@@ -121,40 +121,11 @@ def test_two_cranes_share_a_load_as_their_hooks_stand() -> None:
     assert sheet["safety factor fore hoist"].value == pytest.approx(1e6 / (GAMMA * DAF * 10e3 * G), rel=1e-3)
 
 
-LIFT = """format = "seacrane lift"
-version = 2
-scene = { name = "rigged" }
-crane = { base = "ground", s1_m = 1.5, s2_m = 1.0 }
-[hoist]
-mass_kg = 20e3
-size_m = [4, 4, 3]
-length_m = 10
-EA_N = 3e7
-falls = 2
-block_mass_kg = 1e3
-breaking_load_N = 4e5
-safety_factor = 3
-slings = { angle_deg = 60, EA_N = 1e9, breaking_load_N = 6e5 }
-[lift_factors]
-weight_contingency = 1.1
-dynamic_factor = 1.3
-skew_load = [1.25]
-center_of_gravity_m = [0.2, 0.1, 0]
-sling_safety_factor = 3
-shackle_breaking_load_N = 3e5
-shackle_safety_factor = 4
-alpha = 0.7
-sources = { weight_contingency = "not weighed; the project's table 2" }
-"""
-
-
-def test_files_lifts_and_csv_keep_it(tmp_path: Path) -> None:
+def test_files_and_csv_keep_it(tmp_path: Path) -> None:
     scene = with_factors(rigged(), center_of_gravity=(0.2, -0.1, 0.0))
     scene.save(tmp_path / "scene.json")
     loaded = Scene.load(tmp_path / "scene.json")
     assert loaded == scene and loaded.lift_factors == scene.lift_factors and loaded.ratings == scene.ratings
-    (tmp_path / "lift.toml").write_text(LIFT)
-    assert Lift.load(tmp_path / "lift.toml").scene() == scene
     sheet = lift_sheet(scene)
     with sheet.to_csv(tmp_path / "sheet.csv").open(newline="") as file:
         rows = {row["row"]: row for row in csv.DictReader(file)}

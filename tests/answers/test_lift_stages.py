@@ -27,21 +27,14 @@ CRANE = (
     + """
 [crane]
 base = "ground"
-
 [[driver]]
-joint = "A"
-name = "slew"
-curve_deg = { kind = "constant", value = 0 }
-
+joint = "A"; name = "slew"; curve_deg = { kind = "constant", value = 0 }
 [[actuator]]
-joint = "main_cylinder"
-name = "main"
-
+joint = "main_cylinder"; name = "main"
 [[stage]]
-name = "slew"
-duration_s = 5
+name = "slew"; duration_s = 5
 commands = [{ name = "slew", by_deg = 10, over_s = 4 }, { name = "main.reference", to_m = 0.2, over_s = 4 }]
-"""
+""".replace("; ", "\n")
 )
 
 
@@ -133,36 +126,20 @@ def test_a_trade_of_a_file_with_stages_prints_front_and_needs(
 
 
 TANKS = {"port": (0, 9, 2), "starboard": (0, -9, 2), "fore": (40, 0, 2), "aft": (-40, 0, 2)}
+TANK = '    {{ name = "{}", point_m = {}, capacity_kg = 400e3, content_kg = 200e3 }},\n'
 BALLAST = (
-    HEAD
-    + """
+    HEAD + """
 [vessel]
-database = "hull_115"
-memory = "none"
-
+database = "hull_115"; memory = "none"
 [body]
-name = "cargo"
-mass_kg = 50e3
-inertia_kg_m2 = [1e5, 1e5, 1e5]
-position_m = [10, 4, 8]
-
+name = "cargo"; mass_kg = 50e3; inertia_kg_m2 = [1e5, 1e5, 1e5]; position_m = [10, 4, 8]
 [joint]
-kind = "weld"
-name = "lashing"
-first = "vessel"
-second = "cargo"
-point_m = [0, 0, 0]
-
+kind = "weld"; name = "lashing"; first = "vessel"; second = "cargo"; point_m = [0, 0, 0]
 [ballast]
 heel_deg = -0.5
 tanks = [
-"""
-    + "".join(
-        f'    {{ name = "{name}", point_m = {list(at)}, capacity_kg = 400e3, content_kg = 200e3 }},\n'
-        for name, at in TANKS.items()
-    )
-    + "]\n"
-)
+""".replace("; ", "\n") + "".join(TANK.format(name, list(at)) for name, at in TANKS.items()) + "]\n"
+)  # fmt: skip
 
 
 def test_tanks_are_filled_as_by_calls(tmp_path: Path) -> None:

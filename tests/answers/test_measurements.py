@@ -54,20 +54,18 @@ def test_the_runner_finds_every_set_and_the_page_shows_it(measurements: Any) -> 
 
 def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any) -> None:
     """Differences are signed, and over what the row says."""
-    rows = importlib.import_module("measured_row")
+    row = importlib.import_module("measured_row").MeasuredRow
     (name, compared, by), told = next(iter(measurements.published().items()))
     common: dict[str, Any] = {
-        "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y",
-        "points": ([1.0, 2.0], [2.0, -4.0]), "line": ([1.0], [2.0]),
+        "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y", "at": [1.0, 2.0],
+        "points": ([1.0, 2.0], [2.0, -4.0]), "line": ([1.0], [2.0]), "measured": [2.0, -4.0],
     }  # fmt: skip
-    one: dict[str, Any] = {"at": [1.0], "measured": [2.0], "of": "value", **common}
-    near = rows.MeasuredRow(**one, ours=[2.0 * (1.0 + 1.1 * told)])
+    near, far = (row(**common, of="value", ours=[2.0 * (1.0 + share * told), -4.0]) for share in (1.1, 1.3))
     assert measurements.checked(name, near) is near
     with pytest.raises(SystemExit, match=re.escape(compared)):
-        measurements.checked(name, rows.MeasuredRow(**one, ours=[2.0 * (1.0 + 1.3 * told)]))
-    common |= {"at": [1.0, 2.0], "measured": [2.0, -4.0], "ours": [2.2, -5.0]}
-    assert rows.MeasuredRow(**common, of="value").differences == pytest.approx([0.1, -0.25])
-    of_range = rows.MeasuredRow(**common, of="range")
+        measurements.checked(name, far)
+    assert row(**common, of="value", ours=[2.2, -5.0]).differences == pytest.approx([0.1, -0.25])
+    of_range = row(**common, of="range", ours=[2.2, -5.0])
     assert of_range.largest == pytest.approx(-1.0 / 6.0) and of_range.where == 2.0
     assert of_range.cells("s") == ("s", compared, by, "-16.7", "2 s", "-6.7", "range", "", "")
 

@@ -236,20 +236,6 @@ def test_the_dataset_names_units_and_coordinates(run: dict[str, Any], tmp_path: 
     assert result["stroke"][0, 0] == 0.0, "the dataset is a copy"
 
 
-def test_channels_of_any_scene_carry_their_own_names(tmp_path: Path) -> None:
-    time = np.linspace(0, 1, 5)
-    arrays = {"coordinate": np.outer(time, [1.0, 3.0])}
-    arrays |= {name: np.outer(time, [2.0]) for name in ("actuator_force", "driver_force", "tension")}
-    coords = {"joint_coordinate": ["hinge.angle", "slide.displacement"], "actuator": ["motor"],
-              "driver": ["base"], "link": ["wire"]}  # fmt: skip
-    stats = crane_run(waves=False, t_end=1.0)["stats"]
-    result = Result.from_arrays(time=time, arrays=arrays, coords=coords, stats=stats)
-    again = Result.load(result.save(tmp_path / "general.nc"))
-    assert again.coords == result.coords and again.dims == result.dims
-    np.testing.assert_array_equal(again.select("coordinate", joint_coordinate="slide.displacement"), 3 * time)
-    np.testing.assert_array_equal(result.to_xarray()["tension"].sel(link="wire"), 2 * time)
-
-
 BAD_INPUT = {
     "unknown channel": (lambda r: r["arrays"].update(heave=r["time"]), "'heave'"),
     "wrong shape": (lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T), r"'stroke'.*\(2, 51\)"),

@@ -132,10 +132,7 @@ HOSTILE: dict[str, tuple[Any, str]] = {
     "nested": (b"[" * 100_000, r"run\.nc: its scene"),
     "repeated": (b'{"format": "seacrane scene", "format": 1}', "occurs twice"),
     "no number": (b'{"mass": NaN}', "NaN is not a number"),
-    "an element that makes no sense": (
-        (b'"mass": 1.0', b'"mass": "heavy"'),
-        r"bodies\[0\]\.mass is 'heavy'",
-    ),
+    "an element that makes no sense": ((b'"mass": 1.0', b'"mass": "heavy"'), r"bodies\[0\]\.mass is 'heavy'"),
     "other bodies": ((b'"ball"', b'"cube"'), "'ball', 'cube'"),
     "larger than any": (b"{" + b" " * 20_000 + b"}", "20002 bytes"),
 }

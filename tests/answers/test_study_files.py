@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
-import re
 import resource
 import signal
 import subprocess
@@ -304,51 +302,21 @@ def test_mistakes_beside_the_file_are_named(study: Path, capsys: pytest.CaptureF
 
 
 @pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Any]:
-    """Makes a cluster of one worker process, with what the worker reads before it begins."""
-    distributed = pytest.importorskip(
-        "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
-    )
-    with contextlib.ExitStack() as stack:
-
-        def made(preload: str) -> str:
-            (tmp_path / "preload.py").write_text(preload)
-            there = distributed.LocalCluster(
-                n_workers=1, threads_per_worker=1, dashboard_address=None,
-                preload=[str(tmp_path / "preload.py")],
-            )  # fmt: skip
-            return str(stack.enter_context(there).scheduler_address)
-
-        yield made
+def cluster() -> Iterator[str]:
+    """The address of a cluster of one worker process."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra ensemble")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as there:
+        yield str(there.scheduler_address)
 
 
 def test_a_cluster_gives_the_same(
-    cluster: Any, study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
+    cluster: str, study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    out = study.parent / "out"
-    address = "tcp://127.0.0.1:9"
-    assert main(command(study, "out", "--dask", address)) == 1
-    assert f"--dask {address}: no scheduler" in capsys.readouterr().err
-    assert main(command(study, "out", "--dask", cluster(""))) == 0
+    out, nowhere = study.parent / "out", "tcp://127.0.0.1:9"
+    assert main(command(study, "out", "--dask", nowhere)) == 1
+    assert f"--dask {nowhere}: no scheduler" in capsys.readouterr().err
+    assert main(command(study, "out", "--dask", cluster)) == 0
     assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
-
-
-BLOCKED = """
-import sys
-class Block:
-    def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] == "seacrane":
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-sys.meta_path.insert(0, Block())
-"""
-
-
-def test_a_worker_without_seacrane_is_named(
-    cluster: Any, study: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(command(study, "out", "--dask", cluster(BLOCKED))) == 1
-    assert re.search(r"worker tcp://\S+ has no seacrane", capsys.readouterr().err)
-    assert not (study.parent / "out").exists()
 
 
 class Elsewhere(Executor):

@@ -7,8 +7,7 @@ import copy
 import gzip
 import json
 import pickle
-from dataclasses import astuple
-from html.parser import HTMLParser
+import re
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.description.file import scene_digest
 from seacrane.hydro import Hull, ParametricHull, shipped_database
-from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
+from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
@@ -34,28 +33,15 @@ from seacrane.pictures.shapes import BoxShape, HullShape, TubeShape, equivalent_
 from seacrane.pictures.wires import wires_of
 
 
-class Page(HTMLParser):
+class Page:
     """What a browser makes of a page: its elements, and the text of its scripts."""
 
     def __init__(self, html: str) -> None:
-        super().__init__()
-        self.elements: list[str] = []
-        self.scripts: dict[str | None, str] = {}
-        self._script: str | None = None
-        self._inside = False
-        self.feed(html)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append(tag)
-        self._inside = tag == "script"
-        self._script = dict(attrs).get("id")
-
-    def handle_endtag(self, tag: str) -> None:
-        self._inside = False
-
-    def handle_data(self, data: str) -> None:
-        if self._inside:
-            self.scripts[self._script] = self.scripts.get(self._script, "") + data
+        found = re.findall(r"<script([^>]*)>(.*?)</script>", html, re.DOTALL)
+        self.scripts = {re.sub(r'.*id="?(\w+).*', r"\1", told): text for told, text in found}
+        self.elements = re.findall(
+            r"<(\w+)", re.sub(r"(<script)[^>]*>.*?</script>", r"\1", html, flags=re.DOTALL)
+        )
 
     @property
     def data(self) -> dict[str, Any]:
@@ -113,15 +99,15 @@ def test_a_snatch_asks_for_more_frames_and_outputs_bound_them() -> None:
     assert data["sea"] is None and data["bodies"][0]["role"] == "body"
 
 
-@pytest.mark.parametrize("step", [1e-4, 1e-15])
-def test_a_series_comes_back_within_half_a_step(step: float) -> None:
+def test_a_series_comes_back_within_half_a_step() -> None:
     values = np.cumsum(np.random.default_rng(2).normal(size=(3, 50)), axis=1) * 1e3
-    blob = Blob()
-    blob.floats(np.ones(3))
-    told = blob.series(values, step)
-    page = Page(f"<script id=blob>{blob.text()}</script>")
-    np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
-    assert told["step"] >= step
+    for step in (1e-4, 1e-15):  # the second is too small for whole numbers of 32 bits
+        blob = Blob()
+        blob.floats(np.ones(3))
+        told = blob.series(values, step)
+        page = Page(f"<script id=blob>{blob.text()}</script>")
+        np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
+        assert told["step"] >= step
 
 
 def test_the_sea_is_that_of_the_scene() -> None:
@@ -170,13 +156,11 @@ def test_a_crane_that_is_none_of_ours_is_bars_between_its_joints() -> None:
 
 def test_the_equivalent_box_of_a_box_is_that_box() -> None:
     size, mass = np.array([3.0, 2.0, 0.5]), 7.0
-    squares = size**2
-    inertia = np.diag(mass / 12.0 * (squares.sum() - squares))
+    inertia = np.diag(mass / 12.0 * (np.sum(size**2) - size**2))
     turn = rotation_matrix((0.9, 0.1, -0.2, 0.3))
     box = equivalent_box(mass, turn @ inertia @ turn.T)
-    np.testing.assert_allclose(
-        box.axes @ np.diag(box.size**2) @ box.axes.T, turn @ np.diag(squares) @ turn.T, atol=1e-9
-    )
+    found = box.axes @ np.diag(box.size**2) @ box.axes.T
+    np.testing.assert_allclose(found, turn @ np.diag(size**2) @ turn.T, atol=1e-9)
     np.testing.assert_allclose(np.linalg.det(box.axes), 1.0)
 
 
@@ -212,6 +196,7 @@ def test_a_hull_of_ones_own_is_drawn() -> None:
 
 
 def test_only_wires_go_slack() -> None:
+    """A luffing rope is drawn whether it is a line or not."""
     scene = cases.case2()
     assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0
     scene.add_line(joint="link", rung="rigid")
@@ -221,6 +206,14 @@ def test_only_wires_go_slack() -> None:
     link, tugger = wires_of(scene, list(scene.bodies))
     assert (link["kind"], link["length"]) == ("wire", 8.0)
     assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
+    scene = Scene(name="lattice")
+    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
+    (led,) = wires_of(scene, list(scene.bodies))
+    assert (led["name"], led["kind"]) == ("luffing rope", "link")
+    scene.add_luffing_rope()
+    falls = wires_of(scene, list(scene.bodies))
+    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
+    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]
 
 
 def test_a_cylinder_between_two_points_has_a_barrel_and_a_rod() -> None:
@@ -280,6 +273,7 @@ def test_names_appear_as_text() -> None:
 
 
 def test_a_scene_alone_stands_at_its_assembled_start() -> None:
+    """And a result keeps the scene as it was run."""
     scene = cases.case2()
     shown = view(scene)
     start = simulate(scene, 0.1, dt_out=0.1)
@@ -287,8 +281,9 @@ def test_a_scene_alone_stands_at_its_assembled_start() -> None:
     np.testing.assert_allclose(position[0], start["position"][0], atol=1e-9)
     assert angle_between(quaternion[0], start["quaternion"][0]) < 1e-7
     data = Page(shown.html).data
-    assert data["least"] > 10.0
-    assert data["strip"] == data["arrows"] == []
+    assert data["least"] > 10.0 and data["strip"] == data["arrows"] == []
+    scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    assert start.scene is not None and "later" not in start.scene.bodies
 
 
 def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None:
@@ -314,18 +309,9 @@ def test_a_copy_of_a_result_needs_its_scene() -> None:
     for twin in (copy.copy(result), pickle.loads(pickle.dumps(result))):
         assert twin.scene is None
         assert view(twin, scene=cases.vessel(hs=4.0, tp=10.0)).html == view(result).html
-        with pytest.raises(SceneError, match="scene=scene"):
-            view(twin)
-        with pytest.raises(SceneError, match="not the one"):
-            view(twin, scene=cases.case2())
-
-
-def test_a_result_keeps_the_scene_as_it_was_run() -> None:
-    scene = cases.vessel()
-    result = simulate(scene, 1.0)
-    scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    assert result.scene is not None
-    assert "later" not in result.scene.bodies
+        for given, words in (({}, "scene=scene"), ({"scene": cases.case2()}, "not the one")):
+            with pytest.raises(SceneError, match=words):
+                view(twin, **given)
 
 
 def test_what_cannot_be_shown_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -365,24 +351,3 @@ def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
     shown = view(cut)
     assert shown.motion.end == pytest.approx(whole.time[149])
     assert "interrupted" in shown.html
-
-
-def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
-    """By its mass and waterplane; and scaling its lines to their volume leaves them as they are."""
-    database, statics = shipped_database(), shipped_hull().hydrostatics
-    heave = database.restoring[2, 2] / (database.rho * database.g)
-    assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
-    assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
-    scaled = LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH)
-    assert astuple(scaled) == pytest.approx(astuple(LINES), rel=1e-11)
-
-
-def test_a_luffing_rope_is_drawn_whether_it_is_a_line_or_not() -> None:
-    scene = Scene(name="lattice")
-    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
-    (led,) = wires_of(scene, list(scene.bodies))
-    assert (led["name"], led["kind"]) == ("luffing rope", "link")
-    scene.add_luffing_rope()
-    falls = wires_of(scene, list(scene.bodies))
-    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
-    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]

@@ -58,10 +58,3 @@ def test_blocks_of_a_document_run_in_order_without_a_warning(
     assert done.returncode == 0, done.stderr
     told = set(re.findall(r"(\w+Warning):", done.stderr))
     assert told <= TOLD_OF_THE_GIVEN.get(name, set()), done.stderr
-
-
-def test_a_block_that_needs_what_no_block_before_made_is_named_by_its_line(tmp_path: Path) -> None:
-    text = "# Page\n\n```python\nscene = 1\n```\n\nWords.\n\n```python\nprint(scene)\nprint(stages)\n```\n"
-    done = run("page.md", text, tmp_path)
-    assert done.stdout == "1\n"
-    assert "line 11" in done.stderr and "NameError: name 'stages' is not defined" in done.stderr

@@ -13,12 +13,11 @@ import pytest
 from seacrane.cli.command_line import build_parser
 
 ROOT = Path(__file__).resolve().parents[2]
-PATHS = [
-    ROOT / "README.md",
-    *sorted((ROOT / "docs").glob("*.md")),
-    *sorted((ROOT / "notebooks").glob("*.md")),
-]
-TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
+TEXTS = {
+    str(path.relative_to(ROOT)): path.read_text(encoding="utf-8")
+    for pattern in ("README.md", "docs/*.md", "notebooks/*.md")
+    for path in sorted(ROOT.glob(pattern))
+}
 INDENTED = re.compile(r"^ {4}(?:\$ )?(seacrane [^\n]*)$", re.MULTILINE)
 QUOTED = re.compile(r"`(seacrane\s[^`]*)`")
 LISTING = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)

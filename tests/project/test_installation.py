@@ -157,15 +157,3 @@ def test_the_doctor_says_which_lanes_are_used_and_why_others_are_not(monkeypatch
     monkeypatch.setattr("seacrane._core.has_instructions", lambda name: name == "avx2")
     told = "1 by default; not 4 (avx2): this build has none, not 8 (avx512): this processor has none"
     assert pace.lane_facts() == {"lanes of ensembles": told}
-
-
-def test_the_shell_is_answered_where_argcomplete_is_installed(tmp_path: Path) -> None:
-    pytest.importorskip("argcomplete", reason="needs the extra 'completion'")
-    answer = tmp_path / "answer"
-    line = "seacrane re"
-    environment = os.environ | {
-        "_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer), "COMP_LINE": line,
-        "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": " ",
-    }  # fmt: skip
-    subprocess.run([sys.executable, "-m", "seacrane"], env=environment, check=False, capture_output=True)
-    assert answer.read_text().split() == ["report"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -13,38 +12,28 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
-def engine(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("measure.engine")
-
-
-@pytest.fixture
-def house(tmp_path: Path) -> Path:
+def house(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A repository of one file, and a folder for tables."""
-    (tmp_path / "cpp" / "seacrane").mkdir(parents=True)
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    for folder in ("cpp/seacrane", "benchmarks/results"):
+        (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "cpp" / "seacrane" / "one.hpp").write_text("double two() { return 2.0; }  // m\n")
-    (tmp_path / "benchmarks" / "results").mkdir(parents=True)
     return tmp_path
 
 
-def test_code_changes_the_engine_and_comments_and_layout_do_not(engine: Any, house: Path) -> None:
-    first = engine.engine(house)
+def test_a_table_of_another_engine_is_named(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Code changes the engine; comments and layout do not. A table made of tables is of their engine."""
+    engine, table = (importlib.import_module(f"measure.{name}") for name in ("engine", "table"))
+    first, source = engine.engine(house), house / "cpp" / "seacrane" / "one.hpp"
     for text, same in (
-        ("/// Two.\ndouble two() {\n  return 2.0; /* m */\n}\n", True),
         ("double two() { return 3.0; }", False),
+        ("/// Two.\ndouble two() {\n  return 2.0; /* m */\n}\n", True),
     ):
-        (house / "cpp" / "seacrane" / "one.hpp").write_text(text)
+        source.write_text(text)
         engine.engine.cache_clear()
         assert (engine.engine(house) == first) == same
     assert engine.code_of('say("a // b  c");  // d') == 'say("a // b  c");'
     assert engine.code_of("char c = '\"'; // \"\n int i;") == "charc='\"';inti;"
-
-
-def test_a_table_of_another_engine_is_named(
-    engine: Any, house: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """One made of tables is of their engine."""
-    table = importlib.import_module("measure.table")
     monkeypatch.setattr(engine, "engine", lambda root=house, real=engine.engine: real(house))
     folder = house / "benchmarks" / "results"
     parts = [folder / "one.csv", folder / "two.csv"]

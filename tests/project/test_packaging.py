@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import subprocess
@@ -58,22 +57,6 @@ def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path:
     generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     assert committed == generated, "python/seacrane/_core.pyi is out of date: run `make stubs` and commit it"
-
-
-def test_make_builds_on_every_core(repository: Path) -> None:
-    """Whatever OMP_NUM_THREADS says, which is about threads; fewer only by the control group."""
-    environment = {key: value for key, value in os.environ.items() if key != "JOBS"}
-    found = [
-        subprocess.run(
-            ["make", "-s", "--eval", "cores: ; @echo $(JOBS)", "cores"],
-            cwd=repository, env=environment | more, capture_output=True, text=True, check=True,
-        ).stdout
-        for more in ({"OMP_NUM_THREADS": "1"}, {"OMP_THREAD_LIMIT": "1"}, {"OMP_NUM_THREADS": "64"})
-    ]  # fmt: skip
-    quota = Path("/sys/fs/cgroup/cpu.max")
-    limited = quota.is_file() and not quota.read_text().startswith("max")
-    assert len(set(found)) == 1
-    assert limited or int(found[0]) == len(os.sched_getaffinity(0))
 
 
 def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_path: Path) -> None:

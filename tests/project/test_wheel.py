@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
-import os
 import re
 import shutil
 import subprocess
 import sys
 import tarfile
-import time
 import tomllib
 from pathlib import Path
 from types import ModuleType
@@ -127,23 +124,3 @@ def test_cibuildwheel_builds_what_is_asked_for_from_what_exists_with_licences() 
     assert 'set(SEACRANE_LIBRARIES ""' in cmake
     (pattern,) = (name for name in SETTINGS["project"]["license-files"] if "*" in name)
     assert {path.stem for path in ROOT.glob(pattern)} == {"SUNDIALS", "Eigen", "pybind11"}
-
-
-def test_what_changed_in_an_archive_is_newer_than_objects_made_from_the_last_one(tmp_path: Path) -> None:
-    """An sdist dates all its files alike, long ago."""
-    tool = importlib.util.spec_from_file_location("unpack", ROOT / "tools" / "wheel" / "unpack.py")
-    assert tool and tool.loader
-    module = importlib.util.module_from_spec(tool)
-    tool.loader.exec_module(module)
-    times = []
-    for text in ("one", "two"):
-        made = tmp_path / "made"
-        made.mkdir(exist_ok=True)
-        for name, content in (("same.hpp", "same"), ("other.hpp", text)):
-            (made / name).write_text(content, encoding="utf-8")
-            os.utime(made / name, (0, 0))
-        archive = shutil.make_archive(str(tmp_path / "archive"), "gztar", made)
-        before = time.time_ns()
-        module.unpack(Path(archive), tmp_path / "source")
-        times.append([(tmp_path / "source" / name).stat().st_mtime_ns for name in ("same.hpp", "other.hpp")])
-    assert times[1][0] == times[0][0] < before - 1 and times[1][1] > times[0][1]

@@ -117,7 +117,8 @@ points_m = [[0.5, 0, 0.5], [-0.5, 0, 0.5]]; EA_N = [1e6]
 prefix = "quay "; tip = { body = "hull", point_m = [6, 0, 20] }
 [[hoist]]
 name = "quay hoist"; crane = "quay "; load = "anode"; mass_kg = 2e3; size_m = [1, 1, 2]; length_m = 5
-falls = 2; stiffness_N_per_m = 1e6; block_mass_kg = 100; slings = { angle_deg = 60, EA_N = 1e7 }
+falls = 2; stiffness_N_per_m = 1e6; block_mass_kg = 100
+slings = { angle_deg = 60, EA_N = 1e7, breaking_load_N = 6e5 }; breaking_load_N = 4e5; safety_factor = 3
 winch = { lag_s = 0.2, maximum_rate_m_per_s = 0.5 }
 [[winch]]
 line = "hoist"; rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}
@@ -310,7 +311,8 @@ def every_table() -> Scene:
     scene.add_roles(prefix="quay ", tip=("hull", (6, 0, 20)))
     scene.add_hoist(
         "quay hoist", crane="quay ", load="anode", mass=2e3, size=(1, 1, 2), length=5, falls=2, stiffness=1e6,
-        block_mass=100, slings={"angle_deg": 60, "EA": 1e7}, winch={"lag": 0.2, "maximum_rate": 0.5},
+        block_mass=100, slings={"angle_deg": 60, "EA": 1e7, "breaking_load": 6e5},
+        winch={"lag": 0.2, "maximum_rate": 0.5}, breaking_load=4e5, safety_factor=3,
     )  # fmt: skip
     scene.add_gas_spring(
         name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
