@@ -20,6 +20,7 @@ from seacrane import (
     Lift,
     Method,
     Outputs,
+    Result,
     Scene,
     SceneError,
     SeaState,
@@ -27,6 +28,7 @@ from seacrane import (
     cases,
     simulate,
 )
+from seacrane.cli import main
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import scene_digest
 from seacrane.hydro import HydroDatabase, shipped_database
@@ -446,3 +448,34 @@ def test_every_quantity_has_a_unit() -> None:
         plain = key.name in PLAIN or (key in pieces and key.name in IN_CURVES)
         if key.type in ("number", "array", "curve") and not plain:
             assert key.unit or key.name.endswith("_deg"), key
+
+
+def test_the_command_runs_a_lift_as_its_file_says_but_for_its_options(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "my_lift.toml", tmp_path / "out"
+    path.write_text(PENDULUM)
+    assert main(["run", str(path), "--out", str(out)]) == 0
+    result, direct = Result.load(out / "my_lift.nc"), Lift.load(path).simulate()
+    assert result.stats["integrator"] == "rk4"
+    np.testing.assert_array_equal(result["position"], direct["position"])
+    options = ["--t-end", "1", "--dt-out", "0.25", "--integrator", "semi-implicit-euler", "--dt", "0.005"]
+    assert main(["run", str(path), "--out", str(out), *options]) == 0
+    result = Result.load(out / "my_lift.nc")
+    assert result.time.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert result.stats["integrator"] == "semi-implicit-euler"
+    assert set(result.channels) == {"position", "constraint_error", "energy_balance"}
+    capsys.readouterr()
+    assert main(["report", str(path)]) == 0 and "pivot" in capsys.readouterr().out
+    for text, options, words in (
+        (PENDULUM.replace("mass_kg", "mass_t"), [], r"line 9: .*body\]\] 1; nearest: mass_kg"),
+        (PENDULUM.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), [], r"line 19: \[\[joint\]\] 1: "),
+        (HEAD, ["--hs", "2"], r"--hs.*my_lift\.toml"),
+    ):
+        path.write_text(text)
+        assert main(["run", str(path), "--out", str(tmp_path / "other"), *options]) == 1
+        told = capsys.readouterr().err.strip()
+        assert re.search(words, told) and "\n" not in told
+    assert not (tmp_path / "other").exists()
+    assert main(["schema"]) == 0 and json.loads(capsys.readouterr().out) == schema()
+    assert main(["schema", "--path"]) == 0 and capsys.readouterr().out.strip() == str(schema_path())

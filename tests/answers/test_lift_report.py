@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import copy
 from dataclasses import replace
 from html import unescape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,8 +26,6 @@ from seacrane import (
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import statistics_of
-from seacrane.answers.registry import SECTIONS
-from seacrane.answers.section import Section, compose
 from seacrane.result import About, Event
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose
@@ -112,13 +108,6 @@ def test_a_warning_is_told_once_and_long_lists_are_cut() -> None:
     assert html.count("pushes with") == 1 and html.count("It came") == 1
     assert "pushes with 3.1 N at t = 2 s. It came 2 times" in unescape(html)
     assert "50 later events are not shown" in html and html.count("<td>contact</td>") == 200
-
-
-@pytest.mark.slow("a whole report")
-def test_a_result_from_a_file_is_seen_and_one_without_its_scene_is_not(lift: Result, tmp_path: Path) -> None:
-    lift.save(tmp_path / "lift.nc")
-    assert "In three dimensions" in titles(report(Result.load(tmp_path / "lift.nc")))
-    assert "In three dimensions" not in titles(report(copy.copy(lift)))
 
 
 def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> None:
@@ -209,24 +198,6 @@ def test_checks_that_fail_are_told() -> None:
     run["arrays"]["energy_balance"] = 0.5 * run["arrays"]["absolute_work"]
     html = report(Result.from_arrays(**run)).html
     assert "do not use the numbers" in html and "Energy is off by more than 0.001" in html
-
-
-def test_a_section_is_a_small_value() -> None:
-    one: Section[Any] = Section(title="<Fatigue>", applies=bool, html=lambda subject: f"<p>{subject}</p>")
-    assert "<h2>&lt;Fatigue&gt;</h2>\n<p>7</p>" in compose(title="t", lead="", sections=[one], subject=7)
-    assert "Fatigue" not in compose(title="t", lead="", sections=[one], subject=0)
-    assert len({section.title for section in SECTIONS}) == len(SECTIONS)
-
-
-def test_a_report_replaces_an_earlier_one_alone(page: Report, tmp_path: Path) -> None:
-    path = page.save(tmp_path / "lift.html")
-    assert page.save(path).read_text(encoding="utf-8") == page.html
-    with pytest.raises(FileExistsError, match="is there already"):
-        page.save(path, overwrite=False)
-    path.write_text("<p>my own</p>", encoding="utf-8")
-    with pytest.raises(FileExistsError, match="not of seacrane"):
-        page.save(path)
-    assert page.save(path, overwrite=True) == path
 
 
 NOTES = {

@@ -135,30 +135,32 @@ def test_files_and_csv_keep_it(tmp_path: Path) -> None:
 
 def test_factors_and_breaking_loads_out_of_range_are_refused_by_name() -> None:
     scene = rigged()
-    refused: list[tuple[dict[str, Any], str]] = [
-        ({"load": "laod"}, "'laod'"),
-        ({"weight_contingency": 0.9}, "weight_contingency is 0.9"),
-        ({"skew_load": [1.25, 0.5]}, "skew_load is 0.5"),
-        ({"dynamic_factor": 130.0}, "dynamic_factor is 130"),
-        ({"alpha": 1.2}, "alpha is 1.2"),
-        ({"shackle_breaking_load": -1.0}, "shackle_breaking_load is -1"),
-        ({"center_of_gravity": (0.1, 0.2)}, "center_of_gravity"),
-        ({"sources": {"daf": "x"}}, "'daf'.*weight_contingency"),
+    tag: dict[str, Any] = {
+        "name": "tag",
+        "first": "ground",
+        "second": "load",
+        "EA": 1e6,
+        "safety_factor": 3.0,
+    }
+    refused: list[tuple[Any, dict[str, Any], str]] = [
+        (scene.add_lift_factors, {"load": "laod"}, "'laod'"),
+        (scene.add_lift_factors, {"weight_contingency": 0.9}, "weight_contingency is 0.9"),
+        (scene.add_lift_factors, {"skew_load": [1.25, 0.5]}, "skew_load is 0.5"),
+        (scene.add_lift_factors, {"dynamic_factor": 130.0}, "dynamic_factor is 130"),
+        (scene.add_lift_factors, {"alpha": 1.2}, "alpha is 1.2"),
+        (scene.add_lift_factors, {"center_of_gravity": (0.1, 0.2)}, "center_of_gravity"),
+        (scene.add_lift_factors, {"sources": {"daf": "x"}}, "'daf'.*weight_contingency"),
+        (rigged, {"breaking_load": 0.0}, "breaking_load is 0"),
+        (rigged, {"safety_factor": 0.5}, "safety_factor is 0.5"),
+        (scene.add_line, tag, "'tag'.*safety_factor.*breaking_load"),
+        (lift_sheet, {"subject": scene, "load": "tower"}, "'tower' hangs on nothing"),
+        (
+            lift_sheet,
+            {"result": with_factors(rigged(), skew_load=[1.1, 1.2, 1.3])},
+            "skew_load has 3 .* 4 slings",
+        ),
     ]
-    for given, words in refused:
+    for call, given, words in refused:
         with pytest.raises(SceneError, match=words):
-            with_factors(scene, **given)
-    for given, words in (
-        ({"breaking_load": 0.0}, "breaking_load is 0"),
-        ({"safety_factor": 0.5}, "factor is 0.5"),
-    ):
-        with pytest.raises(SceneError, match=words):
-            rigged(**given)
-    with pytest.raises(SceneError, match=r"'tag'.*safety_factor.*breaking_load"):
-        scene.add_line("tag", "ground", "load", EA=1e6, safety_factor=3.0)
+            call(**given)
     assert "tag" not in scene.loads and "tag" not in scene.ratings
-    for load, words in (("tower", "'tower' hangs on nothing"), ("laod", "'laod'.*'load'")):
-        with pytest.raises(SceneError, match=words):
-            lift_sheet(scene, load=load)
-    with pytest.raises(SceneError, match=r"skew_load has 3 .* 4 slings"):
-        lift_sheet(with_factors(rigged(), skew_load=[1.1, 1.2, 1.3]))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import re
 from html import unescape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -101,20 +100,6 @@ def test_a_channel_that_was_not_recorded_leaves_its_cell_empty() -> None:
     assert worst(result, "energy_balance") is energy_closure(result) is speed(result) is None
     html = made(title="t", runs={"case 2": result}).html
     assert Page(html).row("balance over work") == [""] and "run case 2 ended at 2 s" in html
-
-
-def test_the_file_is_written_whole_or_not_at_all(
-    tmp_path: Path, runs: dict[str, Result], picture: Picture
-) -> None:
-    path = made(title="t", runs=runs, pictures=[picture]).save(tmp_path / "report.html")
-    assert path.read_text(encoding="utf-8").endswith("</html>\n")
-    gone = Picture(title="t", caption="c", image=tmp_path / "absent.png")
-    before = path.read_bytes()
-    with pytest.raises(OSError, match=r"absent\.png"):
-        made(title="new", runs=runs, pictures=[gone])
-    assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
-    made(title="new", runs=runs).save(path)
-    assert b"<h1>new</h1>" in path.read_bytes()
 
 
 def test_values_are_printed_for_people() -> None:

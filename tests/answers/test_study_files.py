@@ -28,39 +28,25 @@ from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.lift.study_schema import study_schema, study_schema_text
 
-LIFT = """format = "seacrane lift"
-version = 2
+LIFT = """format = "seacrane lift"; version = 2
 
 [vessel]
-database = "hull_115"
-memory = "none"
+database = "hull_115"; memory = "none"
 
 [sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
-"""
-STUDY = """format = "seacrane study"
-version = 2
-lift = "ship.toml"
+seed = 7; hs_m = 1.5; tp_s = 8; count = 20
+""".replace("; ", "\n")
+STUDY = """format = "seacrane study"; version = 2; lift = "ship.toml"
 
 [over]
-seed = { first = 1, count = 40 }
-hs = [1, 2.0]
+seed = { first = 1, count = 40 }; hs = [1, 2.0]
 
 [[keep]]
-name = "heave"
-channel = "position"
-what = "maximum"
-names = { body = "vessel", axis = "z" }
+name = "heave"; channel = "position"; what = "maximum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [[keep]]
-name = "deepest"
-channel = "position"
-what = "minimum"
-names = { body = "vessel", axis = "z" }
+name = "deepest"; channel = "position"; what = "minimum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [until]
@@ -71,7 +57,7 @@ t_end_s = 8
 
 [method]
 rtol = 1e-2
-"""
+""".replace("; ", "\n")
 
 
 @pytest.fixture

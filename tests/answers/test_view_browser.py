@@ -12,7 +12,7 @@ import chromium
 import numpy as np
 import pytest
 import view_scenes
-from view_scenes import HTML_NAME, angle_between, case2, pair, thrown
+from view_scenes import angle_between, case2, thrown
 
 from seacrane import view
 from seacrane.pictures import View
@@ -105,15 +105,6 @@ def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
     for time, wires in ((slack, ["link"]), (taut, [])):
         tab.value(f"seacrane.seek({time})")
         assert tab.value("seacrane.slack()") == wires
-
-
-@pytest.mark.slow("opens a page")
-def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
-    opened(tab, view(pair()), tmp_path)
-    assert tab.value("document.title") == "<i>two vessels</i>"
-    labels = "[...document.querySelectorAll('.label')].map((one) => one.textContent)"
-    assert HTML_NAME in tab.value(labels)
-    assert tab.value("document.querySelectorAll('b, #labels i, #caption i').length") == 0
 
 
 @pytest.mark.slow("opens a page")

@@ -50,14 +50,6 @@ def test_commands_of_a_document_can_be_given(name: str) -> None:
             assert not end.code, f"{name}: seacrane {' '.join(one)}"
 
 
-def test_a_command_with_a_wrong_option_is_found() -> None:
-    (one,) = commands("Try\n\n    seacrane run case2 --outt DIR   # writes\n")
-    assert one == ["run", "case2", "--outt", "DIR"]
-    with pytest.raises(SystemExit) as end:
-        build_parser().parse_args(one)
-    assert end.value.code
-
-
 @pytest.mark.slow("all commands of a document")
 @pytest.mark.parametrize("name", RUN)
 def test_commands_of_a_document_run_in_order(name: str, tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 import subprocess
 import sys
@@ -68,16 +67,6 @@ def judge(notebook: nbformat.NotebookNode) -> None:
     assert any(out.output_type == "stream" for out in outputs)
     assert any("image/png" in out.get("data", {}) for out in outputs)
     assert not any("srcdoc" in str(out) for out in outputs)
-
-
-@pytest.mark.slow("runs a notebook")
-def test_a_notebook_is_kept_with_its_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(str(ROOT / "tools" / "wheel"))
-    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook
-    target = tmp_path / "one.ipynb"
-    importlib.import_module("notebooks").main(str(ROOT / "notebooks" / "01_first_lift.md"), str(target))
-    judge(nbformat.read(target, as_version=4))
-    assert target.stat().st_size < 2e6
 
 
 def test_notebooks_that_are_installed_have_their_outputs(written: Path) -> None:

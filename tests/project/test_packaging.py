@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 import sys
 import tomllib
@@ -57,30 +56,3 @@ def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path:
     generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     assert committed == generated, "python/seacrane/_core.pyi is out of date: run `make stubs` and commit it"
-
-
-def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_path: Path) -> None:
-    """A build of nothing by the project's own rules, with a "pip" that edits a source file."""
-    for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
-        shutil.copy(repository / name, tmp_path)
-    shutil.copytree(repository / ".ci", tmp_path / ".ci")
-    folders = "cpp/seacrane cpp/bindings cpp/lanes cmake licenses python/seacrane examples"
-    for name in folders.split():
-        (tmp_path / name).mkdir(parents=True)
-    source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
-    for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):
-        path.touch()
-    (tmp_path / ".venv" / "bin").mkdir(parents=True)
-    (tmp_path / ".venv" / "bin" / "python").symlink_to(sys.executable)
-    (tmp_path / ".venv" / ".installed-run").touch()
-
-    def builds(edit: str) -> int:
-        """How often it was built so far, once make was called with a "pip" that does this first."""
-        pip = f"INSTALL={edit} && echo >> builds &&:"
-        command = ["make", "-s", f"PYTHON={sys.executable}", pip, ".venv/.installed-seacrane"]
-        subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
-        return (tmp_path / "builds").read_text().count("\n")
-
-    assert builds(f"sleep 0.1 && touch {source}") == 1
-    assert builds("true") == 2
-    assert builds("true") == 2

@@ -19,7 +19,6 @@ from seacrane.cli.built import core_file
 
 ROOT = Path(__file__).resolve().parents[2]
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-CONFIGURED = SETTINGS["tool"]["cibuildwheel"]
 linux = pytest.mark.skipif(sys.platform != "linux", reason="modules of Linux are read by readelf")
 
 
@@ -108,19 +107,3 @@ def test_an_archive_that_is_not_the_pinned_one_is_refused(
     ):
         with pytest.raises(SystemExit, match=words):
             libraries.download(name, tmp_path / "got")
-
-
-def test_cibuildwheel_builds_what_is_asked_for_from_what_exists_with_licences() -> None:
-    pythons = re.search(r"cp3(\d)\{([\d,]+)\}", CONFIGURED["build"])
-    assert pythons
-    versions = [f"3.{pythons[1]}{digit}" for digit in pythons[2].split(",")]
-    assert versions == ["3.11", "3.12", "3.13", "3.14"]
-    assert SETTINGS["project"]["requires-python"] == f">={versions[0]}"
-    for part in (CONFIGURED, CONFIGURED["macos"]):
-        _, script, folder = part["before-all"].split()
-        assert (ROOT / script).is_file()
-        assert CONFIGURED["config-settings"] == {"cmake.define.SEACRANE_LIBRARIES": folder}
-    cmake = (ROOT / "cmake" / "Dependencies.cmake").read_text(encoding="utf-8")
-    assert 'set(SEACRANE_LIBRARIES ""' in cmake
-    (pattern,) = (name for name in SETTINGS["project"]["license-files"] if "*" in name)
-    assert {path.stem for path in ROOT.glob(pattern)} == {"SUNDIALS", "Eigen", "pybind11"}

@@ -17,30 +17,21 @@ PENDULUM = (
 name = "pendulum"
 
 [[body]]
-name = "bob"
-mass_kg = 2
-inertia_kg_m2 = [0.1, 0.1, 0.1]
-position_m = [1, 0, 0]
+name = "bob"; mass_kg = 2; inertia_kg_m2 = [0.1, 0.1, 0.1]; position_m = [1, 0, 0]
 
 [[joint]]
-kind = "revolute"
-name = "pivot"
-first = "ground"
-second = "bob"
-point_m = [0, 0, 0]
+kind = "revolute"; name = "pivot"; first = "ground"; second = "bob"; point_m = [0, 0, 0]
 axis = [0, 1, 0]
 
 [run]
 t_end_s = 2
 
 [method]
-integrator = "rk4"
-dt_s = 0.01
+integrator = "rk4"; dt_s = 0.01
 
 [outputs]
-dt_out_s = 0.5
-channels = ["position", "constraint_error", "energy_balance"]
-"""
+dt_out_s = 0.5; channels = ["position", "constraint_error", "energy_balance"]
+""".replace("; ", "\n")
 )
 
 # A line may hold several keys.
@@ -403,58 +394,40 @@ ON_DECK = (
 name = "on deck"
 
 [[body]]
-name = "load"
-mass_kg = 20e3
-inertia_kg_m2 = [1e4, 1e4, 1e4]
-position_m = [0, 0, 1]
+name = "load"; mass_kg = 20e3; inertia_kg_m2 = [1e4, 1e4, 1e4]; position_m = [0, 0, 1]
 
 [[joint]]
-kind = "weld"
-name = "on deck"
-first = "ground"
-second = "load"
-point_m = [0, 0, 0]
+kind = "weld"; name = "on deck"; first = "ground"; second = "load"; point_m = [0, 0, 0]
 
 [seat]
 joint = "on deck"
 
 [line]
-name = "hoist"
-bodies = ["ground", "load"]
-points_m = [[0, 0, 21], [0, 0, 0]]
-EA_N = 5e7
+name = "hoist"; bodies = ["ground", "load"]; points_m = [[0, 0, 21], [0, 0, 0]]; EA_N = 5e7
 length_m = 20.1
 
 [winch]
 line = "hoist"
 
 [[stage]]
-name = "hold"
-duration_s = 1.05
+name = "hold"; duration_s = 1.05
 
 [[stage]]
-name = "lift off"
-until = [{ release = "on deck" }]
-maximum_duration_s = 60
+name = "lift off"; until = [{ release = "on deck" }]; maximum_duration_s = 60
 commands = [{ name = "hoist.rate", value_m_per_s = -0.05 }]
 
 [[stage]]
-name = "raise"
-until = [{ length = "hoist", maximum_m = 19.6 }]
-maximum_duration_s = 60
+name = "raise"; until = [{ length = "hoist", maximum_m = 19.6 }]; maximum_duration_s = 60
 commands = [{ name = "hoist.rate", to_m_per_s = -0.4, over_s = 1 }]
 
 [[stage]]
-name = "stop"
-duration_s = 1
+name = "stop"; duration_s = 1
 commands = [{ name = "hoist.rate", curve_m_per_s = { kind = "constant", value = 0 } }]
 
 [[stage]]
-name = "let go"
-duration_s = 0.5
-release = ["hoist"]
+name = "let go"; duration_s = 0.5; release = ["hoist"]
 
 [outputs]
 dt_out_s = 0.05
-"""
+""".replace("; ", "\n")
 )
