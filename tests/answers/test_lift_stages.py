@@ -151,7 +151,7 @@ def test_tanks_are_filled_as_by_calls(tmp_path: Path) -> None:
     scene.add_ballast(heel_deg=-0.5, tanks=tanks)
     assert lift_of(BALLAST, tmp_path).scene() == scene
     for text, words in (
-        (BALLAST.replace('"starboard"', '"port"'), "line 23: .*'port' twice"),
+        (BALLAST.replace('"starboard"', '"port"'), "line 20: .*'port' twice"),
         (BALLAST.replace("capacity_kg = 400e3", "capacity_kg = -1"), r"\[ballast\].*capacity is -1.0"),
         (BALLAST + '\n[balance]\nvessel = "vessel"\n', r"\[balance\].*\[ballast\]"),
     ):
