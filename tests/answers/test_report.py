@@ -16,7 +16,6 @@ from seacrane.answers.measures import energy_closure, speed, worst
 from seacrane.answers.paper_report import Study, study_report
 from seacrane.pictures import Finding, Picture, save_sheet
 from seacrane.pictures.overview import overview_sheet
-from seacrane.plotting.html import format_value
 from seacrane.result import Result
 
 SCENE = {"counts": [("bodies", 10), ("joints", 11)], "dropped": [("waves <0.1 %>", [3, 4.5])]}
@@ -100,9 +99,3 @@ def test_a_channel_that_was_not_recorded_leaves_its_cell_empty() -> None:
     assert worst(result, "energy_balance") is energy_closure(result) is speed(result) is None
     html = made(title="t", runs={"case 2": result}).html
     assert Page(html).row("balance over work") == [""] and "run case 2 ended at 2 s" in html
-
-
-def test_values_are_printed_for_people() -> None:
-    values = [1234567, 0.000123456789, True, None, [1, 2.5], np.float64(2.0), "free"]
-    texts = ["1234567", "0.00012346", "yes", "", "1, 2.5", "2", "free"]
-    assert [format_value(value) for value in values] == texts

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import json
-import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 import bits.scenes  # noqa: E402, F401
-from bits.__main__ import as_text, main, run_all  # noqa: E402
+from bits.__main__ import as_text, main  # noqa: E402
 from bits.case import CASES  # noqa: E402
 from bits.compare import Change, Renamed, differences  # noqa: E402
 from bits.record import recorded  # noqa: E402
@@ -61,16 +60,6 @@ def test_a_planted_difference_is_found(record: dict[str, Any], tmp_path: Path, c
     assert main(["--file", str(file), "--scenes", QUICK[0]]) == 1
     told = capsys.readouterr().out
     assert QUICK[0] in told and "in position" in told and "not as recorded" in told
-
-
-def test_a_scene_that_fails_does_not_stop_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nor a process that dies."""
-    found = dict(run_all(["no such scene", QUICK[0]], 1))
-    assert "no such scene" in found["no such scene"]
-    assert found[QUICK[0]]["runs"]
-    monkeypatch.setattr("bits.__main__.recorded", os._exit)
-    codes: Any = [1, 2]
-    assert [found for _, found in run_all(codes, 1)] == ["its process ended"] * 2
 
 
 def test_a_change_is_expected_within_its_bound_alone_and_a_new_name_matched(

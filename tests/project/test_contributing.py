@@ -25,18 +25,11 @@ KNOWS_NO_KIND = ("scene/test_elements.py", "multibody/test_integrator_orders.py"
 @pytest.mark.parametrize("example", EXAMPLES, ids=additions.NAMES)
 def test_the_words_behind_which_an_example_is_inserted_stand_once(example: additions.Addition) -> None:
     """And it takes at most three files."""
+    assert set(re.findall(r"\(additions/(\w+)\)", DOCUMENT)) == set(additions.NAMES)
     for insertion in example.insertions:
         insertion.place((ROOT / insertion.file).read_text(encoding="utf-8"))
     assert 1 <= len(example.touched) <= 3
     assert not any((ROOT / file).exists() for file in example.new)
-
-
-def test_an_example_is_inserted_beside_what_others_added(tmp_path: Path) -> None:
-    assert set(re.findall(r"\(additions/(\w+)\)", DOCUMENT)) == set(additions.NAMES)
-    registry = tmp_path / "list.hpp"
-    registry.write_text("using Types = std::tuple<Weld, Distance,\n    Free, Another>;\n", encoding="utf-8")
-    additions.Insertion("list.hpp", "Distance, Free", ", Screw").into(tmp_path)
-    assert "Free, Screw, Another>" in registry.read_text(encoding="utf-8")
 
 
 @pytest.mark.slow("compiles the package")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 import subprocess
 import sys
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -27,28 +25,6 @@ def test_no_table_is_older_than_its_file() -> None:
     command = [sys.executable, "benchmarks/documents.py", "--check"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, f"{done.stderr}python benchmarks/documents.py fills them"
-
-
-@pytest.fixture
-def documents(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("documents")
-
-
-FILE = "benchmarks/results/one-evaluation.csv"
-
-
-def test_a_table_that_differs_from_its_file_is_found(documents: Any) -> None:
-    """A place leads to its table, and the site shows it."""
-    mark = f"<!-- table {FILE}; columns: scene; rows: scene = case1 | vessel -->"
-    told = f"<p><sub>{documents.words(ROOT / FILE)}</sub></p><!-- end of table -->"
-    stale = f"{mark}\n| scene |\n| --- |\n| case1 |\n{told}"
-    assert documents.filled(stale) == stale.replace("| case1 |\n", "| case1 |\n| vessel |\n")
-    empty = f"<!-- place {FILE} -->\n<!-- end of place -->"
-    filled = documents.filled(empty, ROOT / "benchmarks")
-    assert "[one-evaluation.csv](results/one-evaluation.csv): " in filled
-    assert documents.filled(filled, ROOT / "benchmarks") == filled
-    assert "| scene | ns |" in documents.with_tables(filled)
 
 
 @pytest.mark.parametrize("name", NAMES)

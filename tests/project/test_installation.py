@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from seacrane.cli import built, doctor_command, pace
+from seacrane.cli import doctor_command, pace
 from seacrane.cli.command_line import main
 from seacrane.cli.doctor_command import chosen_packages
 from seacrane.inputs import sole_writer
@@ -104,18 +104,6 @@ def test_a_system_that_cannot_lock_counts_as_free(tmp_path: Path, monkeypatch: p
     finally:
         os.close(number)
     assert (tmp_path / "file").read_bytes() == b"\0\0abc"
-
-
-def test_the_core_tells_its_compiler() -> None:
-    facts, file = built.build_facts(), built.core_file()
-    assert file is not None and facts["core"].startswith(file.name)
-    assert "compiler" in facts and Path(facts["installed in"]).name == "seacrane"
-    for core, read in (
-        (b"\0GCC: (Debian 12.2.0-14) 12.2.0\0", {"compiler": "GCC: (Debian 12.2.0-14) 12.2.0"}),
-        (b"..clang version 17.0.6 ..", {"compiler": "clang version 17.0.6"}),
-        (b"..__asan_init..", {"instrumented": "AddressSanitizer: slow"}), (b"nothing", {}),
-    ):  # fmt: skip
-        assert built._inside(core) == read
 
 
 def test_requirements_become_packages_with_what_to_do() -> None:

@@ -161,26 +161,6 @@ def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
     assert offline.outside(small_site / "out") == []
 
 
-LOADS = (
-    '<script src="https://cdn.example/x.js"></script>', '<link rel="stylesheet" href="//cdn.example/x.css">',
-    '<p style="background: url(http://cdn.example/x.png)">',
-    '<img src="a.png" srcset="b.png 1x, https://cdn.example/c.png 2x">',
-    "<iframe srcdoc='<script src=\"https://cdn.example/x.js\"></script>'></iframe>",
-    "<style>@import 'https://cdn.example/x.css';</style>",
-)  # fmt: skip
-
-
-def test_what_a_page_would_load_from_a_network_is_found(tmp_path: Path, offline: Any) -> None:
-    page = tmp_path / "page.html"
-    free = '<a href="https://example.org">to read</a><link rel="canonical" href="https://example.org/page">'
-    page.write_text(f"<html>{free}<img src='data:image/png;base64,AA'></html>", encoding="utf-8")
-    assert offline.outside(tmp_path) == []
-    for loads in LOADS:
-        page.write_text(f"<html>{free}{loads}</html>", encoding="utf-8")
-        (found,) = offline.outside(tmp_path)
-        assert "cdn.example" in found
-
-
 @pytest.mark.slow("makes a site")
 def test_the_search_finds_without_a_network(small_site: Path) -> None:
     command = chromium.found()

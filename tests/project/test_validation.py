@@ -96,13 +96,3 @@ def test_the_facts_of_the_readme_are_those_of_the_files(modules: Any) -> None:
     head, rows = table.read(facts.RESULTS / "facts.csv")
     assert tuple(head) == facts.HEAD
     assert [tuple(row) for row in rows] == facts.facts()
-
-
-def test_a_difference_beyond_its_bound_ends_the_call(modules: Any) -> None:
-    validation, rows = modules("validation"), modules("compared.row")
-    about: dict[str, Any] = {"subject": "s", "compared": "c", "reference": "r", "unit": "m", "test": "t"}
-    kept = rows.Row(**about, difference=1e-9, limit=1e-9)
-    assert validation.checked(kept) is kept
-    for difference in (2e-9, float("nan")):
-        with pytest.raises(SystemExit, match="exceeds"):
-            validation.checked(rows.Row(**about, difference=difference, limit=1e-9))
