@@ -211,9 +211,7 @@ def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
     assert settings["dt"] == 0.05 and settings["memory"] == "none" and settings["tp"] == 9.0
 
 
-def test_a_script_and_a_scene_file_run_alike_and_run_alone_executes_scripts(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_script_and_a_scene_file_run_alike(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     script, file = tmp_path / "pendulum.py", tmp_path / "pendulum.json"
     script.write_text(PENDULUM)
     run_script(script).save(file)

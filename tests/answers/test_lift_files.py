@@ -450,9 +450,7 @@ def test_every_quantity_has_a_unit() -> None:
             assert key.unit or key.name.endswith("_deg"), key
 
 
-def test_the_command_runs_a_lift_as_its_file_says_but_for_its_options(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_runs_a_lift(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, out = tmp_path / "my_lift.toml", tmp_path / "out"
     path.write_text(PENDULUM)
     assert main(["run", str(path), "--out", str(out)]) == 0
@@ -460,7 +458,7 @@ def test_the_command_runs_a_lift_as_its_file_says_but_for_its_options(
     assert result.stats["integrator"] == "rk4"
     np.testing.assert_array_equal(result["position"], direct["position"])
     options = ["--t-end", "1", "--dt-out", "0.25", "--integrator", "semi-implicit-euler", "--dt", "0.005"]
-    assert main(["run", str(path), "--out", str(out), *options]) == 0
+    assert main(["run", str(path), "--out", str(out), "--overwrite", *options]) == 0
     result = Result.load(out / "my_lift.nc")
     assert result.time.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
     assert result.stats["integrator"] == "semi-implicit-euler"

@@ -115,9 +115,7 @@ def test_a_mistake_is_told_by_its_line(case: str, tmp_path: Path) -> None:
         lift_of(ON_DECK.replace(old, new), tmp_path).scene()
 
 
-def test_a_trade_of_a_file_with_stages_prints_front_and_needs(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_trade_of_a_file_with_stages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lift_of(ON_DECK, tmp_path)
     assert main(["trade", str(tmp_path / "my_lift.toml"), "--out", str(tmp_path), "--budget", "2"]) == 0
     told = capsys.readouterr()

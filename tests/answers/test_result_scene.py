@@ -67,9 +67,7 @@ def test_a_page_is_drawn_and_a_run_repeated_from_the_file_alone(tmp_path: Path) 
     assert "<h2>In three dimensions</h2>" in report(again).html
 
 
-def test_a_run_to_a_file_keeps_its_scene_while_it_goes_on_and_when_it_is_resumed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_to_a_file_keeps_its_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path, scene = tmp_path / "run.nc", pendulum()
     with monkeypatch.context() as patch:
         patch.setattr(ResultFile, "finish", lambda self, reached_end: self._partial.path)
@@ -113,9 +111,7 @@ def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
     assert "function force &#x27;&lt;gust&gt;&#x27;" in view(loaded).html
 
 
-def test_a_scene_too_large_for_a_file_is_left_out_with_its_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kept_scene, "LARGEST_FILE", 100)
     loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
     assert loaded.scene is None
@@ -139,9 +135,7 @@ HOSTILE: dict[str, tuple[Any, str]] = {
 
 
 @pytest.mark.parametrize("case", HOSTILE)
-def test_hostile_bytes_are_refused_once_they_are_asked_for(
-    case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_hostile_bytes_are_refused(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if case == "larger than any":
         monkeypatch.setattr("seacrane.description.file_text.LARGEST_FILE", 10_000)
     text, message = HOSTILE[case]

@@ -44,9 +44,7 @@ def opened(tab: chromium.Tab, shown: View, folder: Path, address: str = "") -> N
 
 
 @pytest.mark.parametrize("name", SHOWN)
-def test_a_page_opens_without_a_network_and_shows_something(
-    tab: chromium.Tab, name: str, tmp_path: Path
-) -> None:
+def test_a_page_opens_without_a_network(tab: chromium.Tab, name: str, tmp_path: Path) -> None:
     opened(tab, view(getattr(view_scenes, name)()), tmp_path)
     pictures = []
     for at in (0.0, 4.0):

@@ -82,9 +82,7 @@ def test_a_file_has_one_writer_without_fcntl(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("open_files_go", [True, False])
-def test_a_file_has_one_writer_and_is_removed(
-    open_files_go: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_has_one_writer(open_files_go: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sole_writer, "REMOVES_OPEN_FILES", open_files_go)
     one, two = (PartialFile(tmp_path / "run.nc.partial") for _ in range(2))
     one.claim()

@@ -97,9 +97,7 @@ def build(site: Path, *more: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.slow("builds a site")
-def test_a_small_site_builds_without_a_warning_and_fails_by_a_wrong_link(
-    small_site: Path, offline: Any
-) -> None:
+def test_a_small_site_builds_and_fails_by_a_wrong_link(small_site: Path, offline: Any) -> None:
     formulas = "\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
     (small_site / "docs" / "page.md").write_text(PAGE + formulas, encoding="utf-8")
     done = build(small_site)
@@ -140,9 +138,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
 
 
 @pytest.mark.slow("makes a site")
-def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
-    small_site: Path, offline: Any
-) -> None:
+def test_a_site_holds_pages_and_runs_a_notebook_once(small_site: Path, offline: Any) -> None:
     pytest.importorskip("ipykernel", reason="the site's packages are missing: pip install seacrane[docs]")
     log = small_site / "log"
     shutil.copy(ROOT / "docs" / "live.md", small_site / "docs")

@@ -30,9 +30,7 @@ def published(modules: Any) -> dict[str, dict[str, str]]:
     return {f"{row['compared']}; {row['with']}": row for row in rows}
 
 
-def test_the_page_shows_every_subject_and_rows_name_tests_and_keep_their_bounds(
-    published: dict[str, dict[str, str]],
-) -> None:
+def test_the_page_shows_every_subject_within_its_bound(published: dict[str, dict[str, str]]) -> None:
     rows = published.values()
     assert len(rows) > 60
     assert sorted(MARK.findall(PAGE)) == sorted({row["subject"] for row in rows})
@@ -70,9 +68,7 @@ SAMPLE: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("name", SAMPLE)
 @pytest.mark.filterwarnings("ignore::UserWarning")
-def test_a_sample_computed_again_is_as_published(
-    name: str, modules: Any, published: dict[str, dict[str, str]]
-) -> None:
+def test_a_sample_is_as_published(name: str, modules: Any, published: dict[str, dict[str, str]]) -> None:
     """Within the bound; the same number where it is not made of rounding."""
     module, function = name.split(".")
     for row in getattr(modules(f"compared.{module}"), function)(**SAMPLE[name]):

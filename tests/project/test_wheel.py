@@ -89,9 +89,7 @@ def libraries(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return importlib.import_module("libraries")
 
 
-def test_an_archive_that_is_not_the_pinned_one_is_refused(
-    libraries: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_archive_is_refused(libraries: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("sundials", "eigen"):
         address, digest = libraries.pin(name, libraries.PINS.read_text(encoding="utf-8"))
         assert address.startswith("https://") and name in address
