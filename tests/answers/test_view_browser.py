@@ -117,7 +117,7 @@ def test_address_and_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_pa
     now("10.00")
     tab.press("ArrowRight")
     now("10.20")
-    assert tab.value("location.hash") == "#t=10.2"
+    assert tab.value("location.hash") == "#t=10.2&view=payload"
     tab.press("2")
     tab.wait_for("document.getElementById('view').value === 'port'")
     tab.press("f")
