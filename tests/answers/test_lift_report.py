@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from html import unescape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -61,13 +62,18 @@ def page(lift: Result) -> Report:
     return report(lift)
 
 
-def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) -> None:
+def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report, tmp_path: Path) -> None:
     assert titles(page) == [
         "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Hook load and tension",
         "Limits", "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
     ]  # fmt: skip
     sources = Page(page.html).sources
     assert len(sources) == 4 and all(one.startswith("data:image/png;base64,") for one in sources)
+    path = page.save(tmp_path / "lift.html")
+    assert page.save(path).read_text(encoding="utf-8") == page.html
+    path.write_text("<p>my own</p>", encoding="utf-8")
+    with pytest.raises(FileExistsError, match="not of seacrane"):
+        page.save(path)
 
 
 def staged(**hoist: Any) -> Result:

@@ -150,6 +150,9 @@ def test_it_prints_as_a_table_becomes_data_and_is_drawn(swinging: Result) -> Non
     assert np.isnan(float(data["factor"].sel(row="load swing")))
     labels = [axes.get_ylabel() for axes in plot_summary(swinging).axes]
     assert sorted(labels) == ["hoist tension [kN]", "hook load [t]", "load offset [m]", "load swing [deg]"]
+    still = {name: swinging[name] for name in ("constraint_error",)}
+    with pytest.raises(SceneError, match="no load and no motion"):
+        plot_summary(replace(swinging, channels=still))
 
 
 def test_a_record_too_short_and_a_transient_are_told() -> None:

@@ -8,6 +8,7 @@ import gzip
 import json
 import pickle
 import re
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.description.file import scene_digest
 from seacrane.hydro import Hull, ParametricHull, shipped_database
-from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
@@ -351,3 +352,13 @@ def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
     shown = view(cut)
     assert shown.motion.end == pytest.approx(whole.time[149])
     assert "interrupted" in shown.html
+
+
+def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
+    """By its mass and waterplane; and scaling its lines to their volume leaves them as they are."""
+    database, statics = shipped_database(), shipped_hull().hydrostatics
+    heave = database.restoring[2, 2] / (database.rho * database.g)
+    assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
+    assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
+    scaled = LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH)
+    assert astuple(scaled) == pytest.approx(astuple(LINES), rel=1e-11)
