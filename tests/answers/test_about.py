@@ -45,15 +45,12 @@ def told(**parts: Any) -> dict[str, str]:
     return {ABOUT: json.dumps(json.loads(About().to_attributes()[ABOUT]) | parts)}
 
 
-def test_what_is_structured_is_typed_and_no_part_of_the_stats(result: Result) -> None:
+def test_what_is_structured_is_typed_kept_and_no_part_of_the_stats(result: Result, tmp_path: Path) -> None:
     assert not set(NAMES) & set(result.stats)
     assert {type(value) for value in result.stats.values()} <= {str, int, float}
     assert result.settings["t_end"] == 0.5 and result.stages == ()
     assert result.about.limit_states[0].maximum == 2.0
     assert result.about.bounds[0]["kind"] == "range"
-
-
-def test_a_file_keeps_it(result: Result, tmp_path: Path) -> None:
     again = Result.load(result.save(tmp_path / "run.nc"))
     assert again.about.to_attributes() == result.about.to_attributes()
     assert again.about.limit_states == result.about.limit_states
@@ -72,38 +69,28 @@ DAMAGED: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.parametrize("case", DAMAGED)
-def test_notes_that_no_run_writes_are_refused_by_name(case: str, result: Result, tmp_path: Path) -> None:
-    path = with_attributes(result.save(tmp_path / "run.nc"), DAMAGED[case])
-    with pytest.raises(FileFormatError, match=r"run\.nc is not a seacrane result: its notes are none"):
-        Result.load(path)
+def test_notes_that_no_run_writes_are_refused_by_name(result: Result, tmp_path: Path) -> None:
+    for case, attributes in DAMAGED.items():
+        path = with_attributes(result.save(tmp_path / "run.nc"), attributes)
+        with pytest.raises(FileFormatError, match=r"run\.nc.*notes"):
+            Result.load(path)
+            pytest.fail(case)
 
 
-VERSIONS = {
-    "another": (
-        "0.3",
-        r"is of file version '0\.3', and seacrane .* reads and writes file version '0\.4'; make",
-    ),
-    "a number": (4, r"is of file version .*4\)?, and"),
-    "none": (None, "names no version of files, and"),
-}
+VERSIONS = {"another": ("0.3", r"'0\.3'.*'0\.4'"), "a number": (4, "4"), "none": (None, "no version")}
 
 
 @pytest.mark.parametrize("case", VERSIONS)
 def test_a_file_of_another_version_is_refused_with_both(case: str, result: Result, tmp_path: Path) -> None:
-    version, message = VERSIONS[case]
+    """As is a run in progress."""
+    version, words = VERSIONS[case]
     path = with_attributes(result.save(tmp_path / "run.nc"), {"file_version": version})
-    with pytest.raises(FileFormatError, match=rf"run\.nc: {message}"):
+    with pytest.raises(FileFormatError, match=rf"run\.nc: .*{words}"):
         Result.load(path)
-
-
-@pytest.mark.parametrize("case", VERSIONS)
-def test_a_run_in_progress_of_another_version_is_refused_with_both(case: str, result: Result) -> None:
     piece = Piece(arrays={"time": result.time}, coords={}, stats=dict(result.stats), about=result.about)
     head, rest = piece.to_bytes().split(b"\n", 1)
     assert Piece.from_bytes(head + b"\n" + rest, "run").about.to_attributes() == result.about.to_attributes()
-    version, message = VERSIONS[case]
     header = json.loads(head)
     header["stats"]["file_version"] = version
-    with pytest.raises(FileFormatError, match=f"run: {message}"):
+    with pytest.raises(FileFormatError, match=f"run: .*{words}"):
         Piece.from_bytes(json.dumps(header).encode() + b"\n" + rest, "run")

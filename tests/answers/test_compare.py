@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -48,7 +47,7 @@ def record(values: Curve, time: Array, unit: str = "m", name: str = "heave") -> 
     return MeasuredSeries(time=time, columns={name: values(time)}, units={name: unit})
 
 
-@pytest.mark.parametrize("late", [0.0, 0.037, 1.234, -4.5])
+@pytest.mark.parametrize("late", [0.0, 1.234, -4.5])
 def test_the_shift_of_a_record_is_found_between_samples(result: Result, late: float) -> None:
     """Without noise: to the error of the splines through run and record."""
     time = np.arange(10.0, 180.0, 0.2)
@@ -56,6 +55,11 @@ def test_the_shift_of_a_record_is_found_between_samples(result: Result, late: fl
     assert found.shift == pytest.approx(late, abs=2e-4)
     assert found.rms < 2e-4
     assert found.correlation == pytest.approx(1.0, abs=1e-6)
+    # A record of another clock is found where the longest shift allows it.
+    made = record(lambda t: heave(t - 6990.0 - late), np.arange(7000.0, 7120.0, 0.2))
+    with pytest.raises(SceneError, match="7000 s"):
+        compare(result, made)
+    assert compare(result, made, maximum_shift=7100.0).shift == pytest.approx(6990.0 + late, abs=2e-4)
 
 
 def test_bias_and_noise_are_found_with_their_scatter(result: Result) -> None:
@@ -83,30 +87,19 @@ def test_differences_are_run_minus_record_and_signed(result: Result) -> None:
     found = compare(result, made, maximum_shift=0.0)
     np.testing.assert_allclose(found.difference, 0.5 * heave(found.time) + 2.0, atol=2e-4)
     assert (found.shift, found.gain) == (0.0, pytest.approx(2.0, rel=1e-3))
-    assert found.bias > 0.0
-    assert "mean (bias)" in str(found) and "+2" in str(found)
-
-
-def test_clocks_of_other_origin(result: Result) -> None:
-    """A record that begins at 7000 s of its clock is found where the longest shift allows it."""
-    made = record(lambda t: heave(t - 6990.0), np.arange(7000.0, 7120.0, 0.2))
-    with pytest.raises(SceneError, match=r"the record at 7000 s, and within shifts of 29.9.* give a larger"):
-        compare(result, made)
-    assert compare(result, made, maximum_shift=7100.0).shift == pytest.approx(6990.0, abs=2e-4)
+    assert found.bias == pytest.approx(found.difference.mean(), rel=1e-9) and "+2" in str(found)
 
 
 def test_a_shift_that_is_not_sure_is_told(result: Result) -> None:
     time = np.arange(0.0, END, 0.2)
-    with pytest.warns(UncertainShiftWarning, match="the correlation is 0.*, or of other sign"):
-        compare(result, record(lambda t: np.random.default_rng(2).normal(size=t.size), time))
-    with pytest.warns(UncertainShiftWarning, match=r"still grows at [+]1 s, the longest"):
-        compare(result, record(lambda t: heave(t - 1.6), time), maximum_shift=1.0)
     periodic = led(lambda t: np.cos(0.8 * t))
+    with pytest.warns(UncertainShiftWarning, match="correlation"):
+        compare(result, record(lambda t: np.random.default_rng(2).normal(size=t.size), time))
+    with pytest.warns(UncertainShiftWarning, match=r"still grows at [+]1 s"):
+        compare(result, record(lambda t: heave(t - 1.6), time), maximum_shift=1.0)
     with pytest.warns(UncertainShiftWarning, match=r"[+-]7.8 s is as good"):
         compare(periodic, record(lambda t: np.cos(0.8 * t), time))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        found = compare(periodic, record(lambda t: np.cos(0.8 * (t - 1.0)), time), maximum_shift=3.0)
+    found = compare(periodic, record(lambda t: np.cos(0.8 * (t - 1.0)), time), maximum_shift=3.0)
     assert found.shift == pytest.approx(1.0, abs=1e-4)
 
 
@@ -119,37 +112,25 @@ def test_which_curve_is_said_by_the_one_text(result: Result) -> None:
     assert (late.channel, late.column) == ("vessel_motion[motion=heave, after=60]", "motion of the ship")
 
 
-@pytest.mark.parametrize(
-    ("unit", "given", "words"),
-    [
-        ("m", {"channel": "hook_load"}, "hook_load' is not in this result"),
-        ("m", {"channel": "position"}, "holds several curves"),
-        ("rad", {}, r"is in m, and column 'heave' in rad"),
-        ("m", {"column": "sway"}, "no column 'sway'"),
-        ("m", {"maximum_shift": -1.0}, "maximum_shift"),
-        ("m", {"channel": "heave[after=199.5]"}, "has 3 outputs|does not exist"),
-    ],
-)
-def test_what_cannot_be_compared_is_refused(
-    result: Result, unit: str, given: dict[str, Any], words: str
-) -> None:
-    with pytest.raises(SceneError, match=words):
-        compare(result, record(heave, np.arange(0.0, END, 0.2), unit=unit), **given)
-
-
-def test_other_objects_and_still_curves_are_refused(result: Result) -> None:
+def test_what_cannot_be_compared_is_refused(result: Result) -> None:
     time = np.arange(0.0, END, 0.2)
-    still = record(np.ones_like, time)
-    with pytest.raises(
-        SceneError, match="one of both does not vary, which tells no shift; give maximum_shift=0"
-    ):
-        compare(result, still)
-    assert compare(result, still, maximum_shift=0.0).bias == pytest.approx(heave(time).mean() - 1.0, abs=1e-3)
-    with pytest.raises(SceneError, match="give a Result and a MeasuredSeries"):
-        compare(result, {"heave": heave(time)})  # type: ignore[arg-type]
+    made, still = record(heave, time), record(np.ones_like, time)
     two = MeasuredSeries(time=time, columns={"a": time, "b": time}, units={"a": "m", "b": "m"})
-    with pytest.raises(SceneError, match="several columns; give column=, a, b"):
-        compare(result, two, channel="heave")
+    refused: list[tuple[Any, dict[str, Any], str]] = [
+        (made, {"channel": "hook_load"}, "'hook_load'"),
+        (made, {"channel": "position"}, "several curves"),
+        (record(heave, time, unit="rad"), {}, "in m, and column 'heave' in rad"),
+        (made, {"column": "sway"}, "'sway'"),
+        (made, {"maximum_shift": -1.0}, "maximum_shift"),
+        (made, {"channel": "heave[after=199.5]"}, "has 3 outputs|does not exist"),
+        (still, {}, "does not vary"),
+        ({"heave": heave(time)}, {}, "MeasuredSeries"),
+        (two, {"channel": "heave"}, "column=, a, b"),
+    ]
+    for measured, given, words in refused:
+        with pytest.raises(SceneError, match=words):
+            compare(result, measured, **given)
+    assert compare(result, still, maximum_shift=0.0).bias == pytest.approx(heave(time).mean() - 1.0, abs=1e-3)
 
 
 def test_spectra_tables_and_pictures(result: Result, tmp_path: Path) -> None:

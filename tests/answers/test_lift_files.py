@@ -20,6 +20,7 @@ from seacrane import (
     Lift,
     Method,
     Outputs,
+    Result,
     Scene,
     SceneError,
     SeaState,
@@ -27,20 +28,20 @@ from seacrane import (
     cases,
     simulate,
 )
+from seacrane.cli import main
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import scene_digest
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.build import times_of
-from seacrane.lift.keys import Key, suffix
+from seacrane.lift.keys import Key
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import CURVES, TABLES
 from seacrane.lift.text_lines import lines_of
 from seacrane.sea import cos_2s, jonswap
-from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "lift-files.md"
+EXAMPLE = (ROOT / "examples" / "lifts" / "box_over_the_side.toml").read_text(encoding="utf-8")
 
 
 def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
@@ -60,17 +61,7 @@ def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pyte
     (tmp_path / "hull.nc").touch()
     vessel = '[vessel]\ndatabase = "hull.nc"\nmemory = "none"\ndepth_m = 40\n'
     scene = lift_of(HEAD + vessel + "[sea]\nhs_m = 1\ntp_s = 9\n", tmp_path).scene()
-    assert scene.waves is not None
-    assert scene.waves.depth == 40.0
-
-
-def example() -> str:
-    """The complete lift of the document."""
-    found = [
-        block for block in re.findall(r"```toml\n(.*?)```", PAGE.read_text(), re.DOTALL) if HEAD in block
-    ]
-    assert len(found) == 1
-    return str(found[0])
+    assert scene.waves is not None and scene.waves.depth == 40.0
 
 
 @pytest.mark.parametrize("name", LIFTS)
@@ -88,21 +79,16 @@ def test_every_table_is_its_call(tmp_path: Path) -> None:
     assert lift_of(EVERY_TABLE, tmp_path).scene() == every_table()
 
 
-def test_the_lift_with_every_table_has_every_table() -> None:
-    elsewhere = {"vessel", "given_vessel", "sea", "crane", "balance", "control", "command", "run"}
-    elsewhere |= {"method", "outputs", "mesh"}  # a mesh names a file: test_meshes.py
-    elsewhere |= {"ballast", "stage"}  # test_lift_stages.py
-    elsewhere |= {"luffing_rope"}  # test_jointed_cranes.py
-    elsewhere |= {"slack_tank"}  # test_stability.py
-    elsewhere |= {"hold_pressures"}  # test_held_by_lines.py
-    assert set(tomllib.loads(EVERY_TABLE)) - {"format", "version"} == set(TABLES) - elsewhere
+def test_a_table_that_is_not_above_is_in_a_lift_of_another_test() -> None:
+    headers = re.compile(r"""(?:["'\n]|\\n)\[\[?(\w+)\]""")
+    tests = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").glob("*/test_*.py"))
+    assert set(TABLES) - set(tomllib.loads(EVERY_TABLE)) <= set(headers.findall(tests))
 
 
 def test_method_outputs_and_end_time(tmp_path: Path) -> None:
     lift = lift_of(PENDULUM, tmp_path)
     assert lift.method == Method(integrator="rk4", dt=0.01)
     assert lift.outputs == Outputs(dt_out=0.5, channels=("position", "constraint_error", "energy_balance"))
-    assert lift.t_end == 2.0
     result = lift.simulate()
     other = simulate(lift.scene(), 2.0, method=lift.method, outputs=lift.outputs)
     np.testing.assert_array_equal(result["position"], other["position"])
@@ -111,47 +97,36 @@ def test_method_outputs_and_end_time(tmp_path: Path) -> None:
     assert (bare.method, bare.outputs, bare.t_end) == (Method(), Outputs(), 100.0)
 
 
-def test_the_sea_of_several_systems(tmp_path: Path) -> None:
-    text = (
-        HEAD
-        + """
+SYSTEMS = """
 [vessel]
-database = "hull_115"
-name = "barge"
-memory = "none"
-position_m = [10, 5, 0]
-heading_deg = 30
-mooring_period_s = inf
+database = "hull_115"; name = "barge"; memory = "none"
+position_m = [10, 5, 0]; heading_deg = 30; mooring_period_s = inf
 
 [sea]
-vessel = "barge"
-seed = 4
+vessel = "barge"; seed = 4
 systems = [
     { name = "swell", spectrum = "jonswap", hs_m = 1, tp_s = 14, gamma = 5, direction_deg = 10, count = 20 },
     { spectrum = "pierson-moskowitz", hs_m = 2, tp_s = 9, direction_deg = 90, spreading = 10, count = 30 },
 ]
-"""
-    )
-    database = shipped_database()
-    scene = Scene()
+""".replace("; ", "\n")
+
+
+def test_the_sea_of_several_systems(tmp_path: Path) -> None:
+    database, scene = shipped_database(), Scene()
     scene.add_vessel(
         database, name="barge", memory="none", position=(10, 5, 0), heading_deg=30, mooring_period=None
     )
     swell = WaveSystem(name="swell", spectrum=jonswap(hs=1, tp=14, gamma=5), direction_deg=10, count=20)
-    lift = lift_of(text, tmp_path)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
     scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
-    assert lift.scene() == scene
+    assert lift_of(HEAD + SYSTEMS, tmp_path).scene() == scene
 
 
 @pytest.mark.parametrize("name", [*LIFTS, "pendulum", "every table", "example"])
 def test_written_and_read_again_it_is_equal(name: str, tmp_path: Path) -> None:
-    texts = {"pendulum": PENDULUM, "every table": EVERY_TABLE}
-    if name in LIFTS:
-        lift = Lift.shipped(name)
-    else:
-        lift = lift_of(texts[name] if name in texts else example(), tmp_path)
+    texts = {"pendulum": PENDULUM, "every table": EVERY_TABLE, "example": EXAMPLE}
+    lift = Lift.shipped(name) if name in LIFTS else lift_of(texts[name], tmp_path)
     lift.save(tmp_path / "again.toml")
     again = Lift.load(tmp_path / "again.toml")
     assert again == lift and again.tables == lift.tables
@@ -161,32 +136,21 @@ def test_written_and_read_again_it_is_equal(name: str, tmp_path: Path) -> None:
     assert Lift(lift.tables) == lift == pickle.loads(pickle.dumps(lift))
 
 
-def test_a_changed_lift_is_another(tmp_path: Path) -> None:
-    lift = lift_of(PENDULUM, tmp_path)
-    tables = lift.tables
-    tables["body"]["mass_kg"] = np.nextafter(2.0, 3.0).item()
-    changed = Lift(tables)
-    assert changed != lift and lift.tables["body"]["mass_kg"] == 2.0
-    changed.save(tmp_path / "changed.toml")
-    assert Lift.load(tmp_path / "changed.toml") == changed
-    with pytest.raises(AttributeError):
-        lift.t_end = 3.0  # type: ignore[misc]
-
-
 def test_texts_of_any_kind_are_written(tmp_path: Path) -> None:
     lift = Lift({"notes": {"a b": 'quote " and \\ and\nline \x7f\t', "é": "λ", "x": [True, -0.0, 1e300, 7]}})
     lift.save(tmp_path / "notes.toml")
     assert Lift.load(tmp_path / "notes.toml").scene().notes == lift.scene().notes
-    with pytest.raises(SceneError, match="surrogate"):
-        Lift({"notes": {"x": "\ud800"}}).save(tmp_path / "x.toml")
-    with pytest.raises(SceneError, match="no word for None"):
-        Lift({"notes": {"x": None}}).save(tmp_path / "x.toml")
+    for value, words in (("\ud800", "surrogate"), (None, "None")):
+        with pytest.raises(SceneError, match=words):
+            Lift({"notes": {"x": value}}).save(tmp_path / "x.toml")
     assert not (tmp_path / "x.toml").exists()
+    (tmp_path / "a.toml").write_bytes(b"\xef\xbb\xbf" + PENDULUM.replace("\n", "\r\n").encode())
+    assert Lift.load(tmp_path / "a.toml") == lift_of(PENDULUM, tmp_path), "marks and ends of other editors"
 
 
 def test_paths_are_from_the_folder_of_the_file(tmp_path: Path) -> None:
-    (tmp_path / "data").mkdir()
-    (tmp_path / "lifts").mkdir()
+    for folder in ("data", "lifts"):
+        (tmp_path / folder).mkdir()
     (tmp_path / "data" / "crane.toml").write_bytes(DEFAULT_PATH.read_bytes())
     text = HEAD + '[crane]\nbase = "ground"\ncrane = "../data/crane.toml"\n'
     lift = lift_of(text, tmp_path / "lifts")
@@ -202,18 +166,10 @@ CONTROLLED = (
     HEAD
     + """
 [[body]]
-name = "arm"
-mass_kg = 5
-inertia_kg_m2 = [1, 2, 3]
-position_m = [1, 0, 0]
+name = "arm"; mass_kg = 5; inertia_kg_m2 = [1, 2, 3]; position_m = [1, 0, 0]
 
 [joint]
-kind = "revolute"
-name = "pin"
-first = "ground"
-second = "arm"
-point_m = [0, 0, 0]
-axis = [0, 1, 0]
+kind = "revolute"; name = "pin"; first = "ground"; second = "arm"; point_m = [0, 0, 0]; axis = [0, 1, 0]
 
 [control]
 natural_frequency_Hz = 2
@@ -223,7 +179,7 @@ FEED_FORWARD
 [command]
 joint = "pin"
 reference_deg = { kind = "quintic", start_time_s = 0, end_time_s = 6, start = 0, end = -45 }
-"""
+""".replace("; ", "\n")
 )
 
 
@@ -247,147 +203,119 @@ def test_times_go_on_from_part_to_part() -> None:
     parts = [{"until": 45.0, "every": 5.0}, {"until": 100.0, "every": 0.5}]
     expected = np.append(np.linspace(0.0, 45.0, 10), np.arange(45.0, 100.1, 0.5)[1:])
     np.testing.assert_array_equal(times_of(parts), expected)
-
-
-@pytest.mark.parametrize(("until", "every"), [(0.0, 1.0), (5.0, 0.0), (5.0, 2.0), (1e6, 1.0), (5.0, 1e-300)])
-def test_times_that_make_no_sense(until: float, every: float) -> None:
-    with pytest.raises(SceneError, match="times is wrong"):
-        times_of([{"until": until, "every": every}])
+    for until, every in ((0.0, 1.0), (5.0, 0.0), (5.0, 2.0), (1e6, 1.0), (5.0, 1e-300)):
+        with pytest.raises(SceneError, match="times"):
+            times_of([{"until": until, "every": every}])
 
 
 ARM = CONTROLLED.replace("FEED_FORWARD", "")
 VESSEL = '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
+DRIVEN = '[driver]\njoint = "x"\n'
+ONE, TWO = '{ kind = "constant", value = 1 }', '{ kind = "constant", value = 2 }'
 MISTAKES = {
-    "an unknown key": (
-        HEAD + "[crane.payload]\nmass_t = 3", 4, "mass_t is unknown in [crane.payload]; nearest: mass_kg"
-    ),
-    "a key without its unit": (HEAD + "[crane]\npayload = { mass = 3 }", 4, "nearest: mass_kg"),
-    "an unknown table": (HEAD + "\n[crain]", 4, "[crain] is unknown; nearest: crane"),
-    "a key that is like none": (HEAD + "[seat]\nqqqq = 1", 4, "unknown in [seat]; known are joint, name"),
-    "two units": (HEAD + "[crane]\nslew_deg = 3\nslew_rad = 1", 4, "beside slew_"),
-    "a text for a number": (HEAD + '[sea]\nhs_m = "two"', 4, "hs_m in [sea] is 'two'; give a number"),
-    "a number that is none": (HEAD + "[sea]\nhs_m = nan", 4, "give a finite number"),
-    "infinity": (HEAD + "[sea]\nhs_m = inf", 4, "give a finite number"),
-    "a fraction of a seed": (HEAD + "[sea]\nseed = 1.5", 4, "give a whole number"),
-    "too few coordinates": (HEAD + "[crane]\nfoot_m = [1, 2]", 4, "has 2 entries; give 3"),
-    "a missing key": (HEAD + '[[body]]\nname = "a"', 3, "[[body]] 1 has no mass_kg; add it"),
-    "an unknown choice": (HEAD + '[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
-    "an unknown integrator": (HEAD + '[method]\nintegrator = "dopri6"', 4, "nearest: dopri5"),
-    "a tolerance out of range": (HEAD + "[method]\nrtol = 3", 4, "rtol is 3"),
-    "a list for a table": (HEAD + "[[run]]\nt_end_s = 1", 3, "write [run], once"),
-    "a number for a table": (HEAD + "line = 3", 3, "write [line], or [[line]] for each of several"),
-    "an unknown curve": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "line" }', 5, "one of constant"),
-    "a gust of a joint": (HEAD + '[driver]\njoint = "x"\ncurve_m = { kind = "gust" }', 5, "one of constant"),
+    "an unknown key": ("[crane.payload]\nmass_t = 3", 4, "mass_t .*nearest: mass_kg"),
+    "a key without its unit": ("[crane]\npayload = { mass = 3 }", 4, "nearest: mass_kg"),
+    "an unknown table": ("\n[crain]", 4, "crain.*nearest: crane"),
+    "a key that is like none": ("[seat]\nqqqq = 1", 4, "joint, name"),
+    "two units": ("[crane]\nslew_deg = 3\nslew_rad = 1", 4, "slew_"),
+    "a text for a number": ('[sea]\nhs_m = "two"', 4, "hs_m .*'two'"),
+    "a number that is none": ("[sea]\nhs_m = nan", 4, "finite"),
+    "a fraction of a seed": ("[sea]\nseed = 1.5", 4, "whole"),
+    "too few coordinates": ("[crane]\nfoot_m = [1, 2]", 4, "foot_m.* 3"),
+    "a missing key": ('[[body]]\nname = "a"', 3, r"body\]\] 1 .*mass_kg"),
+    "an unknown choice": ('[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
+    "a tolerance out of range": ("[method]\nrtol = 3", 4, "rtol"),
+    "a list for a table": ("[[run]]\nt_end_s = 1", 3, r"\[run\]"),
+    "a number for a table": ("line = 3", 3, r"\[\[line\]\]"),
+    "a gust of a joint": (DRIVEN + 'curve_m = { kind = "gust" }', 5, "constant"),
     "a piece without a time": (
-        HEAD + '[driver]\njoint = "x"\ncurve_m = [\n{ kind = "constant", value = 1 },\n'
-        '{ kind = "constant", value = 2 },\n]', 7, "[[driver.curve_m]] 2 has no from_s; add it",
+        f"{DRIVEN}curve_m = [\n{ONE},\n{TWO},\n]", 7, r"driver\.curve_m\]\] 2 .*from_s",
     ),
-    "no pieces": (HEAD + '[driver]\njoint = "x"\ncurve_m = []', 5, "give a number or a table"),
-    "a date": (HEAD + "[notes]\nday = 2026-01-01", 3, "notes are numbers, texts"),
-    "another version": ('format = "seacrane lift"\nversion = 3', 2, "this seacrane reads version = 2"),
-    "half a line": (HEAD + "[sea]\nhs_m =", 4, "Invalid value"),
-    "half a list": (HEAD + "[sea]\n\nx = [1,", 5, "at the end of the file; truncated or malformed TOML"),
-    "a key twice": (HEAD + "[sea]\nhs_m = 1\nhs_m = 2", 5, "Cannot overwrite a value"),
-    "a long key": (HEAD + "a" + " . a" * 20 + " = 1", 3, "more than 8 parts"),
+    "no pieces": (DRIVEN + "curve_m = []", 5, "curve_m"),
+    "a date": ("[notes]\nday = 2026-01-01", 3, "notes"),
+    "half a line": ("[sea]\nhs_m =", 4, "Invalid value"),
+    "half a list": ("[sea]\n\nx = [1,", 5, "truncated or malformed"),
+    "a key twice": ("[sea]\nhs_m = 1\nhs_m = 2", 5, "overwrite"),
+    "a long key": ("a" + " . a" * 20 + " = 1", 3, "parts"),
 }  # fmt: skip
-
-
-@pytest.mark.parametrize("case", MISTAKES)
-def test_a_mistake_is_told_by_its_line(case: str, tmp_path: Path) -> None:
-    text, line, words = MISTAKES[case]
-    with pytest.raises(FileFormatError) as caught:
-        lift_of(text + "\n", tmp_path)
-    assert str(caught.value).startswith(f"my_lift.toml line {line}")
-    assert words in str(caught.value)
 
 
 BUILT = {
     "a unit of the other kind": (
         ARM + '\n[[actuator]]\njoint = "pin"\nstiffness_N_per_m = 3\n', "stiffness_N_per_m",
-        "is of a displacement, and 'angle' of joint 'pin' is an angle; give stiffness_N_m_per_rad",
+        "joint 'pin' .*stiffness_N_m_per_rad",
     ),
     "a reference of the other kind": (
-        ARM.replace("reference_deg", "reference_m"), "reference_m", "give reference_rad or reference_deg"
+        ARM.replace("reference_deg", "reference_m"), "reference_m", "reference_rad or reference_deg"
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
-    "a joint that is not there": (
-        HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "there is no joint 'rope'"
-    ),
-    "a vessel that is not there": (
-        HEAD + '[sea]\nhs_m = 1\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"
-    ),
-    "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
-    "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
-    "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),
-    "no times": (ARM, "[control]", "needs times"),
+    "a joint that is not there": (HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "'rope'"),
+    "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "systems"),
+    "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc"),
+    "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", r"\[control\]"),
+    "no times": (ARM, "[control]", "times"),
     "times for nothing": (
         ARM.replace("damping_ratio", 'feed_forward = "none"\nperiod_s = 5\ndamping_ratio'), "period_s",
-        "period is given, which feed_forward = 'none' has no use for",
+        "feed_forward = 'none'",
     ),
-    "control of nothing": (ARM[: ARM.index("[command]")], "[control]", "has no [[command]] to control"),
-    "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "zero speed"),
-    "a depth of the shipped hull": (HEAD + VESSEL + "depth_m = 30\n", "depth_m", "of deep water"),
+    "control of nothing": (ARM[: ARM.index("[command]")], "[control]", r"\[\[command\]\]"),
+    "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "speed"),
     "a payload of nothing": (
         HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
-        "payload: mass is 0.0",
+        "mass",
     ),
-    "ballast of nothing": (HEAD + VESSEL + '[balance]\nvessel = "ship"\n', "vessel", "vessels are 'vessel'"),
-    "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "give a number above zero"),
+    "ballast of nothing": (HEAD + VESSEL + '[balance]\nvessel = "ship"\n', "vessel", "'vessel'"),
+    "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "above zero"),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", BUILT)
-def test_what_the_scene_refuses_is_told_by_its_line(case: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("case", [*MISTAKES, *BUILT])
+def test_a_mistake_is_told_by_its_line(case: str, tmp_path: Path) -> None:
+    """On reading, or once the scene is made: by the first line that begins so."""
+    if case in MISTAKES:
+        text, line, words = MISTAKES[case]
+        with pytest.raises(FileFormatError, match=rf"^my_lift\.toml line {line}\b(?s:.*){words}"):
+            lift_of(HEAD + text + "\n", tmp_path)
+        return
     text, at, words = BUILT[case]
     lift = lift_of(text, tmp_path)
-    with pytest.raises(FileFormatError) as caught:
-        lift.scene()
     line = next(i for i, one in enumerate(text.splitlines(), start=1) if one.startswith(at))
-    assert str(caught.value).startswith(f"my_lift.toml line {line}: ")
-    assert words in str(caught.value)
-
-
-def test_units_mistakes_stay_named(tmp_path: Path) -> None:
-    lift = lift_of(HEAD + '[crane]\nbase = "ground"\nslew_rad = -90\n', tmp_path)
-    with pytest.warns(AngleUnitWarning, match="if these are degrees"):
+    with pytest.raises(FileFormatError, match=rf"^my_lift\.toml line {line}: .*{words}"):
         lift.scene()
-    with pytest.warns(SteepSeaWarning):
-        lift_of(HEAD + VESSEL + "[sea]\nhs_m = 12\ntp_s = 8\ncount = 5\n", tmp_path).scene()
+
+
+@pytest.mark.warns("AngleUnitWarning", "SteepSeaWarning")
+def test_slips_in_units_stay_named(tmp_path: Path) -> None:
+    crane = '[crane]\nbase = "ground"\nslew_rad = -90\n'
+    lift_of(HEAD + VESSEL + crane + "[sea]\nhs_m = 12\ntp_s = 8\ncount = 5\n", tmp_path).scene()
+    with pytest.raises(FileFormatError, match=r"^my_lift\.toml line 2: .*version = 2"):
+        lift_of(HEAD.replace("version = 2", "version = 3"), tmp_path)
 
 
 WRONG_KINDS: dict[str, tuple[bytes, str]] = {
-    "scene.json": (b'{"format": "seacrane scene"}', "JSON, as of a scene (Scene.load)"),
-    "crane.urdf": (b'<?xml version="1.0"?><robot/>', "XML, such as a URDF model"),
-    "part.step": (b"ISO-10303-21;\nHEADER;", "a STEP model"),
-    "hull.nc": (b"CDF\x01....", "a NetCDF file (load_database)"),
-    "result.nc": (b"\x89HDF\r\n", "a NetCDF file (Result.load or load_database)"),
-    "crane.glb": (b"glTF\x02", "a glTF model"),
-    "crane.toml": (DEFAULT_PATH.read_bytes(), "a crane in TOML (KnuckleBoomCrane.load)"),
-    "other.toml": (b"a = 1\n", "TOML, as of a crane (KnuckleBoomCrane.load) or a lift"),
+    "scene.json": (b'{"format": "seacrane scene"}', r"Scene\.load"),
+    "crane.urdf": (b'<?xml version="1.0"?><robot/>', "URDF"),
+    "part.step": (b"ISO-10303-21;\nHEADER;", "STEP"),
+    "hull.nc": (b"CDF\x01....", "load_database"),
+    "result.nc": (b"\x89HDF\r\n", r"Result\.load"),
+    "crane.glb": (b"glTF\x02", "glTF"),
+    "crane.toml": (DEFAULT_PATH.read_bytes(), r"KnuckleBoomCrane\.load"),
+    "other.toml": (b"a = 1\n", "TOML"),
     "empty.toml": (b" \n", "empty"),
     "blob.bin": (b"\x00\x01\xff\xfe", "something else"),
 }
 
 
-@pytest.mark.parametrize("name", WRONG_KINDS)
-def test_a_wrong_kind_of_file_is_told_what_it_looks_like(name: str, tmp_path: Path) -> None:
-    content, kind = WRONG_KINDS[name]
-    (tmp_path / name).write_bytes(content)
-    with pytest.raises(FileFormatError) as caught:
-        Lift.load(tmp_path / name)
-    assert str(caught.value).startswith(f"{name}: is {kind}")
-    assert "no lift file, which is TOML with format" in str(caught.value)
-
-
-def test_a_lift_given_as_a_scene_is_told_so(tmp_path: Path) -> None:
+def test_a_wrong_kind_of_file_is_told_what_it_looks_like(tmp_path: Path) -> None:
+    for name, (content, kind) in WRONG_KINDS.items():
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(FileFormatError, match=f"^{name}: is .*{kind}"):
+            Lift.load(tmp_path / name)
     lift_of(PENDULUM, tmp_path)
-    with pytest.raises(FileFormatError, match=r"is a lift in TOML \(Lift.load, seacrane run\), no scene"):
+    with pytest.raises(FileFormatError, match=r"Lift\.load"):
         Scene.load(tmp_path / "my_lift.toml")
-
-
-def test_marks_and_line_ends_of_other_editors(tmp_path: Path) -> None:
-    (tmp_path / "a.toml").write_bytes(b"\xef\xbb\xbf" + PENDULUM.replace("\n", "\r\n").encode())
-    assert Lift.load(tmp_path / "a.toml") == lift_of(PENDULUM, tmp_path)
+    with pytest.raises(SceneError, match="case1"):
+        Lift.shipped("case4")
 
 
 LAID_OUT = '''\
@@ -414,7 +342,19 @@ k = 5
 '''
 
 
-def test_lines_of_keys() -> None:
+def keys_in(value: Any, path: tuple[Any, ...] = ()) -> set[tuple[Any, ...]]:
+    """Paths of all keys of a parsed document."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    found = {(*path, key) for key, _ in items if isinstance(key, str)}
+    return found.union(*(keys_in(item, (*path, key)) for key, item in items))
+
+
+def test_every_key_has_its_line() -> None:
+    for text in (LAID_OUT, EVERY_TABLE, PENDULUM):
+        found = lines_of(text)
+        rows = text.splitlines()
+        for path in keys_in(tomllib.loads(text)):
+            assert str(path[-1])[:6] in rows[found[path] - 1], path
     assert lines_of(LAID_OUT) == {
         ("title",): 2, ("a",): 5, ("a", "b"): 6, ("a", "b", "c"): 6, ("a", "b", "c", 2): 7,
         ("a", "b", "c", 2, "x"): 7, ("a", "b", "c", 2, "y"): 7, ("a", "b", "c", 2, "y", "z"): 7,
@@ -425,56 +365,33 @@ def test_lines_of_keys() -> None:
     }  # fmt: skip
 
 
-def keys_in(value: Any, path: tuple[Any, ...] = ()) -> set[tuple[Any, ...]]:
-    """Paths of all keys of a parsed document."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    found = {(*path, key) for key, _ in items if isinstance(key, str)}
-    return found.union(*(keys_in(item, (*path, key)) for key, item in items))
-
-
-@pytest.mark.parametrize(
-    "text", [LAID_OUT, EVERY_TABLE, PENDULUM], ids=["laid out", "every table", "pendulum"]
-)
-def test_every_key_has_its_line(text: str) -> None:
-    found = lines_of(text)
-    rows = text.splitlines()
-    for path in keys_in(tomllib.loads(text)):
-        assert str(path[-1])[:6] in rows[found[path] - 1], path
-
-
-def test_the_schema_is_current() -> None:
-    shipped = json.loads(schema_path().read_text(encoding="utf-8"))
-    assert shipped == schema(), "seacrane schema > python/seacrane/data/lift.schema.json"
-    assert schema_path().read_text(encoding="utf-8") == schema_text()
-
-
 def validator() -> Any:
     jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
     jsonschema.Draft7Validator.check_schema(schema())
     return jsonschema.Draft7Validator(schema())
 
 
-def test_lifts_are_valid_by_the_schema() -> None:
-    texts = [path.read_text(encoding="utf-8") for path in schema_path().parent.glob("lifts/*.toml")]
-    assert len(texts) == len(LIFTS)
+def test_the_schema_is_current_and_lifts_are_valid_by_it() -> None:
+    text = schema_path().read_text(encoding="utf-8")
+    assert text == schema_text() and json.loads(text) == schema(), "make it anew by `seacrane schema`"
+    check, paths = validator(), list(schema_path().parent.glob("lifts/*.toml"))
+    assert len(paths) == len(LIFTS)
+    for path in paths:
+        mark = path.read_text(encoding="utf-8").splitlines()[0]
+        assert mark.startswith("#:schema "), "editors are led to it"
+        assert (path.parent / mark.split()[1]).resolve() == schema_path().resolve()
+    for one in (*(path.read_text(encoding="utf-8") for path in paths), PENDULUM, EVERY_TABLE, ARM, EXAMPLE):
+        check.validate(tomllib.loads(one))
+
+
+NOT_IN_SCHEMA = ("a tolerance out of range", "a number that is none", "a date", "half", "a key twice")
+
+
+def test_the_schema_refuses_what_the_reader_refuses() -> None:
     check = validator()
-    for text in [*texts, PENDULUM, EVERY_TABLE, CONTROLLED.replace("FEED_FORWARD", ""), example()]:
-        check.validate(tomllib.loads(text))
-
-
-NOT_IN_SCHEMA = (
-    "a tolerance out of range",
-    "a number that is none",
-    "infinity",
-    "a date",
-    "half",
-    "a key twice",
-)
-
-
-@pytest.mark.parametrize("case", [case for case in MISTAKES if not case.startswith(NOT_IN_SCHEMA)])
-def test_the_schema_refuses_what_the_reader_refuses(case: str) -> None:
-    assert list(validator().iter_errors(tomllib.loads(MISTAKES[case][0])))
+    for case, (text, *_) in MISTAKES.items():
+        if not case.startswith(NOT_IN_SCHEMA):
+            assert list(check.iter_errors(tomllib.loads(HEAD + text))), case
 
 
 CALLS = {
@@ -490,19 +407,21 @@ LEFT_OUT = {
 }
 
 
-def test_every_call_that_adds_has_its_table() -> None:
+def test_every_call_that_adds_has_its_table_and_the_document_names_it() -> None:
     adding = {name for name in dir(Scene) if name.startswith(("add_", "use_", "record_"))}
     assert adding == set(CALLS.values()) | set(LEFT_OUT)
+    page = (ROOT / "docs" / "lift-files.md").read_text(encoding="utf-8")
+    assert [name for name in TABLES if f"`[{name}]`" not in page] == []
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_every_keyword_is_a_key(name: str) -> None:
+def test_every_keyword_is_a_key() -> None:
     """What only a script can give is named here."""
     scripted = {"sea": {"database", "sea"}, "hydrodynamics": {"database", "memory"}, "vessel": {"body"}}
     scripted |= {"mesh": {"vertices", "faces"}, "roles": {"ropes"}}
-    parameters = inspect.signature(getattr(Scene, CALLS[name])).parameters.values()
-    words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
-    assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}
+    for name, call in CALLS.items():
+        parameters = inspect.signature(getattr(Scene, call)).parameters.values()
+        words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
+        assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}, name
 
 
 PLAIN = {
@@ -531,34 +450,30 @@ def test_every_quantity_has_a_unit() -> None:
             assert key.unit or key.name.endswith("_deg"), key
 
 
-def test_units_as_they_end_a_key() -> None:
-    units = ("kg", "kg m2", "N s/m", "N m s/rad", "m/s2", "1/s", "kg/m3")
-    ends = ["kg", "kg_m2", "N_s_per_m", "N_m_s_per_rad", "m_per_s2", "per_s", "kg_per_m3"]
-    assert [suffix(unit) for unit in units] == ends
-
-
-def test_the_example_of_the_document_runs(tmp_path: Path) -> None:
-    lift = lift_of(example(), tmp_path)
-    scene = lift.scene()
-    result = simulate(scene, 1.0, method=lift.method, outputs=lift.outputs)
-    assert set(lift.outputs.channels or ()) <= set(result.channels)
-    assert scene.loads["link"].kind == "wire"
-
-
-def test_the_document_names_every_table() -> None:
-    page = PAGE.read_text()
-    assert [name for name in TABLES if f"`[{name}]`" not in page] == []
-
-
-@pytest.mark.parametrize("name", LIFTS)
-def test_shipped_lifts_lead_editors_to_the_schema(name: str) -> None:
-    path = schema_path().parent / "lifts" / f"{name}.toml"
-    mark = path.read_text().splitlines()[0]
-    assert (
-        mark.startswith("#:schema ") and (path.parent / mark.split()[1]).resolve() == schema_path().resolve()
-    )
-
-
-def test_a_lift_that_does_not_come_with_seacrane() -> None:
-    with pytest.raises(SceneError, match="choose one of case1"):
-        Lift.shipped("case4")
+def test_the_command_runs_a_lift(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, out = tmp_path / "my_lift.toml", tmp_path / "out"
+    path.write_text(PENDULUM)
+    assert main(["run", str(path), "--out", str(out)]) == 0
+    result, direct = Result.load(out / "my_lift.nc"), Lift.load(path).simulate()
+    assert result.stats["integrator"] == "rk4"
+    np.testing.assert_array_equal(result["position"], direct["position"])
+    options = ["--t-end", "1", "--dt-out", "0.25", "--integrator", "semi-implicit-euler", "--dt", "0.005"]
+    assert main(["run", str(path), "--out", str(out), "--overwrite", *options]) == 0
+    result = Result.load(out / "my_lift.nc")
+    assert result.time.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert result.stats["integrator"] == "semi-implicit-euler"
+    assert set(result.channels) == {"position", "constraint_error", "energy_balance"}
+    capsys.readouterr()
+    assert main(["report", str(path)]) == 0 and "pivot" in capsys.readouterr().out
+    for text, options, words in (
+        (PENDULUM.replace("mass_kg", "mass_t"), [], r"line 9: .*body\]\] 1; nearest: mass_kg"),
+        (PENDULUM.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), [], r"line 19: \[\[joint\]\] 1: "),
+        (HEAD, ["--hs", "2"], r"--hs.*my_lift\.toml"),
+    ):
+        path.write_text(text)
+        assert main(["run", str(path), "--out", str(tmp_path / "other"), *options]) == 1
+        told = capsys.readouterr().err.strip()
+        assert re.search(words, told) and "\n" not in told
+    assert not (tmp_path / "other").exists()
+    assert main(["schema"]) == 0 and json.loads(capsys.readouterr().out) == schema()
+    assert main(["schema", "--path"]) == 0 and capsys.readouterr().out.strip() == str(schema_path())

@@ -48,39 +48,26 @@ def test_the_runner_finds_every_set_and_the_page_shows_it(measurements: Any) -> 
         source = measurements.module_of(name).SOURCE
         assert re.fullmatch(r"[0-9a-f]{40}", source.commit) and source.commit in PAGE
         assert source.repository in PAGE
-
-
-def test_pictures_of_the_page_are_there() -> None:
-    pictures = re.findall(r"\(figures/(measured_\w+\.png)\)", PAGE)
-    assert sorted(pictures) == sorted(
-        path.name for path in (ROOT / "docs" / "figures").glob("measured_*.png")
-    )
+    drawn = sorted(path.name for path in (ROOT / "docs" / "figures").glob("measured_*.png"))
+    assert sorted(re.findall(r"\(figures/(measured_\w+\.png)\)", PAGE)) == drawn
 
 
 def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any) -> None:
-    rows = importlib.import_module("measured_row")
+    """Differences are signed, and over what the row says."""
+    row = importlib.import_module("measured_row").MeasuredRow
     (name, compared, by), told = next(iter(measurements.published().items()))
     common: dict[str, Any] = {
-        "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y", "at": [1.0],
-        "measured": [2.0], "of": "value", "points": ([1.0], [2.0]), "line": ([1.0], [2.0]),
+        "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y", "at": [1.0, 2.0],
+        "points": ([1.0, 2.0], [2.0, -4.0]), "line": ([1.0], [2.0]), "measured": [2.0, -4.0],
     }  # fmt: skip
-    near = rows.MeasuredRow(**common, ours=[2.0 * (1.0 + 1.1 * told)])
+    near, far = (row(**common, of="value", ours=[2.0 * (1.0 + share * told), -4.0]) for share in (1.1, 1.3))
     assert measurements.checked(name, near) is near
     with pytest.raises(SystemExit, match=re.escape(compared)):
-        measurements.checked(name, rows.MeasuredRow(**common, ours=[2.0 * (1.0 + 1.3 * told)]))
-
-
-def test_differences_are_signed_and_over_what_the_row_says(measurements: Any) -> None:
-    rows = importlib.import_module("measured_row")
-    common: dict[str, Any] = {
-        "picture": "p", "panel": "p", "compared": "c", "by": "b", "x": "x, s", "y": "y", "at": [1.0, 2.0],
-        "measured": [2.0, -4.0], "ours": [2.2, -5.0], "points": ([1.0, 2.0], [2.0, -4.0]),
-        "line": ([1.0], [2.0]),
-    }  # fmt: skip
-    assert rows.MeasuredRow(**common, of="value").differences == pytest.approx([0.1, -0.25])
-    of_range = rows.MeasuredRow(**common, of="range")
+        measurements.checked(name, far)
+    assert row(**common, of="value", ours=[2.2, -5.0]).differences == pytest.approx([0.1, -0.25])
+    of_range = row(**common, of="range", ours=[2.2, -5.0])
     assert of_range.largest == pytest.approx(-1.0 / 6.0) and of_range.where == 2.0
-    assert of_range.cells("s") == ("s", "c", "b", "-16.7", "2 s", "-6.7", "range", "", "")
+    assert of_range.cells("s") == ("s", compared, by, "-16.7", "2 s", "-6.7", "range", "", "")
 
 
 def test_the_formulas_for_whole_ships_refuse_every_section(measurements: Any, shared: Path) -> None:

@@ -12,23 +12,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray
 
 from seacrane.errors import FileFormatError
 from seacrane.result import CHANNELS, Result
 from seacrane.result.about import About
 
-BODIES = [
-    "vessel",
-    "tower",
-    "king",
-    "main_barrel",
-    "main_rod",
-    "main_jib",
-    "knuckle_barrel",
-    "knuckle_rod",
-    "knuckle_jib",
-    "payload",
-]
+BODIES = ["vessel", "tower", "king", "main_barrel", "main_rod", "main_jib", "knuckle_barrel", "knuckle_rod",
+          "knuckle_jib", "payload"]  # fmt: skip
 JOINTS = ["deck", "A", "B", "C", "D", "E", "F", "G", "main_cylinder", "knuckle_cylinder", "link"]
 CYLINDERS = ["main", "knuckle"]
 SLEW_END = 45.0
@@ -36,20 +27,9 @@ SLEW_END = 45.0
 # Centres of mass at the start (x forward, y port, z up; m): a crane of 390 t, its jib pointing aft.
 MASSES = np.array([14000e3, 100e3, 115e3, 13e3, 9e3, 77e3, 14e3, 9e3, 53e3, 10e3])
 START = np.array(
-    [
-        (0, 0, 3),
-        (33, 10, 15),
-        (33, 10, 25),
-        (30, 10, 28),
-        (27, 10, 31),
-        (22, 10, 30),
-        (18, 10, 33),
-        (14, 10, 34),
-        (9, 10, 30),
-        (4, 10, 14),
-    ],
-    dtype=float,
-)
+    [(0, 0, 3), (33, 10, 15), (33, 10, 25), (30, 10, 28), (27, 10, 31), (22, 10, 30), (18, 10, 33),
+     (14, 10, 34), (9, 10, 30), (4, 10, 14)], dtype=float,
+)  # fmt: skip
 
 
 def smooth_step(t: np.ndarray, end: float = SLEW_END) -> np.ndarray:
@@ -59,16 +39,9 @@ def smooth_step(t: np.ndarray, end: float = SLEW_END) -> np.ndarray:
 
 
 def crane_run(
-    *,
-    payload: bool = True,
-    waves: bool = True,
-    memory: bool = True,
-    heel: float = 0.02,
-    oscillation: float = 0.0,
-    scene: str = "case2",
-    dt: float = 0.1,
-    t_end: float = 100.0,
-) -> dict[str, Any]:
+    *, payload: bool = True, waves: bool = True, memory: bool = True, heel: float = 0.02,
+    oscillation: float = 0.0, scene: str = "case2", dt: float = 0.1, t_end: float = 100.0,
+) -> dict[str, Any]:  # fmt: skip
     """Arguments for `Result.from_arrays`: a rigid ship in a regular sea whose crane swings out in 45 s.
 
     Every body follows the ship as a rigid body, and the crane turns about the slew axis, so poses, rates,
@@ -98,9 +71,8 @@ def crane_run(
     crane = ship * Rotation.from_euler("z", slew[:, None])
     pivot = np.array([33.0, 10.0, 0.0])
     position, velocity = np.empty((2, t.size, len(names), 3))
-    angular = np.empty((t.size, len(names), 3))
+    angular, euler = np.empty((2, t.size, len(names), 3))
     quaternion = np.empty((t.size, len(names), 4))
-    euler = np.empty((t.size, len(names), 3))
     for i, name in enumerate(names):
         turning = name not in ("vessel", "tower")
         rotation = crane if turning else ship
@@ -116,56 +88,33 @@ def crane_run(
     reaction = np.zeros((t.size, len(joints), 3))
     reaction[:, :, 2] = weight[1:].sum()
     arrays = {
-        "position": position,
-        "velocity": velocity,
-        "angular_velocity": angular,
-        "quaternion": quaternion,
-        "euler_xyz": euler,
-        "vessel_motion": motion,
-        "stroke": stroke,
-        "stroke_rate": np.gradient(stroke, t, axis=0),
-        "cylinder_force": 2e6 + 1e5 * stroke,
-        "slew_angle": slew,
-        "slew_torque": 115e3 * 16 * np.gradient(np.gradient(slew, t), t),
-        "reaction_force": reaction,
-        "reaction_moment": 0.1 * np.roll(reaction, 1, axis=2),
+        "position": position, "velocity": velocity, "angular_velocity": angular, "quaternion": quaternion,
+        "euler_xyz": euler, "vessel_motion": motion, "stroke": stroke,
+        "stroke_rate": np.gradient(stroke, t, axis=0), "cylinder_force": 2e6 + 1e5 * stroke,
+        "slew_angle": slew, "slew_torque": 115e3 * 16 * np.gradient(np.gradient(slew, t), t),
+        "reaction_force": reaction, "reaction_moment": 0.1 * np.roll(reaction, 1, axis=2),
         "constraint_error": 1e-12 * (1 + np.abs(np.sin(t))),
         "constraint_rate_error": 1e-12 * (1 + np.abs(np.cos(t))),
         "constraint_error_before_projection": 1e-7 * (1 + np.abs(np.sin(t))),
-        "energy_balance": 20 * np.sin(0.1 * t),
-        "absolute_work": 1e7 * t,
-    }
+        "energy_balance": 20 * np.sin(0.1 * t), "absolute_work": 1e7 * t,
+    }  # fmt: skip
     if payload:
         arrays["link_tension"] = 10e3 * (9.80665 + 0.1 * np.cos(omega * t))
     stats: dict[str, Any] = {
-        "seacrane_version": "0.1.0",
-        "scene": scene,
-        "formulation": "redundant",
-        "integrator": "dopri5",
-        "simulated_s": t_end,
-        "wall_s": 0.25 if memory else 0.2,
-        "evaluations": 12000,
-        "steps": 2000,
-        "rejected_steps": 3,
-        "states": 186 if memory else 140,
-        "coordinates": 6 * len(names),
-        "constraints": 46 if payload else 45,
-        "degrees_of_freedom": 14 if payload else 9,
-        "compiled_coordinates": 6 * len(names),
-        "compiled_constraints": 46 if payload else 45,
-        "fastest_mode_per_s": 18.0,
-    }
+        "seacrane_version": "0.1.0", "scene": scene, "formulation": "redundant", "integrator": "dopri5",
+        "simulated_s": t_end, "wall_s": 0.25 if memory else 0.2,
+        "evaluations": 12000, "steps": 2000, "rejected_steps": 3,
+        "states": 186 if memory else 140, "degrees_of_freedom": 14 if payload else 9,
+        "coordinates": 6 * len(names), "constraints": 46 if payload else 45, "fastest_mode_per_s": 18.0,
+        "compiled_coordinates": 6 * len(names), "compiled_constraints": 46 if payload else 45,
+    }  # fmt: skip
     if waves:
         arrays["wave_elevation"] = np.cos(omega * t)
         arrays["wave_force"] = np.outer(np.cos(omega * t), [1e5, 2e5, 1e7, 1e7, 1e8, 1e6])
         stats |= {"seed": 7, "realised_hs": 2.0, "wave_components": 200}
-    return {
-        "time": t,
-        "arrays": arrays,
-        "coords": {"body": names, "joint": joints, "cylinder": CYLINDERS},
-        "stats": stats,
-        "about": About(settings={"relative_tolerance": 1e-6, "memory": "per-pair" if memory else "none"}),
-    }
+    coords = {"body": names, "joint": joints, "cylinder": CYLINDERS}
+    about = About(settings={"relative_tolerance": 1e-6, "memory": "per-pair" if memory else "none"})
+    return {"time": t, "arrays": arrays, "coords": coords, "stats": stats, "about": about}
 
 
 def crane_result(**changes: Any) -> Result:
@@ -175,16 +124,8 @@ def crane_result(**changes: Any) -> Result:
 def vessel_result(*, memory: bool = True, t_end: float = 100.0, dt: float = 0.1) -> Result:
     """The vessel alone in the same sea: no crane, so no stroke, slew, link or reaction."""
     run = crane_run(payload=False, memory=memory, heel=0.0, scene="vessel", t_end=t_end, dt=dt)
-    absent = [
-        "stroke",
-        "stroke_rate",
-        "cylinder_force",
-        "slew_angle",
-        "slew_torque",
-        "reaction_force",
-        "reaction_moment",
-    ]
-    arrays = {name: array for name, array in run["arrays"].items() if name not in absent}
+    absent = ("stroke", "cylinder", "slew", "reaction")
+    arrays = {name: array for name, array in run["arrays"].items() if not name.startswith(absent)}
     for name in ("position", "velocity", "angular_velocity", "quaternion", "euler_xyz"):
         arrays[name] = arrays[name][:, :1].copy()
     counts = {"coordinates": 6, "constraints": 0, "degrees_of_freedom": 6}
@@ -198,20 +139,21 @@ def run() -> dict[str, Any]:
     return crane_run(t_end=5.0)
 
 
-def test_every_channel_of_the_design_is_described() -> None:
-    assert set(crane_run(t_end=1.0)["arrays"]) <= set(CHANNELS)
-    for name, channel in CHANNELS.items():
-        assert channel.dims[0] == "time", name
-        assert channel.unit and channel.long_name, name
-
-
-def test_a_result_holds_only_what_the_scene_has() -> None:
+def test_a_result_holds_only_what_the_scene_has_and_what_it_holds_is_described() -> None:
     alone = vessel_result(t_end=2.0)
     assert set(alone.coords) == {"body", "axis", "motion", "wxyz"}
     assert "link_tension" not in alone.channels
     calm = Result.from_arrays(**crane_run(waves=False, payload=False, t_end=2.0))
     assert not {"wave_elevation", "wave_force", "link_tension"} & set(calm.channels)
     assert "seed" not in calm.stats
+    assert all(one.dims[0] == "time" and one.unit and one.long_name for one in CHANNELS.values())
+    dataset = calm.to_xarray()
+    assert all(dataset[name].attrs["units"] and dataset[name].attrs["long_name"] for name in calm.channels)
+    knuckle = dataset["cylinder_force"].sel(cylinder="knuckle")
+    np.testing.assert_array_equal(knuckle, calm.select("cylinder_force", cylinder="knuckle"))
+    assert dataset["vessel_motion"].sel(motion="heave").dims == ("time",)
+    dataset["stroke"][0] = 5.0
+    assert calm["stroke"][0, 0] == 0.0, "the dataset is a copy"
 
 
 def test_arrays_and_mappings_cannot_be_changed(run: dict[str, Any]) -> None:
@@ -241,24 +183,27 @@ def test_select_picks_by_name(run: dict[str, Any]) -> None:
         result.select("lift")
 
 
-@pytest.mark.parametrize("backend", ["own reader", "xarray"])
+@pytest.mark.parametrize("backend", ["own reader", "xarray", "another process"])
 def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, backend: str) -> None:
-    result = Result.from_arrays(**run)
+    run["stats"] |= {"seed": 2**64 - 1, "repeat_period_s": np.inf}
+    run["arrays"]["slew_torque"][-1] = np.nan  # what stopped an interrupted run
+    result = Result.from_arrays(**run, interrupted=True)
     path = result.save(tmp_path / "case2.nc")
-    if backend == "own reader":
-        again = Result.load(path)
-        assert again.dims == result.dims and again.coords == result.coords
-        assert dict(again.stats) == dict(result.stats) and again.about == result.about
-        assert {k: type(v) for k, v in again.stats.items()} == {k: type(v) for k, v in result.stats.items()}
-        values = {"time": again.time, **again.channels}
-    else:
-        import xarray
-
+    if backend == "xarray":
         with xarray.open_dataset(path, engine="netcdf4", decode_times=False) as file:
             dataset = file.load()
+        assert dataset["quaternion"].dims == ("time", "body", "wxyz")
         assert list(dataset.body.values) == BODIES and list(dataset.motion.values)[3] == "roll"
         assert json.loads(dataset.attrs["settings"])["relative_tolerance"] == 1e-6
+        assert dataset.attrs["interrupted"] == 1
         values = {"time": dataset.time.values, **{name: dataset[name].values for name in result.channels}}
+    else:
+        again = Result.load(path) if backend == "own reader" else pickle.loads(pickle.dumps(result))
+        assert again.dims == result.dims and again.coords == result.coords and again.interrupted
+        assert dict(again.stats) == dict(result.stats) and again.about == result.about
+        assert {k: type(v) for k, v in again.stats.items()} == {k: type(v) for k, v in result.stats.items()}
+        assert not again["position"].flags.writeable and not again.time.flags.writeable
+        values = {"time": again.time, **again.channels}
     np.testing.assert_array_equal(values.pop("time"), result.time)
     assert set(values) == set(result.channels)
     for name, array in values.items():
@@ -266,111 +211,17 @@ def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, b
         np.testing.assert_array_equal(array, result[name], err_msg=name)
 
 
-def test_the_dataset_names_units_and_coordinates(run: dict[str, Any], tmp_path: Path) -> None:
-    result = Result.from_arrays(**run)
-    dataset = result.to_xarray()
-    for name in ("time", *result.channels):
-        assert dataset[name].attrs["units"] and dataset[name].attrs["long_name"], name
-    assert dataset["vessel_motion"].sel(motion="heave").dims == ("time",)
-    np.testing.assert_array_equal(
-        dataset["cylinder_force"].sel(cylinder="knuckle"), result.select("cylinder_force", cylinder="knuckle")
-    )
-    dataset["stroke"][0] = 5.0
-    assert result["stroke"][0, 0] == 0.0, "the dataset is a copy"
-
-
-def test_channels_of_any_scene_carry_their_own_names(tmp_path: Path) -> None:
-    time = np.linspace(0, 1, 5)
-    single = np.outer(time, [2.0])
-    run = crane_run(waves=False, t_end=1.0)
-    result = Result.from_arrays(
-        time=time,
-        arrays={
-            "coordinate": np.outer(time, [1.0, 3.0]),
-            "actuator_force": single,
-            "driver_force": single.copy(),
-            "tension": single.copy(),
-        },
-        coords={
-            "joint_coordinate": ["hinge.angle", "slide.displacement"],
-            "actuator": ["motor"],
-            "driver": ["base"],
-            "link": ["wire"],
-        },
-        stats=run["stats"],
-    )
-    again = Result.load(result.save(tmp_path / "general.nc"))
-    assert again.coords == result.coords and again.dims == result.dims
-    np.testing.assert_array_equal(again.select("coordinate", joint_coordinate="slide.displacement"), 3 * time)
-    dataset = result.to_xarray()
-    np.testing.assert_array_equal(dataset["tension"].sel(link="wire"), 2 * time)
-
-
-def test_time_is_the_first_variable_of_the_file(run: dict[str, Any], tmp_path: Path) -> None:
-    import netCDF4
-
-    with netCDF4.Dataset(Result.from_arrays(**run).save(tmp_path / "r.nc")) as file:
-        assert next(iter(file.variables)) == "time"
-        assert file["quaternion"].dimensions == ("time", "body", "wxyz")
-        assert file.data_model == "NETCDF4"
-
-
-def test_an_interrupted_result_says_so_in_its_file(run: dict[str, Any], tmp_path: Path) -> None:
-    result = Result.from_arrays(**run, interrupted=True)
-    assert Result.load(result.save(tmp_path / "r.nc")).interrupted
-    assert result.to_xarray().attrs["interrupted"] == 1
-
-
-def test_a_result_prints_in_one_line(run: dict[str, Any]) -> None:
-    assert repr(Result.from_arrays(**run)) == "<Result of 'case2': 51 outputs to 5 s, 21 channels>"
-    run = crane_run(t_end=5.0, waves=False)
-    assert repr(Result.from_arrays(**run, interrupted=True)).endswith("19 channels, interrupted>")
-
-
-@pytest.mark.parametrize("seed", [0, 2**63 - 1, 2**64 - 1])
-def test_large_seeds_and_an_endless_repeat_period_are_kept(
-    run: dict[str, Any], tmp_path: Path, seed: int
-) -> None:
-    run["stats"] |= {"seed": seed, "repeat_period_s": np.inf}
-    again = Result.load(Result.from_arrays(**run).save(tmp_path / "r.nc"))
-    assert again.stats["seed"] == seed and again.stats["repeat_period_s"] == np.inf
-
-
-def test_a_result_passes_between_processes(run: dict[str, Any]) -> None:
-    result = Result.from_arrays(**run)
-    again = pickle.loads(pickle.dumps(result))
-    assert again.stats == result.stats and again.coords == result.coords
-    np.testing.assert_array_equal(again["position"], result["position"])
-    assert not again["position"].flags.writeable and not again.time.flags.writeable
-
-
-def without(mapping: dict[str, Any], name: str) -> dict[str, Any]:
-    return {key: value for key, value in mapping.items() if key != name}
-
-
 BAD_INPUT = {
-    "unknown channel": (lambda r: r["arrays"].update(heave=r["time"]), "'heave' is unknown"),
-    "wrong shape": (
-        lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T),
-        r"'stroke' has shape \(2, 51\)",
-    ),
-    "not a number in a finished run": (
-        lambda r: r["arrays"]["stroke"].__setitem__((3, 1), np.nan),
-        "'stroke' is not finite at output 3",
-    ),
-    "infinite in a finished run": (
-        lambda r: r["arrays"]["slew_angle"].__setitem__(4, np.inf),
-        "'slew_angle' is not finite at output 4",
-    ),
-    "time going back": (lambda r: r["time"].__setitem__(2, 0.0), "strictly increasing"),
-    "no output at all": (lambda r: r.update(time=np.empty(0)), "at least one output time"),
+    "unknown channel": (lambda r: r["arrays"].update(heave=r["time"]), "'heave'"),
+    "wrong shape": (lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T), r"'stroke'.*\(2, 51\)"),
+    "not a number": (lambda r: r["arrays"]["stroke"].__setitem__((3, 1), np.nan), "'stroke'.*output 3"),
+    "infinite": (lambda r: r["arrays"]["slew_angle"].__setitem__(4, np.inf), "'slew_angle'.*output 4"),
+    "time going back": (lambda r: r["time"].__setitem__(2, 0.0), "increasing"),
+    "no output at all": (lambda r: r.update(time=np.empty(0)), "time"),
     "a body named twice": (lambda r: r["coords"].update(body=["vessel"] * 2), "more than once: vessel"),
-    "a counter missing": (lambda r: r.update(stats=without(r["stats"], "steps")), "stats lack steps"),
-    "a counter not a number": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s' is not a number"),
-    "what is structured": (
-        lambda r: r["stats"].update(bounds="[]"),
-        r"numbers and words; give 'bounds' in about=About\(bounds=...\)",
-    ),
+    "a counter missing": (lambda r: r["stats"].pop("steps"), "steps"),
+    "a counter not a number": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s'"),
+    "what is structured": (lambda r: r["stats"].update(bounds="[]"), "'bounds'"),
     "a counter of no plain kind": (lambda r: r["stats"].update(steps=[1]), "'steps' is a list"),
 }
 
@@ -383,38 +234,21 @@ def test_refuses(run: dict[str, Any], case: str) -> None:
         Result.from_arrays(**run)
 
 
-def test_an_interrupted_run_may_hold_what_stopped_it(run: dict[str, Any]) -> None:
-    run["arrays"]["slew_torque"][-1] = np.nan
-    assert np.isnan(Result.from_arrays(**run, interrupted=True)["slew_torque"][-1])
-
-
-def test_loading_names_the_file_that_is_no_result(run: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"no result file .*absent\.nc"):
+def test_a_file_that_is_no_result_is_named(run: dict[str, Any], tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"absent\.nc"):
         Result.load(tmp_path / "absent.nc")
-    (tmp_path / "text.nc").write_text("time,heave\n")
-    with pytest.raises(FileFormatError, match=r"text\.nc is not a seacrane result"):
-        Result.load(tmp_path / "text.nc")
     whole = Result.from_arrays(**run).save(tmp_path / "whole.nc").read_bytes()
-    for share in (0.1, 0.5, 0.9):
-        (tmp_path / "cut.nc").write_bytes(whole[: int(share * len(whole))])
+    contents = [b"time,heave\n", *(whole[: int(share * len(whole))] for share in (0.1, 0.5, 0.9))]
+    for content in contents:
+        (tmp_path / "cut.nc").write_bytes(content)
         with pytest.raises(FileFormatError, match=r"cut\.nc"):
             Result.load(tmp_path / "cut.nc")
-
-
-def test_a_foreign_netcdf_file_is_refused(tmp_path: Path) -> None:
-    import netCDF4
-
-    with netCDF4.Dataset(tmp_path / "other.nc", "w") as file:
-        file.createDimension("time", 2)
-        file.createVariable("temperature", "f8", ("time",))[:] = [1, 2]
-    with pytest.raises(FileFormatError, match=r"other\.nc has no variable 'time'"):
+    xarray.Dataset({"temperature": ("time", [1.0, 2.0])}).to_netcdf(tmp_path / "other.nc")
+    with pytest.raises(FileFormatError, match=r"other\.nc.*'time'"):
         Result.load(tmp_path / "other.nc")
-
-
-def test_saving_where_there_is_no_folder_leaves_nothing(run: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(OSError, match=r"could not write .*r\.nc: there is no folder"):
+    with pytest.raises(OSError, match=r"r\.nc.*folder"):
         Result.from_arrays(**run).save(tmp_path / "absent" / "r.nc")
-    assert not list(tmp_path.iterdir())
+    assert not (tmp_path / "absent").exists()
 
 
 FULL_DISK = """

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import json
-import re
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
@@ -56,19 +55,19 @@ def with_scene(path: Path, text: bytes, kind: str = "u1") -> Path:
     return path
 
 
-def test_a_page_is_drawn_from_the_file_alone(tmp_path: Path) -> None:
+def test_a_page_is_drawn_and_a_run_repeated_from_the_file_alone(tmp_path: Path) -> None:
     loaded = Result.load(alone().save(tmp_path / "run.nc"))
     assert isinstance(loaded.scene, Scene)
     assert loaded.scene == alone().scene
     assert view(loaded).html == view(alone()).html
+    np.testing.assert_array_equal(simulate(loaded.scene, 20.0)["position"], loaded["position"])
+    loaded.scene.add_mesh(body="vessel", vertices=np.eye(3), faces=[[0, 1, 2]])
     again = Result.load(loaded.save(tmp_path / "again.nc"))
-    assert again.scene == alone().scene
-    assert "<h2>In three dimensions</h2>" in report(loaded).html
+    assert again.scene is not None and list(again.scene.meshes) == ["vessel"]
+    assert "<h2>In three dimensions</h2>" in report(again).html
 
 
-def test_a_run_to_a_file_keeps_its_scene_while_it_goes_on_and_when_it_is_resumed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_to_a_file_keeps_its_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path, scene = tmp_path / "run.nc", pendulum()
     with monkeypatch.context() as patch:
         patch.setattr(ResultFile, "finish", lambda self, reached_end: self._partial.path)
@@ -86,44 +85,14 @@ def test_a_run_to_a_file_keeps_its_scene_while_it_goes_on_and_when_it_is_resumed
     assert view(longer).motion.end == 2.0
 
 
-def test_notes_are_in_the_settings_alone(tmp_path: Path) -> None:
-    loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
-    assert loaded.scene is not None
-    assert loaded.scene.notes == {}
-    assert loaded.settings["notes"] == {"project": "secret"}
-
-
-def test_what_is_changed_in_the_scene_of_a_result_is_saved(tmp_path: Path) -> None:
-    loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
-    assert loaded.scene is not None
-    loaded.scene.add_mesh(body="ball", vertices=np.eye(3), faces=[[0, 1, 2]])
-    again = Result.load(loaded.save(tmp_path / "again.nc")).scene
-    assert again is not None
-    assert list(again.meshes) == ["ball"]
-
-
-def test_a_scene_from_a_file_runs_as_it_ran(tmp_path: Path) -> None:
-    result = Result.load(alone().save(tmp_path / "run.nc"))
-    assert result.scene is not None
-    again = simulate(result.scene, 20.0)
-    np.testing.assert_array_equal(again["position"], result["position"])
-
-
 def without_scene(path: Path) -> Path:
     """A file of a run whose scene was too large for one."""
     return replace(alone(), kept_scene=None).save(path)
 
 
-def test_a_file_without_a_scene_says_so(tmp_path: Path) -> None:
-    result = Result.load(without_scene(tmp_path / "bare.nc"))
-    assert result.scene is None
-    with pytest.raises(
-        SceneError, match=r"file that holds no scene; give its scene with view\(result, scene="
-    ):
-        view(result)
+def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
+    """Functions by name; notes are in the settings alone."""
 
-
-def test_c_functions_are_left_out_by_name(tmp_path: Path) -> None:
     @ctypes.CFUNCTYPE(ctypes.c_int, *[ctypes.c_void_p] * 4)
     def function(*_: Any) -> int:
         return 0
@@ -133,67 +102,59 @@ def test_c_functions_are_left_out_by_name(tmp_path: Path) -> None:
     scene = pendulum()
     run = simulate(scene, 0.5)
     scene.add_function_force(name="<gust>", body="ball", address=address)
-    arrays = {"arrays": run.channels, "coords": run.coords, "stats": run.stats}
-    result = Result.from_arrays(time=run.time, **arrays, scene=scene)
+    result = Result.from_arrays(
+        time=run.time, arrays=run.channels, coords=run.coords, stats=run.stats, about=run.about, scene=scene
+    )
     loaded = Result.load(result.save(tmp_path / "run.nc"))
-    assert loaded.stats[NOT_KEPT] == "function force '<gust>': a file holds data only"
-    assert loaded.scene == pendulum().copy(notes={})
-    assert "<td>function force &#x27;&lt;gust&gt;&#x27;: a file holds data only</td>" in view(loaded).html
-    assert "left out" not in view(run).html
+    assert str(loaded.stats[NOT_KEPT]).startswith("function force '<gust>'")
+    assert loaded.scene == pendulum().copy(notes={}) and loaded.settings["notes"] == {"project": "secret"}
+    assert "function force &#x27;&lt;gust&gt;&#x27;" in view(loaded).html
 
 
-def test_a_scene_too_large_for_a_file_is_left_out_with_its_reason(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kept_scene, "LARGEST_FILE", 100)
     loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
     assert loaded.scene is None
-    with pytest.raises(SceneError, match=r"holds no scene \('the scene: takes \d+ bytes, above 100'\)"):
+    with pytest.raises(SceneError, match=r"takes \d+ bytes, above 100"):
         view(loaded)
     assert "In three dimensions" not in report(loaded).html
     told = simulate_to_file(pendulum(), tmp_path / "streamed.nc", 0.5)
     assert str(told.load().stats[NOT_KEPT]).startswith("the scene: takes")
 
 
-HOSTILE = {
+HOSTILE: dict[str, tuple[Any, str]] = {
     "no JSON": (b"\x00\xff\xfe" * 20, r"run\.nc: its scene"),
     "no scene": (b"{}", "is not a scene file"),
-    "nested": (b"[" * 100_000, r"run\.nc: its scene: (is nested too deeply|its lists)"),
+    "nested": (b"[" * 100_000, r"run\.nc: its scene"),
     "repeated": (b'{"format": "seacrane scene", "format": 1}', "occurs twice"),
     "no number": (b'{"mass": NaN}', "NaN is not a number"),
+    "an element that makes no sense": ((b'"mass": 1.0', b'"mass": "heavy"'), r"bodies\[0\]\.mass is 'heavy'"),
+    "other bodies": ((b'"ball"', b'"cube"'), "'ball', 'cube'"),
+    "larger than any": (b"{" + b" " * 20_000 + b"}", "20002 bytes"),
 }
 
 
 @pytest.mark.parametrize("case", HOSTILE)
-def test_hostile_bytes_are_refused_once_they_are_asked_for(case: str, tmp_path: Path) -> None:
+def test_hostile_bytes_are_refused(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if case == "larger than any":
+        monkeypatch.setattr("seacrane.description.file_text.LARGEST_FILE", 10_000)
     text, message = HOSTILE[case]
+    if isinstance(text, tuple):  # of a sound one
+        pendulum().save(tmp_path / "scene.json")
+        text = json.dumps(json.loads((tmp_path / "scene.json").read_text())).encode().replace(*text)
     loaded = Result.load(with_scene(tmp_path / "run.nc", text))
     assert loaded["position"].shape[1] == 1
-    for ask in (lambda: loaded.scene, lambda: view(loaded), lambda: report(loaded)):
-        with pytest.raises(FileFormatError, match=message) as caught:
-            ask()
-        assert len(str(caught.value)) < 500
-
-
-def test_an_element_that_makes_no_sense_is_named(tmp_path: Path) -> None:
-    path = simulate(pendulum(), 0.5).save(tmp_path / "sound.nc")
-    with netCDF4.Dataset(path) as file:
-        data = json.loads(bytes(file[SCENE][:]))
-    data["bodies"][0]["mass"] = "heavy"
-    loaded = Result.load(with_scene(tmp_path / "run.nc", json.dumps(data).encode()))
-    with pytest.raises(FileFormatError, match=re.escape("run.nc: its scene.bodies[0].mass is 'heavy'")):
+    with pytest.raises((FileFormatError, SceneError), match=message) as caught:
         view(loaded)
-
-
-def test_a_scene_larger_than_any_is_not_parsed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.description.file_text.LARGEST_FILE", 1000)
-    loaded = Result.load(with_scene(tmp_path / "run.nc", b"{" + b" " * 2000 + b"}"))
-    with pytest.raises(FileFormatError, match="has 2002 bytes, above 1000"):
-        view(loaded)
+    assert len(str(caught.value)) < 500
+    if case != "other bodies":
+        for ask in (lambda: loaded.scene, lambda: report(loaded)):
+            with pytest.raises(FileFormatError, match=message):
+                ask()
 
 
 def test_a_scene_that_unfolds_is_refused_before_it_is_read(tmp_path: Path) -> None:
-    """A quarter of a gigabyte of nothing in a small file."""
+    """A quarter of a gigabyte of nothing in a small file; and one that is no bytes."""
     path = with_scene(tmp_path / "run.nc", b"{}")
     with netCDF4.Dataset(path, "a") as file:
         file.renameVariable(SCENE, "old")
@@ -202,49 +163,37 @@ def test_a_scene_that_unfolds_is_refused_before_it_is_read(tmp_path: Path) -> No
         file.createVariable(SCENE, "u1", ("many",), zlib=True, chunksizes=(2**20,))[:8] = 1
     assert path.stat().st_size < 2**20
     tracemalloc.start()
-    with pytest.raises(FileFormatError, match="its scene_json has 268435456 bytes, above"):
+    with pytest.raises(FileFormatError, match="scene_json has 268435456 bytes"):
         Result.load(path)
     assert tracemalloc.get_traced_memory()[1] < 64 * 2**20
     tracemalloc.stop()
-
-
-def test_a_scene_that_is_no_bytes_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match="its scene_json is of float64, not bytes"):
-        Result.load(with_scene(tmp_path / "run.nc", b"{}", "f8"))
-
-
-def test_a_scene_of_other_bodies_is_refused(tmp_path: Path) -> None:
-    path = simulate(pendulum(), 0.5).save(tmp_path / "sound.nc")
-    with netCDF4.Dataset(path) as file:
-        text = bytes(file[SCENE][:]).replace(b'"ball"', b'"cube"')
-    loaded = Result.load(with_scene(tmp_path / "run.nc", text))
-    with pytest.raises(SceneError, match="is not the one of the result: 'ball', 'cube' are only in one"):
-        view(loaded)
+    with pytest.raises(FileFormatError, match="scene_json is of float64"):
+        Result.load(with_scene(tmp_path / "numbers.nc", b"{}", "f8"))
 
 
 def test_the_command_writes_the_page_of_a_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, page = alone().save(tmp_path / "run.nc"), tmp_path / "page.html"
     assert main(["view", str(source), "--out", str(page)]) == 0
-    assert f"saved {page}" in capsys.readouterr().out
     assert page.read_text(encoding="utf-8") == view(alone()).html
     page.write_text("mine")
     assert main(["view", str(source), "--out", str(page)]) == 1
-    assert "is there already; give another name, or --overwrite" in capsys.readouterr().err
-    assert page.read_text() == "mine"
+    assert "--overwrite" in capsys.readouterr().err and page.read_text() == "mine"
     assert main(["view", "vessel", "--out", str(page), "--overwrite"]) == 0
     assert page.read_text(encoding="utf-8") == view(cases.vessel()).html
-    assert main(["view", "vessel", "--out", str(tmp_path), "--overwrite"]) == 1
-    assert "is a folder; name the page" in capsys.readouterr().err
 
 
 def test_the_command_says_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    page = tmp_path / "page.html"
-    assert main(["view", str(without_scene(tmp_path / "bare.nc")), "--out", str(page)]) == 1
-    assert "holds no scene" in capsys.readouterr().err
-    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion"]).save(tmp_path / "few.nc")
-    assert main(["view", str(few), "--out", str(page)]) == 1
-    assert "does not hold position, quaternion, velocity, angular_velocity" in capsys.readouterr().err
+    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion"])
     (tmp_path / "script.py").write_text("raise SystemExit")
-    assert main(["view", str(tmp_path / "script.py"), "--out", str(page)]) == 1
-    assert "only `seacrane run` executes scripts" in capsys.readouterr().err
+    missing = {
+        without_scene(tmp_path / "bare.nc"): "holds no scene",
+        few.save(tmp_path / "few.nc"): "position, quaternion, velocity, angular_velocity",
+        tmp_path / "script.py": "seacrane run",
+    }
+    page = tmp_path / "page.html"
+    for source, words in missing.items():
+        assert main(["view", str(source), "--out", str(page)]) == 1
+        assert words in capsys.readouterr().err
     assert not page.exists()
+    assert main(["view", "vessel", "--out", str(tmp_path), "--overwrite"]) == 1
+    assert "is a folder" in capsys.readouterr().err

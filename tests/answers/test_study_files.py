@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
-import re
 import resource
 import signal
 import subprocess
@@ -30,39 +28,25 @@ from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.lift.study_schema import study_schema, study_schema_text
 
-LIFT = """format = "seacrane lift"
-version = 2
+LIFT = """format = "seacrane lift"; version = 2
 
 [vessel]
-database = "hull_115"
-memory = "none"
+database = "hull_115"; memory = "none"
 
 [sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
-"""
-STUDY = """format = "seacrane study"
-version = 2
-lift = "ship.toml"
+seed = 7; hs_m = 1.5; tp_s = 8; count = 20
+""".replace("; ", "\n")
+STUDY = """format = "seacrane study"; version = 2; lift = "ship.toml"
 
 [over]
-seed = { first = 1, count = 40 }
-hs = [1, 2.0]
+seed = { first = 1, count = 40 }; hs = [1, 2.0]
 
 [[keep]]
-name = "heave"
-channel = "position"
-what = "maximum"
-names = { body = "vessel", axis = "z" }
+name = "heave"; channel = "position"; what = "maximum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [[keep]]
-name = "deepest"
-channel = "position"
-what = "minimum"
-names = { body = "vessel", axis = "z" }
+name = "deepest"; channel = "position"; what = "minimum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [until]
@@ -73,7 +57,7 @@ t_end_s = 8
 
 [method]
 rtol = 1e-2
-"""
+""".replace("; ", "\n")
 
 
 @pytest.fixture
@@ -93,7 +77,12 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
+def command(study: Path, out: str | Path = "out", *options: str) -> list[str]:
+    return ["study", str(study), "--out", str(study.parent / out), *options]
+
+
 def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
+    """And its tables hold what the members say."""
     there = Ensemble.load(ran / MEMBERS)
     place: dict[str, Any] = {"channel": "position", "names": {"body": "vessel", "axis": "z"}, "after": 2.0}
     lift = Lift.load(ran.parent / "ship.toml")
@@ -106,14 +95,11 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
         rtol=1e-2,
     )
     assert there.dataset.identical(same.dataset)
-    assert shown_study(ran).certainty == same.certainty
-
-
-def test_tables_hold_what_the_members_say(ran: Path) -> None:
-    data = Ensemble.load(ran / MEMBERS).dataset
-    heave, deepest = shown_study(ran).tables
+    shown = shown_study(ran)
+    assert shown.certainty == same.certainty
+    heave, deepest = shown.tables
     for cell in heave.cells:
-        values = data.heave.sel(cell.parameters).dropna("seed").to_numpy()
+        values = there.dataset.heave.sel(cell.parameters).dropna("seed").to_numpy()
         assert cell.values.tolist() == values.tolist()
         value, low, high = cell.numbers("mpm")
         assert low < value < high < values.max() + 1.0
@@ -126,9 +112,7 @@ def test_tables_hold_what_the_members_say(ran: Path) -> None:
 def test_show_prints_tables_and_draws(ran: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["show", str(ran), "--out", str(tmp_path)]) == 0
     told = capsys.readouterr().out
-    assert "members run, 0 failed" in told
-    assert "Maximum in 6 s by Gumbel's distribution" in told
-    assert "heave.mpm (hs=2.0)" in told
+    assert "0 failed" in told and "Gumbel" in told and "heave.mpm (hs=2.0)" in told
     assert {path.name for path in tmp_path.iterdir()} == {
         "heave.csv", "deepest.csv", "heave-over-hs.png", "deepest-over-hs.png",
     }  # fmt: skip
@@ -136,41 +120,45 @@ def test_show_prints_tables_and_draws(ran: Path, capsys: pytest.CaptureFixture[s
     assert head.startswith("hs,seeds,mean [m],scatter [m],most probable [m]")
     assert float(first.split(",")[2]) == pytest.approx(shown_study(ran).tables[0].cells[0].mean)
     assert main(["show", str(ran), "--json"]) == 1
-    assert "--json is for a result" in capsys.readouterr().err
+    assert "--json" in capsys.readouterr().err
 
 
 def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = STUDY.replace("hs = [1, 2.0]\n", "").replace("heave.mpm = 0.25", "heave.mpm = 0.9")
     text += "[statistics]\nexposure_s = 60\n"
     study.write_text(text)
-    assert main(["study", str(study), "--out", str(study.parent / "one")]) == 0
+    assert main(command(study, "one")) == 0
     told = capsys.readouterr().out
-    assert "heave-gumbel.png" in told
-    assert "Maximum in 60 s" in told
+    assert "heave-gumbel.png" in told and "Maximum in 60 s" in told
     over = text[text.index("[over]") : text.index("[[keep]]")]
     design = "[design]\ncount = 6\nranges = { hs = [1, 2], bodies.vessel.mass = [1e7, 1.1e7] }\n\n"
     study.write_text(text.replace(over, design).replace("[until]\nheave.mpm = 0.9\n", ""))
-    assert main(["study", str(study), "--out", str(study.parent / "design")]) == 0
+    assert main(command(study, "design")) == 0
     told = capsys.readouterr().out
-    assert "6 of 6 members run" in told
-    assert "heave-over-bodies.vessel.mass.png" in told
+    assert "6 of 6 members run" in told and "heave-over-bodies.vessel.mass.png" in told
 
 
 @pytest.mark.warns("FailedSeedsWarning")
 def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
     study.write_text(STUDY.replace('body = "vessel"', 'body = "vassal"'))
-    assert main(["study", str(study), "--out", str(study.parent / "out")]) == 0
+    assert main(command(study)) == 0
     told = capsys.readouterr().out
-    assert "40 of 40 members run, 40 failed" in told
-    assert "vassal" in told
-
-
-def test_a_study_of_a_channel_that_is_not_there_is_refused(
-    study: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+    assert "40 of 40 members run, 40 failed" in told and "vassal" in told
     study.write_text(STUDY.replace('channel = "position"', 'channel = "swing"'))
-    assert main(["study", str(study), "--out", str(study.parent / "out")]) == 1
-    assert "channel 'swing' is unknown to this scene; it needs" in capsys.readouterr().err
+    assert main(command(study, "other")) == 1
+    assert "'swing'" in capsys.readouterr().err
+
+
+def started(study: Path, packs: int, *options: str) -> subprocess.Popen[bytes]:
+    """The study in a process of its own that has written so many packs."""
+    child = subprocess.Popen(
+        [sys.executable, "-m", "seacrane", *command(study, "out", *options)],
+        stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+    )  # fmt: skip
+    until = time.monotonic() + 60.0
+    while len(list((study.parent / "out" / MEMBERS).glob("pack_*.nc"))) < packs and time.monotonic() < until:
+        time.sleep(0.01)
+    return child
 
 
 @pytest.mark.parametrize(
@@ -181,37 +169,26 @@ def test_ctrl_c_keeps_what_came_back_and_the_same_command_goes_on(
 ) -> None:
     study.write_text(STUDY.replace("count = 40", "count = 20000").replace("0.25", "0.004"))
     out = study.parent / "out"
-    command = ["study", str(study), "--out", str(out), *workers]
-    child = subprocess.Popen(
-        [sys.executable, "-m", "seacrane", *command], stderr=subprocess.PIPE, stdout=subprocess.PIPE
-    )
-    until = time.monotonic() + 60.0
-    while len(list((out / MEMBERS).glob("pack_*.nc"))) < 3 and time.monotonic() < until:
-        time.sleep(0.01)
+    child = started(study, 3, *workers)
     child.send_signal(signal.SIGINT)
     _, told = child.communicate(timeout=60)
-    assert child.returncode == 130, told
-    assert b"interrupted" in told
+    assert child.returncode == 130 and b"interrupted" in told, told
     kept = {path: path.stat().st_mtime_ns for path in (out / MEMBERS).glob("pack_*.nc")}
     assert len(kept) >= 3
     assert main(["show", str(out)]) == 0
     assert "members run, 0 failed" in capsys.readouterr().out
     study.write_text(STUDY)
-    assert main(["study", *command[1:4]]) == 0
+    assert main(command(study)) == 0
     assert all(path.stat().st_mtime_ns == at for path, at in kept.items())
-    capsys.readouterr()
 
 
 def test_a_killed_study_goes_on_to_the_same(study: Path, ran: Path) -> None:
-    out = study.parent / "out"
-    child = subprocess.Popen([sys.executable, "-m", "seacrane", "study", str(study), "--out", str(out)])
-    until = time.monotonic() + 60.0
-    while len(list((out / MEMBERS).glob("pack_*.nc"))) < 2 and time.monotonic() < until:
-        time.sleep(0.01)
+    child = started(study, 2)
     child.kill()
-    child.wait()
-    run_study(study, out)
-    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+    child.communicate()
+    run_study(study, study.parent / "out")
+    again = Ensemble.load(study.parent / "out" / MEMBERS).dataset
+    assert again.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
 def test_a_full_disk_is_named_and_loses_nothing(study: Path, ran: Path) -> None:
@@ -229,22 +206,20 @@ def test_a_full_disk_is_named_and_loses_nothing(study: Path, ran: Path) -> None:
     assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
-def test_the_folder_of_another_study_is_refused(
-    study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_folder_of_another_study(study: Path, ran: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = (ran / "study.toml").read_bytes()
     study.write_text(STUDY.replace("t_end_s = 8", "t_end_s = 9"))
-    assert main(["study", str(study), "--out", str(ran)]) == 1
-    assert "is of another study: t_end differ" in capsys.readouterr().err
+    assert main(command(study, ran)) == 1
+    assert "t_end" in capsys.readouterr().err
     assert (ran / "study.toml").read_bytes() == before
-    (study.parent / "other").mkdir()
-    (study.parent / "other" / "letter.txt").touch()
-    with pytest.raises(SceneError, match="holds something else than a study"):
-        run_study(study, study.parent / "other")
-    with pytest.raises(SceneError, match="is a file; give the name of a folder"):
-        run_study(study, study)
-    assert main(["show", str(study.parent / "other")]) == 1
-    assert "is no folder of a study" in capsys.readouterr().err
+    other = study.parent / "other"
+    other.mkdir()
+    (other / "letter.txt").touch()
+    for place, words in ((other, "something else"), (study, "is a file")):
+        with pytest.raises(SceneError, match=words):
+            run_study(study, place)
+    assert main(["show", str(other)]) == 1
+    assert "no folder of a study" in capsys.readouterr().err
 
 
 def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
@@ -256,34 +231,34 @@ def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
     assert again.dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("seacrane study", "seacrane studio", "names another format, no study file"),
-        ("version = 2", "version = 3", "heave.toml line 2: version is 3"),
-        ('lift = "ship.toml"', "", "a study has a lift"),
-        ("ship.toml", "shop.toml", r"heave.toml line 3: lift is 'shop.toml': there is no file .*shop.toml"),
-        ("[over]", "[ovr]", r"line 5: ovr is unknown in a study; nearest: over"),
-        ("hs =", "hss =", "line 7: over: scene 'scene' has no parameter 'hss'; nearest: 'hs'"),
-        ("hs =", "bodies.vessel.mas =", "line 7: .* has no parameter .*; nearest: 'bodies.vessel.mass'"),
-        ("hs = [1, 2.0]", "hs = 2", "line 7: hs is 2; give a list"),
-        ("hs = [1, 2.0]", "hs = [1, 1]", "line 5: over: hs has 1 twice"),
-        ("count = 40", "count = 1000000000", "1000000000 seed x 2 hs are 2000000000 members"),
-        ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "are 40000000000 members"),
-        ("count = 40", "cont = 40", "line 6: cont is unknown in .*; nearest: count"),
-        ("count = 40", "count = 0", "line 6: count is 0"),
-        ("count = 40", "count = 10", "line 23: until: seed has 10 values and a batch takes 20"),
-        ('what = "maximum"', 'what = "biggest"', "line 12: what in .* is 'biggest'"),
-        ("after_s", "after", "line 14: after is unknown in .*; nearest: after_s"),
-        ('name = "deepest"', 'name = "heave"', "line 17: .* 'heave' is there twice"),
-        ('name = "deepest"', 'name = "member"', "keep: the name 'member' is taken"),
-        ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 24: until: heave.p95: 'p95' is no number of it"),
-        ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 24: until: nothing is kept as 'heeve'"),
-        ("heave.mpm = 0.25", "", r"line 23: \[until\] is empty"),
-        ("t_end_s", "t_end", "line 27: t_end is unknown in .*; nearest: t_end_s"),
-        ("[over]", "[design]\ncount = 3\n[over]", "a study has either"),
-    ],
-)
+BAD = [
+    ("seacrane study", "seacrane studio", "format"),
+    ("version = 2", "version = 3", "heave.toml line 2: version is 3"),
+    ('lift = "ship.toml"', "", "lift"),
+    ("ship.toml", "shop.toml", "heave.toml line 3: .*shop.toml"),
+    ("[over]", "[ovr]", "line 5: ovr .*nearest: over"),
+    ("hs =", "hss =", "line 7: .*'hss'; nearest: 'hs'"),
+    ("hs =", "bodies.vessel.mas =", "line 7: .*; nearest: 'bodies.vessel.mass'"),
+    ("hs = [1, 2.0]", "hs = 2", "line 7: hs is 2"),
+    ("hs = [1, 2.0]", "hs = [1, 1]", "line 5: over: hs has 1 twice"),
+    ("count = 40", "count = 1000000000", "2000000000 members"),
+    ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "40000000000 members"),
+    ("count = 40", "cont = 40", "line 6: cont .*nearest: count"),
+    ("count = 40", "count = 0", "line 6: count is 0"),
+    ("count = 40", "count = 10", "line 23: until: seed"),
+    ('what = "maximum"', 'what = "biggest"', "line 12: what .*'biggest'"),
+    ("after_s", "after", "line 14: after .*nearest: after_s"),
+    ('name = "deepest"', 'name = "heave"', "line 17: .*'heave'"),
+    ('name = "deepest"', 'name = "member"', "keep: .*'member'"),
+    ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 24: until: heave.p95"),
+    ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 24: until: .*'heeve'"),
+    ("heave.mpm = 0.25", "", r"line 23: \[until\]"),
+    ("t_end_s", "t_end", "line 27: t_end .*nearest: t_end_s"),
+    ("[over]", "[design]\ncount = 3\n[over]", "either"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), BAD)
 def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:
     assert old in STUDY
     study.write_text(STUDY.replace(old, new, 1))
@@ -292,61 +267,40 @@ def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, stud
     assert not (study.parent / "out").exists()
 
 
-def test_mistakes_of_the_lift_have_its_lines(study: Path) -> None:
+def test_mistakes_beside_the_file_are_named(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(WorkerVersionError, match="no seacrane"):
+        run_study(study, study.parent / "out", executor=Elsewhere())
+    address = "tcp://127.0.0.1:9"
+    for options, words in (
+        (["--workers", "0"], "--workers is 0"), (["--workers", "2", "--dask", address], "leave one out"),
+    ):  # fmt: skip
+        assert main(command(study, "out", *options)) == 1
+        assert words in capsys.readouterr().err
     (study.parent / "ship.toml").write_text(LIFT.replace("hs_m", "hs"))
-    with pytest.raises(FileFormatError, match=r"ship\.toml line 10: hs is unknown"):
+    with pytest.raises(FileFormatError, match=r"ship\.toml line 10: hs "):
         run_study(study, study.parent / "out")
+    (study.parent / "ship.toml").unlink()
+    read = StudyFile.load(study)
+    assert (len(read.members), read.until) == (80, {"heave.mpm": 0.25})
+    assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))
 
 
 @pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Any]:
-    """Makes a cluster of one worker process, with what the worker reads before it begins."""
-    distributed = pytest.importorskip(
-        "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
-    )
-    with contextlib.ExitStack() as stack:
-
-        def made(preload: str) -> str:
-            (tmp_path / "preload.py").write_text(preload)
-            there = distributed.LocalCluster(
-                n_workers=1, threads_per_worker=1, dashboard_address=None,
-                preload=[str(tmp_path / "preload.py")],
-            )  # fmt: skip
-            return str(stack.enter_context(there).scheduler_address)
-
-        yield made
+def cluster() -> Iterator[str]:
+    """The address of a cluster of one worker process."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra ensemble")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as there:
+        yield str(there.scheduler_address)
 
 
-def test_a_cluster_gives_the_same(cluster: Any, study: Path, ran: Path) -> None:
-    out = study.parent / "out"
-    assert main(["study", str(study), "--out", str(out), "--dask", cluster("")]) == 0
-    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
-
-
-BLOCKED = """
-import sys
-class Block:
-    def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] == "seacrane":
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-sys.meta_path.insert(0, Block())
-"""
-
-
-def test_a_worker_without_seacrane_is_named(
-    cluster: Any, study: Path, capsys: pytest.CaptureFixture[str]
+def test_a_cluster_gives_the_same(
+    cluster: str, study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["study", str(study), "--out", str(study.parent / "out"), "--dask", cluster(BLOCKED)]) == 1
-    told = capsys.readouterr().err
-    assert re.search(r"worker tcp://\S+ has no seacrane; install ", told)
-    assert not (study.parent / "out").exists()
-
-
-def test_an_address_where_nothing_answers(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("distributed", reason="needs the extra ensemble")
-    address = "tcp://127.0.0.1:9"
-    assert main(["study", str(study), "--out", str(study.parent / "out"), "--dask", address]) == 1
-    assert f"--dask {address}: no scheduler answers" in capsys.readouterr().err
+    out, nowhere = study.parent / "out", "tcp://127.0.0.1:9"
+    assert main(command(study, "out", "--dask", nowhere)) == 1
+    assert f"--dask {nowhere}: no scheduler" in capsys.readouterr().err
+    assert main(command(study, "out", "--dask", cluster)) == 0
+    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
 class Elsewhere(Executor):
@@ -358,25 +312,6 @@ class Elsewhere(Executor):
         return failed
 
 
-def test_an_executor_without_seacrane_is_named(study: Path) -> None:
-    with pytest.raises(WorkerVersionError, match=r"a worker has no seacrane .* install it there"):
-        run_study(study, study.parent / "out", executor=Elsewhere())
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--workers", "0"], "--workers is 0"),
-        (["--workers", "2", "--dask", "tcp://127.0.0.1:9"], "leave one out"),
-    ],
-)
-def test_options_that_make_no_sense(
-    options: list[str], message: str, study: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["study", str(study), "--out", str(study.parent / "out"), *options]) == 1
-    assert message in capsys.readouterr().err
-
-
 def test_the_schema_is_current_and_knows_the_study() -> None:
     assert schema_path("study").read_text(encoding="utf-8") == study_schema_text()
     jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
@@ -385,11 +320,3 @@ def test_the_schema_is_current_and_knows_the_study() -> None:
     assert not list(check.iter_errors(tomllib.loads(STUDY)))
     for old, new in (("[over]", "[ovr]"), ("after_s", "after"), ("count = 40", "cont = 40"), ("0.25", "2")):
         assert list(check.iter_errors(tomllib.loads(STUDY.replace(old, new, 1)))), old
-
-
-def test_a_file_is_read_without_its_lift(study: Path) -> None:
-    (study.parent / "ship.toml").unlink()
-    read = StudyFile.load(study)
-    assert len(read.members) == 80
-    assert read.until == {"heave.mpm": 0.25}
-    assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))

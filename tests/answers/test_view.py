@@ -9,7 +9,6 @@ import json
 import pickle
 import re
 from dataclasses import astuple
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -21,42 +20,29 @@ from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 from seacrane import Result, Scene, SceneError, cases, simulate, view
 from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
+from seacrane.description.file import scene_digest
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
-from seacrane.inputs.frames import quaternion_of, rotation_matrix
-from seacrane.pictures import View
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.hull_shapes import schematic_size
 from seacrane.pictures.packing import Blob
 from seacrane.pictures.page_sea import sea_components
-from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
+from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
 from seacrane.pictures.shapes import BoxShape, HullShape, TubeShape, equivalent_box, framework
 from seacrane.pictures.wires import wires_of
 
 
-class Page(HTMLParser):
+class Page:
     """What a browser makes of a page: its elements, and the text of its scripts."""
 
     def __init__(self, html: str) -> None:
-        super().__init__()
-        self.elements: list[str] = []
-        self.scripts: dict[str | None, str] = {}
-        self._script: str | None = None
-        self._inside = False
-        self.feed(html)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append(tag)
-        self._inside = tag == "script"
-        self._script = dict(attrs).get("id")
-
-    def handle_endtag(self, tag: str) -> None:
-        self._inside = False
-
-    def handle_data(self, data: str) -> None:
-        if self._inside:
-            self.scripts[self._script] = self.scripts.get(self._script, "") + data
+        found = re.findall(r"<script([^>]*)>(.*?)</script>", html, re.DOTALL)
+        self.scripts = {re.sub(r'.*id="?(\w+).*', r"\1", told): text for told, text in found}
+        self.elements = re.findall(
+            r"<(\w+)", re.sub(r"(<script)[^>]*>.*?</script>", r"\1", html, flags=re.DOTALL)
+        )
 
     @property
     def data(self) -> dict[str, Any]:
@@ -84,7 +70,7 @@ def test_a_pose_at_any_output_is_that_of_the_run() -> None:
     assert motion.error[0] < 1e-3
 
 
-def test_the_page_holds_the_poses_that_the_view_tells() -> None:
+def test_the_page_is_small_and_holds_the_poses_that_the_view_tells() -> None:
     shown = view(case2())
     page = Page(shown.html)
     told = page.data["motion"]
@@ -93,9 +79,11 @@ def test_the_page_holds_the_poses_that_the_view_tells() -> None:
         found = page.series(told[name]).T.reshape(expected.shape)
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * step)
     assert [body["name"] for body in page.data["bodies"]] == list(case2().coords["body"])
+    assert case2().scene is not None and scene_digest(case2().scene)[:12] in shown.html
+    assert len(shown.html.encode()) < 1.5e6
 
 
-def test_a_snatch_asks_for_more_frames() -> None:
+def test_a_snatch_asks_for_more_frames_and_outputs_bound_them() -> None:
     """Between outputs of 0.05 s, a payload that stops within one needs the finer interval."""
     scene = Scene(name="bounce")
     scene.add_body(
@@ -105,37 +93,22 @@ def test_a_snatch_asks_for_more_frames() -> None:
                     second_point=(0, 0, -0.5), length=1.0)  # fmt: skip
     scene.add_line(joint="wire", rung="rigid", restitution=0.5)
     coarse = motion_of(simulate(scene, 3.0, dt_out=0.05))
-    assert coarse.interval == pytest.approx(0.1)
-    assert coarse.error[0] > 0.0
-
-
-def test_frames_are_no_finer_than_the_outputs() -> None:
+    assert coarse.interval == pytest.approx(0.1) and coarse.error[0] > 0.0
     motion = motion_of(simulate(cases.vessel(), 10.0, dt_out=0.5))
-    assert motion.interval == pytest.approx(0.5)
-    assert motion.end == pytest.approx(10.0)
+    assert (motion.interval, motion.end) == pytest.approx((0.5, 10.0))
+    data = Page(view(simulate(scene, 1.0)).html).data
+    assert data["sea"] is None and data["bodies"][0]["role"] == "body"
 
 
-def test_the_rate_of_a_quaternion_is_that_of_its_rotation() -> None:
-    """Turned by a small rotation in inertial axes."""
-    rng = np.random.default_rng(4)
-    q, w, dt = rng.normal(size=4), rng.normal(size=3), 1e-6
-    q /= np.linalg.norm(q)
-    turned = rotation_matrix(q + dt * quaternion_rate(q, w))
-    x, y, z = w
-    spin = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    np.testing.assert_allclose(turned, (np.eye(3) + dt * spin) @ rotation_matrix(q), atol=1e-10)
-    np.testing.assert_allclose(quaternion_of(rotation_matrix(q)) * np.sign(q[0]), q, atol=1e-12)
-
-
-@pytest.mark.parametrize("step", [1e-4, 1e-15])
-def test_a_series_comes_back_within_half_a_step(step: float) -> None:
+def test_a_series_comes_back_within_half_a_step() -> None:
     values = np.cumsum(np.random.default_rng(2).normal(size=(3, 50)), axis=1) * 1e3
-    blob = Blob()
-    blob.floats(np.ones(3))
-    told = blob.series(values, step)
-    page = Page(f"<script id=blob>{blob.text()}</script>")
-    np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
-    assert told["step"] >= step
+    for step in (1e-4, 1e-15):  # the second is too small for whole numbers of 32 bits
+        blob = Blob()
+        blob.floats(np.ones(3))
+        told = blob.series(values, step)
+        page = Page(f"<script id=blob>{blob.text()}</script>")
+        np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
+        assert told["step"] >= step
 
 
 def test_the_sea_is_that_of_the_scene() -> None:
@@ -148,10 +121,6 @@ def test_the_sea_is_that_of_the_scene() -> None:
     assert np.sum(a * np.cos(w * t + phase - kx * x - ky * y)) == pytest.approx(float(expected), abs=1e-9)
     assert np.all(np.diff(a) <= 0.0)
     assert len(table) == np.size(scene.waves.omega)
-
-
-def test_a_lift_of_a_minute_is_small() -> None:
-    assert len(view(case2()).html.encode()) < 1.5e6
 
 
 def test_crane_members_are_those_of_the_data_file() -> None:
@@ -170,12 +139,10 @@ def test_crane_members_are_those_of_the_data_file() -> None:
 
 
 def test_a_crane_that_is_none_of_ours_is_bars_between_its_joints() -> None:
+    """As short as can be."""
     scene = cases.case2()
     jib = scene.bodies["main_jib"]
-    scene.bodies["main_jib"] = type(jib)(
-        name=jib.name, mass=2.0 * jib.mass, inertia=jib.inertia, center_of_mass=jib.center_of_mass,
-        position=jib.position, quaternion=jib.quaternion,
-    )  # fmt: skip
+    scene.replace("main_jib", mass=2.0 * jib.mass)
     bars = looks(scene)["main_jib"].shapes
     assert len(bars) == 3
     assert all(isinstance(bar, TubeShape) for bar in bars)
@@ -184,40 +151,30 @@ def test_a_crane_that_is_none_of_ours_is_bars_between_its_joints() -> None:
     held += [joint.second_frame.point for joint in scene.joints.values() if joint.second == "main_jib"]
     points = np.array(held).reshape(-1, 3) - jib.center_of_mass
     np.testing.assert_allclose(ends, np.unique(np.round(points, 6), axis=0), atol=1e-5)
-
-
-def test_bars_are_as_short_as_can_be() -> None:
     bars = framework(np.array([[0.0, 0, 0], [3.0, 0, 0], [1.0, 0, 0], [1.0, 1.0, 0]]), 0.1)
     assert sum(np.linalg.norm(bar.end - bar.start) for bar in bars) == pytest.approx(4.0)
 
 
 def test_the_equivalent_box_of_a_box_is_that_box() -> None:
     size, mass = np.array([3.0, 2.0, 0.5]), 7.0
-    squares = size**2
-    inertia = np.diag(mass / 12.0 * (squares.sum() - squares))
+    inertia = np.diag(mass / 12.0 * (np.sum(size**2) - size**2))
     turn = rotation_matrix((0.9, 0.1, -0.2, 0.3))
     box = equivalent_box(mass, turn @ inertia @ turn.T)
-    np.testing.assert_allclose(
-        box.axes @ np.diag(box.size**2) @ box.axes.T, turn @ np.diag(squares) @ turn.T, atol=1e-9
-    )
+    found = box.axes @ np.diag(box.size**2) @ box.axes.T
+    np.testing.assert_allclose(found, turn @ np.diag(size**2) @ turn.T, atol=1e-9)
     np.testing.assert_allclose(np.linalg.det(box.axes), 1.0)
 
 
 def test_the_shipped_vessel_has_the_shipped_hull_and_another_a_schematic_one() -> None:
+    """Which displaces its mass."""
     result = pair()
     assert result.scene is not None
     found = looks(result.scene)
-    assert "hull_115" in found["vessel"].note
-    assert "schematic" in found[HTML_NAME].note
+    assert "hull_115" in found["vessel"].note and "schematic" in found[HTML_NAME].note
     (true,), (made_up,) = found["vessel"].shapes, found[HTML_NAME].shapes
-    assert isinstance(true, HullShape)
-    assert isinstance(made_up, HullShape)
+    assert isinstance(true, HullShape) and isinstance(made_up, HullShape)
     np.testing.assert_allclose(np.ptp(true.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-3)
     np.testing.assert_allclose(np.ptp(made_up.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-2)
-    assert "schematic hull, from mass and inertia" in view(result).html
-
-
-def test_a_schematic_hull_displaces_its_mass() -> None:
     length, breadth, draught = schematic_size(14e6, 14e6 * np.diag([0.36 * 25, 0.25 * 115, 0.25 * 115]) ** 2)
     assert (length, breadth) == pytest.approx((115.0, 25.0))
     assert 1025.0 * 0.7 * length * breadth * draught == pytest.approx(14e6)
@@ -239,13 +196,8 @@ def test_a_hull_of_ones_own_is_drawn() -> None:
     assert highest[0] - lowest[0] == pytest.approx(60.0, abs=1e-3)
 
 
-def test_a_hull_of_too_many_panels_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.pictures.drawn_bodies.LARGEST_HULL", 1000)
-    with pytest.raises(SceneError, match=r"has 2278 panels, above 1000; give hull\.remeshed"):
-        view(alone(), hulls={"vessel": shipped_hull()})
-
-
 def test_only_wires_go_slack() -> None:
+    """A luffing rope is drawn whether it is a line or not."""
     scene = cases.case2()
     assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0
     scene.add_line(joint="link", rung="rigid")
@@ -255,6 +207,14 @@ def test_only_wires_go_slack() -> None:
     link, tugger = wires_of(scene, list(scene.bodies))
     assert (link["kind"], link["length"]) == ("wire", 8.0)
     assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
+    scene = Scene(name="lattice")
+    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
+    (led,) = wires_of(scene, list(scene.bodies))
+    assert (led["name"], led["kind"]) == ("luffing rope", "link")
+    scene.add_luffing_rope()
+    falls = wires_of(scene, list(scene.bodies))
+    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
+    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]
 
 
 def test_a_cylinder_between_two_points_has_a_barrel_and_a_rod() -> None:
@@ -300,52 +260,21 @@ def test_chosen_channels_are_drawn_in_their_units() -> None:
     assert view(case2(), channels=()).html.count('"strip":[]') == 1
 
 
-@pytest.mark.parametrize(
-    ("channels", "message"),
-    [
-        (["tension_of_link"], "channel 'tension_of_link' is not in this result; it holds position"),
-        (["vessel_motion[rol]"], "has dimensions ('time', 'motion'), not 'vessel'"),
-        (["position"], "position has 30 lines, a panel shows 6; pick among vessel x"),
-        ("stroke", "channels is 'stroke'; give a list"),
-    ],
-)
-def test_a_channel_that_cannot_be_drawn_is_refused(channels: Any, message: str) -> None:
-    with pytest.raises(SceneError, match=re.escape(message)):
-        view(case2(), channels=channels)
-
-
 def test_names_appear_as_text() -> None:
-    """Names with markup neither end a script nor become elements."""
-    html = view(pair()).html
-    plain = Page(view(alone()).html)
-    page = Page(html)
+    """Names with markup neither end a script nor become elements, nor leave a notebook's frame."""
+    shown, plain = view(pair(), height=500), Page(view(alone()).html)
+    page = Page(shown.html)
     assert page.elements.count("script") == plain.elements.count("script") == 3
     assert not {"b", "i"} & set(page.elements)
     assert HTML_NAME in {body["name"] for body in page.data["bodies"]}
-    assert "<b onclick" not in html
-    assert "&lt;i&gt;two vessels&lt;/i&gt;</title>" in html
-
-
-def test_the_caption_tells_scene_seed_method_and_energy() -> None:
-    from seacrane.description.file import scene_digest
-
-    result = case2()
-    html = view(result).html
-    assert result.scene is not None
-    assert scene_digest(result.scene)[:12] in html
-    for words in ("<td>1</td>", "tolerance 1e-06", "of the absolute work", "joints closed to", "y to port"):
-        assert words in html
-
-
-def test_a_notebook_shows_the_page_in_a_frame() -> None:
-    shown = view(pair(), height=500)
+    assert "<b onclick" not in shown.html
+    assert "&lt;i&gt;two vessels&lt;/i&gt;</title>" in shown.html
     frame = shown._repr_html_()
-    assert frame.count("<") == 2
-    assert "height:500px" in frame
-    assert "MB>" in repr(shown)
+    assert frame.count("<") == 2 and "height:500px" in frame
 
 
 def test_a_scene_alone_stands_at_its_assembled_start() -> None:
+    """And a result keeps the scene as it was run."""
     scene = cases.case2()
     shown = view(scene)
     start = simulate(scene, 0.1, dt_out=0.1)
@@ -353,19 +282,9 @@ def test_a_scene_alone_stands_at_its_assembled_start() -> None:
     np.testing.assert_allclose(position[0], start["position"][0], atol=1e-9)
     assert angle_between(quaternion[0], start["quaternion"][0]) < 1e-7
     data = Page(shown.html).data
-    assert data["least"] > 10.0
-    assert data["strip"] == data["arrows"] == []
-
-
-def test_a_scene_without_water_has_no_sea() -> None:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="ball", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -1.0))
-    scene.add_joint(
-        kind="revolute", name="pivot", first="ground", second="ball", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    data = Page(view(simulate(scene, 1.0)).html).data
-    assert data["sea"] is None
-    assert data["bodies"][0]["role"] == "body"
+    assert data["least"] > 10.0 and data["strip"] == data["arrows"] == []
+    scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    assert start.scene is not None and "later" not in start.scene.bodies
 
 
 def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None:
@@ -376,76 +295,50 @@ def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None
     with pytest.raises(FileExistsError, match="overwrite=True"):
         shown.save(path, overwrite=False)
     path.write_text("mine")
-    with pytest.raises(FileExistsError, match="not of seacrane; give another name, or overwrite=True"):
+    with pytest.raises(FileExistsError, match="not of seacrane"):
         shown.save(path)
     assert path.read_text() == "mine"
     shown.save(path, overwrite=True)
     assert path.stat().st_size > 1e5
-    with pytest.raises(OSError, match="there is no folder"):
+    with pytest.raises(OSError, match="no folder"):
         shown.save(tmp_path / "absent" / "lift.html")
     assert [one.name for one in tmp_path.iterdir()] == ["lift.html"]
 
 
-def test_the_same_result_makes_the_same_page() -> None:
-    assert view(alone()).html == view(alone()).html
-    assert isinstance(view(alone()), View)
-
-
-def test_a_result_without_poses_is_refused() -> None:
-    result = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
-    with pytest.raises(SceneError, match="does not hold quaternion, velocity, angular_velocity; to be seen"):
-        view(result)
-
-
 def test_a_copy_of_a_result_needs_its_scene() -> None:
-    result = copy.copy(alone())
-    with pytest.raises(SceneError, match=re.escape("give its scene with view(result, scene=scene)")):
-        view(result)
-    scene = cases.vessel(hs=4.0, tp=10.0)
-    assert view(result, scene=scene).html == view(alone()).html
-    with pytest.raises(SceneError, match=r"is not the one of the result: .* only in one of them"):
-        view(result, scene=cases.case2())
-
-
-def test_copies_of_a_result_are_seen_with_its_scene() -> None:
     result = alone()
     for twin in (copy.copy(result), pickle.loads(pickle.dumps(result))):
         assert twin.scene is None
-        assert view(twin, scene=result.scene).html == view(result).html
+        assert view(twin, scene=cases.vessel(hs=4.0, tp=10.0)).html == view(result).html
+        for given, words in (({}, "scene=scene"), ({"scene": cases.case2()}, "not the one")):
+            with pytest.raises(SceneError, match=words):
+                view(twin, **given)
 
 
-def test_a_result_keeps_the_scene_as_it_was_run() -> None:
-    scene = cases.vessel()
-    result = simulate(scene, 1.0)
-    scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    assert result.scene is not None
-    assert "later" not in result.scene.bodies
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"what": "lift.html"}, "'lift.html' is neither a Result nor a Scene"),
-        ({"what": Scene(name="none")}, "scene 'none' has no bodies"),
-        ({"height": 3}, "height is 3; give pixels from 200 to 4000"),
-        (
-            {"hulls": {"crane": shipped_database}},
-            "hulls names 'crane'; the vessels of the scene are 'vessel'",
-        ),
-        ({"hulls": {"vessel": 3}}, "the hull of 'vessel' is 3; give a seacrane.hydro.Hull"),
-        ({"hulls": [3]}, "hulls is [3]; give hulls by the vessel's body"),
-        ({"scene": 3}, "scene is 3; give a Scene"),
-        ({"what": cases.vessel(), "scene": cases.vessel()}, "scene= is given beside a scene"),
-        (
-            {"what": cases.vessel(), "channels": ["position"]},
-            "channels is given for a scene that has not run",
-        ),
-    ],
-)
-def test_what_cannot_be_shown_is_refused(arguments: dict[str, Any], message: str) -> None:
-    given = {"what": alone(), **arguments}
-    with pytest.raises(SceneError, match=re.escape(message)):
-        view(given.pop("what"), **given)
+def test_what_cannot_be_shown_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.pictures.drawn_bodies.LARGEST_HULL", 1000)
+    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
+    refused: list[tuple[dict[str, Any], str]] = [
+        ({"what": "lift.html"}, "'lift.html'"),
+        ({"what": Scene(name="none")}, "'none'.*bodies"),
+        ({"what": few}, "quaternion, velocity, angular_velocity"),
+        ({"height": 3}, "height is 3"),
+        ({"hulls": {"crane": shipped_database}}, "'crane'.*'vessel'"),
+        ({"hulls": {"vessel": 3}}, "'vessel' is 3"),
+        ({"hulls": [3]}, "hulls"),
+        ({"hulls": {"vessel": shipped_hull()}}, "2278 panels.*1000"),
+        ({"scene": 3}, "scene is 3"),
+        ({"what": cases.vessel(), "scene": cases.vessel()}, "scene="),
+        ({"what": cases.vessel(), "channels": ["position"]}, "channels"),
+        ({"what": case2(), "channels": ["tension_of_link"]}, "'tension_of_link'.*position"),
+        ({"what": case2(), "channels": ["vessel_motion[rol]"]}, "vessel_motion"),
+        ({"what": case2(), "channels": ["position"]}, "30 lines"),
+        ({"what": case2(), "channels": "stroke"}, "'stroke'"),
+    ]
+    for given, words in refused:
+        arguments = {"what": alone(), **given}
+        with pytest.raises(SceneError, match=words):
+            view(arguments.pop("what"), **arguments)
 
 
 def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
@@ -469,14 +362,3 @@ def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
     assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
     scaled = LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH)
     assert astuple(scaled) == pytest.approx(astuple(LINES), rel=1e-11)
-
-
-def test_a_luffing_rope_is_drawn_whether_it_is_a_line_or_not() -> None:
-    scene = Scene(name="lattice")
-    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
-    (led,) = wires_of(scene, list(scene.bodies))
-    assert (led["name"], led["kind"]) == ("luffing rope", "link")
-    scene.add_luffing_rope()
-    falls = wires_of(scene, list(scene.bodies))
-    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
-    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]

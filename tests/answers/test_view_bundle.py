@@ -34,18 +34,17 @@ def test_the_committed_bundle_is_what_its_sources_make(repository: Path, tmp_pat
         assert same, f"{name} is not what its sources make: run `make viewer` and commit it"
 
 
-def test_packages_are_pinned_and_the_lock_names_no_registry(repository: Path) -> None:
-    tools = repository / "tools" / "viewer"
+def test_packages_are_pinned_and_the_bundle_ships_with_its_licence(repository: Path) -> None:
+    """The lock names no registry."""
+    tools, assets = (
+        repository / "tools" / "viewer",
+        repository / "python" / "seacrane" / "pictures" / "assets",
+    )
     wanted = json.loads((tools / "package.json").read_text())["devDependencies"]
     lock = (tools / "package-lock.json").read_text()
     locked = json.loads(lock)["packages"]
     assert all(locked[f"node_modules/{name}"]["version"] == version for name, version in wanted.items())
     assert "http" not in re.sub(r'"url": "[^"]*"', "", lock)
-
-
-def test_the_bundle_and_its_licence_ship(repository: Path) -> None:
-    assets = repository / "python" / "seacrane" / "pictures" / "assets"
     assert (assets / "LICENSE.three.txt").read_text().startswith("The MIT License")
     script = (assets / "viewer.js").read_text(encoding="ascii")
-    assert "LICENSE.three.txt" in script[:200]
-    assert len(script) < 700_000
+    assert "LICENSE.three.txt" in script[:200] and len(script) < 700_000

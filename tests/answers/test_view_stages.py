@@ -10,6 +10,7 @@ import chromium
 import numpy as np
 import pytest
 from stage_scenes import HEIGHT, STIFFNESS, on_deck
+from test_view_gltf import Model
 
 from seacrane import Result, Stage, simulate_stages, view
 from seacrane.pictures.drawing import drawing_of
@@ -45,24 +46,7 @@ def test_wires_are_absent_from_release_to_connection() -> None:
 
 
 def test_models_have_no_wire_where_there_is_none(tmp_path: Path) -> None:
-    pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
-    model = pygltflib.GLTF2().load(str(view(lifted()).save_gltf(tmp_path / "lift.glb")))
-    blob = model.binary_blob()
-
-    def numbers(index: int) -> np.ndarray:
-        accessor = model.accessors[index]
-        start = model.bufferViews[accessor.bufferView].byteOffset
-        width = {"SCALAR": 1, "VEC3": 3}[accessor.type]
-        found = np.frombuffer(blob, "<f4", accessor.count * width, start)
-        return found.reshape(accessor.count, width)
-
-    (animation,) = model.animations
-    node = next(i for i, one in enumerate(model.nodes) if one.name == "hoist 1")
-    channel = next(
-        one for one in animation.channels if one.target.node == node and one.target.path == "scale"
-    )
-    sampler = animation.samplers[channel.sampler]
-    times, scale = numbers(sampler.input)[:, 0], numbers(sampler.output)
+    times, scale, _ = Model(view(lifted()).save_gltf(tmp_path / "lift.glb")).track("hoist 1", "scale")
     gone = (times > 2.0 + 1e-6) & (times < 3.0 - 1e-6)
     assert gone.any() and np.all(scale[gone] < 1e-4)
     assert np.all(scale[times < 1.9][:, :2] == 1.0) and np.all(scale[times < 1.9][:, 2] > 19.0)
@@ -92,29 +76,18 @@ def test_stages_points_clearances_and_forces_are_on_the_page() -> None:
 
 
 @pytest.mark.slow("opens pages")
-def test_pages_tell_stage_clearance_and_tension(tmp_path: Path) -> None:
+def test_pages_tell_stage_clearance_and_tension_and_hide_what_is_absent(tmp_path: Path) -> None:
     command = chromium.found()
     if command is None:
         pytest.skip("no Chromium: install Debian's package chromium")
-    path = view(marked()).save(tmp_path / "page.html")
     with chromium.tab(command) as tab:
-        tab.open(path.as_uri())
+        tab.open(view(marked()).save(tmp_path / "page.html").as_uri())
         tab.value("seacrane.seek(1.5)")
         assert tab.value("seacrane.stage()") == "wait, 1.50 s"
         assert tab.value("seacrane.clearance('mast')") == pytest.approx(3.0, abs=1e-3)
         assert tab.value("seacrane.wire('hoist 1')") == f"hoist 1 {PULL / 1e3:g} kN"
         tab.value("document.getElementById('real').click()")
-        assert tab.errors == []
-
-
-@pytest.mark.slow("opens pages")
-def test_pages_hide_it(tmp_path: Path) -> None:
-    command = chromium.found()
-    if command is None:
-        pytest.skip("no Chromium: install Debian's package chromium")
-    path = view(lifted()).save(tmp_path / "page.html")
-    with chromium.tab(command) as tab:
-        tab.open(path.as_uri())
+        tab.open(view(lifted()).save(tmp_path / "lifted.html").as_uri())
         for time, absent in ((0.5, ["tugger"]), (1.5, []), (2.5, ["hoist 1"]), (4.0, [])):
             tab.value(f"seacrane.seek({time})")
             assert tab.value("seacrane.absent()") == absent

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,6 @@ from veres_writer import VeresRun
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
-IMPORT = re.compile(r"^ {4}((?:from seacrane[.\w]* import|import seacrane) .+)$", re.MULTILINE)
 SAMPLE = ("README.md", "docs/getting-started.md", "docs/lines.md", "docs/stages.md", "docs/hydraulics.md")
 PATHS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
@@ -31,18 +29,11 @@ def as_script(text: str) -> str:
     return "".join(out)
 
 
-def a_ship_at_two_speeds(folder: Path) -> None:
-    ship = folder / "ship"
-    ship.mkdir()
-    VeresRun(speeds=(0.0, 5.0), omega=np.linspace(0.2, 2.4, 23)).write(ship)
-
-
 TOLD_OF_THE_GIVEN = {
     "docs/frequency-domain.md": {"InfiniteFrequencyWarning", "MemoryFitWarning"},
     "docs/lines.md": {"WinchLimitWarning"},  # a motor and a brake at their bounds are what it shows
     "docs/hydraulics.md": {"BoilingOilWarning"},  # and a hose that bursts
 }
-GIVEN: dict[str, Callable[[Path], None]] = {"docs/frequency-domain.md": a_ship_at_two_speeds}
 
 
 def run(name: str, text: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -60,21 +51,10 @@ def test_blocks_of_a_document_run_in_order_without_a_warning(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("MPLBACKEND", "agg")
-    GIVEN.get(name, lambda folder: None)(tmp_path)
+    if name == "docs/frequency-domain.md":
+        (tmp_path / "ship").mkdir()
+        VeresRun(speeds=(0.0, 5.0), omega=np.linspace(0.2, 2.4, 23)).write(tmp_path / "ship")
     done = run(name, TEXTS[name], tmp_path)
     assert done.returncode == 0, done.stderr
     told = set(re.findall(r"(\w+Warning):", done.stderr))
     assert told <= TOLD_OF_THE_GIVEN.get(name, set()), done.stderr
-
-
-def test_a_block_that_needs_what_no_block_before_made_is_named_by_its_line(tmp_path: Path) -> None:
-    text = "# Page\n\n```python\nscene = 1\n```\n\nWords.\n\n```python\nprint(scene)\nprint(stages)\n```\n"
-    done = run("page.md", text, tmp_path)
-    assert done.stdout == "1\n"
-    assert "line 11" in done.stderr and "NameError: name 'stages' is not defined" in done.stderr
-
-
-@pytest.mark.parametrize("name", [name for name, text in TEXTS.items() if IMPORT.search(text)])
-def test_what_lines_of_a_document_import_is_there(name: str) -> None:
-    for line in IMPORT.findall(TEXTS[name]):
-        exec(line, {})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 import subprocess
 import sys
@@ -28,15 +27,16 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_all_examples_are_written_as_the_project_holds_them(written: Path) -> None:
+def test_all_examples_are_written_as_the_project_holds_them_and_replace_nothing(written: Path) -> None:
+    """Those that a document teaches are its listings."""
     source = ROOT / "examples"
     wanted = {path.relative_to(source) for path in source.rglob("*.*") if "__pycache__" not in path.parts}
     found = {path.relative_to(written) for path in written.rglob("*.*")}
     assert {path for path in found if path.parts[0] != "notebooks"} == wanted
     assert all((written / name).read_bytes() == (source / name).read_bytes() for name in wanted)
-
-
-def test_nothing_is_replaced_unless_asked_for(written: Path) -> None:
+    for name, document in TAUGHT.items():
+        listing, *_ = LISTING.findall((ROOT / "docs" / f"{document}.md").read_text(encoding="utf-8"))
+        assert (source / "lifts" / f"{name}.toml").read_text(encoding="utf-8") == listing
     mine = written / "pendulum.py"
     theirs = mine.read_text()
     mine.write_text("print('mine')\n")
@@ -46,23 +46,14 @@ def test_nothing_is_replaced_unless_asked_for(written: Path) -> None:
     assert mine.read_text() == theirs
 
 
-@pytest.mark.parametrize("name", ["pendulum.py", "jobs/wire_snatch.py"])
-def test_a_script_runs_where_it_is_written(written: Path, name: str) -> None:
-    done = subprocess.run([sys.executable, name], cwd=written, capture_output=True, text=True, check=False)
+def test_a_script_and_lift_files_run_where_they_are_written(written: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "jobs/wire_snatch.py"]
+    done = subprocess.run(command, cwd=written, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "") and done.stdout
-
-
-@pytest.mark.parametrize("name", ["box_over_the_side", "suction_anchor"])
-def test_a_lift_file_runs_where_it_is_written(written: Path, tmp_path: Path, name: str) -> None:
-    done = command_line("run", written / "lifts" / f"{name}.toml", "--out", tmp_path, "--t-end", "2")
-    assert done.returncode == 0, done.stderr
-    assert [path.suffix for path in tmp_path.iterdir()] == [".nc"]
-
-
-@pytest.mark.parametrize("name", TAUGHT)
-def test_a_lift_file_is_the_one_of_its_document(name: str) -> None:
-    listing, *_ = LISTING.findall((ROOT / "docs" / f"{TAUGHT[name]}.md").read_text(encoding="utf-8"))
-    assert (ROOT / "examples" / "lifts" / f"{name}.toml").read_text(encoding="utf-8") == listing
+    for name in ("box_over_the_side", "suction_anchor"):
+        done = command_line("run", written / "lifts" / f"{name}.toml", "--out", tmp_path, "--t-end", "2")
+        assert done.returncode == 0, done.stderr
+    assert [path.suffix for path in tmp_path.iterdir()] == [".nc", ".nc"]
 
 
 def judge(notebook: nbformat.NotebookNode) -> None:
@@ -76,16 +67,6 @@ def judge(notebook: nbformat.NotebookNode) -> None:
     assert any(out.output_type == "stream" for out in outputs)
     assert any("image/png" in out.get("data", {}) for out in outputs)
     assert not any("srcdoc" in str(out) for out in outputs)
-
-
-@pytest.mark.slow("runs a notebook")
-def test_a_notebook_is_kept_with_its_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(str(ROOT / "tools" / "wheel"))
-    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook
-    target = tmp_path / "one.ipynb"
-    importlib.import_module("notebooks").main(str(ROOT / "notebooks" / "01_first_lift.md"), str(target))
-    judge(nbformat.read(target, as_version=4))
-    assert target.stat().st_size < 2e6
 
 
 def test_notebooks_that_are_installed_have_their_outputs(written: Path) -> None:

@@ -1,4 +1,4 @@
-"""The package's rooms lie on floors: imports go down, in no circle, and in plain sight."""
+"""Rooms of the package and folders of the core lie on floors: imports go down, in no circle."""
 
 from __future__ import annotations
 
@@ -7,91 +7,56 @@ from collections import defaultdict
 from pathlib import Path
 
 import pytest
-from import_graph import Import, circles, imports, modules, room
+from import_graph import Import, arrows_between_rooms, circles, imports, modules, room
 
-# Rooms from the ground up: each may import from those on lines above its own.
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE, CORE = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
+# Rooms from the ground up: each may import from those before it.
 FLOORS = """
-    errors warnings version one_thread
-    lazy
-    inputs
-    plotting sea
-    hydro.data
-    hydro.memory
-    hydro.vessel
-    hydro.database
-    hydro.group
-    hydro.readers
-    hydro.hull
-    hydro
-    description
-    series water
-    validity
-    crane
-    analysis
-    scene
-    result
-    statistics
-    run
-    accuracy
-    simulation
-    ensembles
-    operability
-    pictures
-    answers
-    trading
-    needs
-    lift
-    cases
-    cli
-    __main__
+    errors warnings version one_thread | lazy | inputs | plotting sea | hydro.data | hydro.memory
+    | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro | description
+    | series water | validity | crane | analysis | scene | result | statistics | run | accuracy | simulation
+    | ensembles | operability | pictures | answers | trading | needs | lift | cases | cli | __main__
 """
+ROOMS = {name: floor for floor, names in enumerate(FLOORS.split("|")) for name in names.split()}
 HIDDEN = {
     "cli": "a command imports what it needs, so that --help is quick",
     "inputs.netcdf_limits": "h5py is loaded once a file is opened",
 }
+# Folders of the core from the ground up, and what each may not include of those before it.
+FOLDERS = ("math", "integrate", "sea", "strip", "elements", "hydro", "model", "dynamics", "compile", "lanes",
+           "run")  # fmt: skip
+NOT_BELOW = {
+    "sea": {"integrate"}, "strip": {"integrate"}, "elements": {"integrate", "strip"},
+    "hydro": {"integrate", "strip"}, "model": {"integrate", "strip"}, "dynamics": {"strip"},
+    "compile": {"strip"}, "lanes": {"strip", "compile"}, "run": {"strip"},
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
-def package(repository: Path) -> Path:
-    return repository / "python" / "seacrane"
+def arrows() -> list[Import]:
+    return imports(PACKAGE)
 
 
-@pytest.fixture(scope="module")
-def arrows(package: Path) -> list[Import]:
-    return imports(package)
-
-
-def test_every_room_has_a_floor(package: Path) -> None:
-    files = modules(package)
-    rooms = {room(module, files) for module in files if module}
-    assert rooms == set(FLOORS.split())
-
-
-def test_imports_go_down(package: Path, arrows: list[Import]) -> None:
-    files = modules(package)
-    floor = {name: at for at, line in enumerate(FLOORS.strip().splitlines()) for name in line.split()}
+def test_every_room_has_a_floor_and_imports_go_down(arrows: list[Import]) -> None:
+    files = modules(PACKAGE)
+    assert {room(module, files) for module in files if module} == set(ROOMS)
     wrong = []
     for arrow in arrows:
         above, below = (room(module, files) for module in (arrow.source, arrow.target))
-        if above != below and floor.get(below, 99) >= floor.get(above, -1):
+        if above != below and ROOMS[below] >= ROOMS[above]:
             wrong.append(f"{arrow.source} imports {arrow.target}")
     assert not wrong
 
 
-def test_the_table_of_rooms_in_the_design_is_the_order_of_imports(
-    repository: Path, arrows: list[Import]
-) -> None:
-    text = (repository / "docs" / "design.md").read_text(encoding="utf-8")
+def test_the_table_of_rooms_in_the_design_is_the_order_of_imports(arrows: list[Import]) -> None:
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     table = text.split("| rooms, from the top |", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
     row = {name: at for at, line in enumerate(table) for name in re.findall(r"`(\w+)`", line.split("|")[1])}
-    outer = {line.split(".")[0] for line in FLOORS.split()} - {"lazy", "__main__"}
-    assert set(row) == outer
-    up = [
-        f"{arrow.source} imports {arrow.target}"
-        for arrow in arrows
-        if (above := row.get(arrow.source.split(".")[0], 0)) > row.get(arrow.target.split(".")[0], above)
-    ]
-    assert not up
+    assert set(row) == {name.split(".")[0] for name in ROOMS} - {"lazy", "__main__"}
+    for arrow in arrows:
+        above = row.get(arrow.source.split(".")[0], 0)
+        assert above <= row.get(arrow.target.split(".")[0], above), f"{arrow.source} imports {arrow.target}"
 
 
 def test_no_circle_of_modules(arrows: list[Import]) -> None:
@@ -100,29 +65,28 @@ def test_no_circle_of_modules(arrows: list[Import]) -> None:
     for arrow in arrows:
         graph[arrow.source].add(arrow.target)
     assert circles(graph) == []
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set(), "e": {"d"}}) == [["a", "b", "c"]]
+    assert circles({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}) == []
 
 
 def test_no_import_of_the_package_is_hidden_in_a_function(arrows: list[Import]) -> None:
-    hidden = [arrow for arrow in arrows if arrow.hidden]
-    used = {place for arrow in hidden for place in HIDDEN if f"{arrow.source}.".startswith(f"{place}.")}
-    others = [
-        f"{arrow.source} imports {arrow.target}"
-        for arrow in hidden
-        if not any(f"{arrow.source}.".startswith(f"{place}.") for place in HIDDEN)
-    ]
-    assert not others
-    assert used == set(HIDDEN), "an exception that nothing needs"
+    hidden = {f"{arrow.source}." for arrow in arrows if arrow.hidden}
+    assert [one for one in hidden if not one.startswith(tuple(f"{place}." for place in HIDDEN))] == []
+    needed = {place for place in HIDDEN for one in hidden if one.startswith(f"{place}.")}
+    assert needed == set(HIDDEN), "an exception that nothing needs"
 
 
-def test_the_core_names_modules_that_are_there(repository: Path, package: Path) -> None:
-    sources = (repository / "cpp" / "bindings").glob("*.cpp")
-    named = {
-        name for path in sources for name in re.findall(r'import\("seacrane\.([\w.]+)"\)', path.read_text())
-    }
-    assert named
-    assert named <= set(modules(package))
+def test_the_core_names_modules_that_are_there() -> None:
+    texts = [path.read_text() for path in (ROOT / "cpp" / "bindings").glob("*.cpp")]
+    named = {name for text in texts for name in re.findall(r'import\("seacrane\.([\w.]+)"\)', text)}
+    assert named and named <= set(modules(PACKAGE))
 
 
-def test_circles_are_found() -> None:
-    assert circles({"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set(), "e": {"d"}}) == [["a", "b", "c"]]
-    assert circles({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}) == []
+def test_a_folder_of_the_core_includes_only_what_lies_below_it() -> None:
+    found = arrows_between_rooms(CORE)
+    assert {path.name for path in CORE.iterdir() if path.is_dir()} == set(FOLDERS)
+    assert circles(found) == []
+    for at, folder in enumerate(FOLDERS):
+        rooms = [name for name in found if f"{name}/".startswith(f"{folder}/")]
+        included = {one.partition("/")[0] for name in rooms for one in found[name]}
+        assert included <= set(FOLDERS[: at + 1]) - NOT_BELOW.get(folder, set()), folder

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 from typing import Any
 
 import jupytext
 import nbclient
 import pytest
+
+from seacrane.plotting.figure import new_figure
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("*.md"))
@@ -40,21 +42,6 @@ def outputs(notebook: Any, kind: str) -> list[Any]:
     return [out for cell in code_cells(notebook) for out in cell.outputs if out.output_type == kind]
 
 
-def test_there_is_a_notebook() -> None:
-    assert [path.name for path in NOTEBOOKS][:1] == ["01_first_lift.md"]
-
-
-def test_notebooks_are_numbered_without_a_gap() -> None:
-    assert [int(path.name.split("_")[0]) for path in NOTEBOOKS] == list(range(1, len(NOTEBOOKS) + 1))
-
-
-def test_what_opens_notebooks_can_be_installed_by_itself() -> None:
-    """`make notebooks` installs the extra alone: it must hold what this file runs them with, and Jupyter."""
-    extras = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    wanted = {re.split("[<>=]", line)[0] for line in extras["optional-dependencies"]["notebooks"]}
-    assert wanted >= {"ipykernel", "ipywidgets", "jupyterlab", "jupytext", "pytest"}
-
-
 # One by day; the others run by night, all for the wheel and the site.
 BY_DAY = ("08_wires",)
 BY_NIGHT = pytest.mark.slow("a whole notebook")
@@ -76,10 +63,39 @@ def test_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert any("image/png" in out.data for out in outputs(notebook, "display_data")), "no picture was drawn"
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_notebook_is_kept_without_outputs(path: Path) -> None:
-    assert outputs(jupytext.read(path), "stream") == []
-    assert "image/png" not in path.read_text(encoding="utf-8")
+def test_notebooks_are_numbered_and_kept_without_outputs() -> None:
+    assert [int(path.name.split("_")[0]) for path in NOTEBOOKS] == list(range(1, len(NOTEBOOKS) + 1))
+    for path in NOTEBOOKS:
+        assert outputs(jupytext.read(path), "stream") == []
+        assert "image/png" not in path.read_text(encoding="utf-8")
+
+
+SHOWN = """
+import sys
+import numpy as np
+from seacrane import Scene, simulate
+from seacrane.pictures import plot_track
+from IPython.core.formatters import DisplayFormatter
+
+scene = Scene(name="stone")
+scene.add_body(name="stone", mass=1.0, inertia=np.eye(3))
+result = simulate(scene, t_end=1.0)
+for figure in (result.plot("position"), plot_track(result, "stone")):
+    data, _ = DisplayFormatter().format(figure)
+    assert data["image/png"].startswith(b"\\x89PNG"), data
+assert "matplotlib.pyplot" not in sys.modules
+"""
+
+
+def test_a_notebook_shows_a_figure_without_pyplot() -> None:
+    """And a copy of it."""
+    done = subprocess.run([sys.executable, "-c", SHOWN], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    figure = new_figure(figsize=(2.0, 1.0))
+    figure.subplots().plot([0.0, 1.0])
+    again = pickle.loads(pickle.dumps(figure))
+    assert again._repr_png_.args[0] is again
+    assert again._repr_png_()[:4] == b"\x89PNG"
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
@@ -94,13 +110,3 @@ def test_script_of_document_prints_what_it_says(name: str, tmp_path: Path) -> No
         [float(number) for number in NUMBER.findall(text)] for text in (done.stdout, found["output"])
     )
     assert printed == pytest.approx(shown, rel=0.05)
-
-
-@pytest.mark.parametrize(
-    "path",
-    [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))],
-    ids=lambda path: path.name,
-)
-def test_pictures_of_documents_exist(path: Path) -> None:
-    pictures = re.findall(r"!\[[^]]*\]\(([^)]+)\)", path.read_text(encoding="utf-8"))
-    assert [picture for picture in pictures if not (path.parent / picture).is_file()] == []

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import subprocess
 import sys
 import tomllib
@@ -19,27 +17,25 @@ def run_python(code: str) -> str:
     return finished.stdout
 
 
-def test_package_is_installed_not_imported_from_the_source_tree(repository: Path) -> None:
-    located = Path(run_python("import seacrane; print(seacrane.__file__)").strip())
-    assert not located.is_relative_to(repository / "python")
-
-
-def test_the_version_is_that_of_the_project(repository: Path) -> None:
+def test_package_is_installed_with_its_version_command_types_and_requirements(repository: Path) -> None:
+    """Not imported from the source tree; without solvers and development tools."""
+    located, version = run_python("import seacrane as s; print(s.__file__, s.__version__)").split()
+    assert not Path(located).is_relative_to(repository / "python")
     project = tomllib.loads((repository / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert run_python("import seacrane; print(seacrane.__version__)").strip() == project["version"]
+    assert version == project["version"]
+    (entry,) = metadata.entry_points(group="console_scripts", name="seacrane")
+    assert entry.value == "seacrane.cli:main" and callable(entry.load())
+    assert all((resources.files("seacrane") / name).is_file() for name in ("py.typed", "_core.pyi"))
+    always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
+    assert {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always} == {
+        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
+    }  # fmt: skip
 
 
 def test_import_leaves_the_heavy_libraries_alone() -> None:
-    loaded = run_python("import seacrane, sys; print(*sys.modules)").split()
-    assert "seacrane" in loaded
-    heavy = {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "h5py", "netCDF4", "tqdm"}
-    assert not (heavy | {"threadpoolctl"}) & set(loaded)
-
-
-def test_type_information_ships() -> None:
-    package = resources.files("seacrane")
-    assert (package / "py.typed").is_file()
-    assert (package / "_core.pyi").is_file()
+    loaded = set(run_python("import seacrane, sys; print(*sys.modules)").split())
+    heavy = "scipy xarray matplotlib pandas h5netcdf h5py netCDF4 tqdm threadpoolctl"
+    assert "seacrane" in loaded and not loaded & {*heavy.split()}
 
 
 def test_every_source_file_is_installed(repository: Path) -> None:
@@ -60,67 +56,3 @@ def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path:
     generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     assert committed == generated, "python/seacrane/_core.pyi is out of date: run `make stubs` and commit it"
-
-
-def test_command_line_entry_point() -> None:
-    (entry,) = metadata.entry_points(group="console_scripts", name="seacrane")
-    assert entry.value == "seacrane.cli:main"
-    assert callable(entry.load())
-
-
-def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
-    always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
-    names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
-    assert names == {
-        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
-    }  # fmt: skip
-
-
-def test_make_builds_on_every_core(repository: Path) -> None:
-    """Whatever OMP_NUM_THREADS says, which is about threads; fewer only by the control group."""
-    environment = {key: value for key, value in os.environ.items() if key != "JOBS"}
-    found = [
-        subprocess.run(
-            ["make", "-s", "--eval", "cores: ; @echo $(JOBS)", "cores"],
-            cwd=repository, env=environment | more, capture_output=True, text=True, check=True,
-        ).stdout
-        for more in ({"OMP_NUM_THREADS": "1"}, {"OMP_THREAD_LIMIT": "1"}, {"OMP_NUM_THREADS": "64"})
-    ]  # fmt: skip
-    quota = Path("/sys/fs/cgroup/cpu.max")
-    limited = quota.is_file() and not quota.read_text().startswith("max")
-    assert len(set(found)) == 1
-    assert limited or int(found[0]) == len(os.sched_getaffinity(0))
-
-
-def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_path: Path) -> None:
-    """A build of nothing by the project's own rules, with a "pip" that edits a source file."""
-    for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
-        shutil.copy(repository / name, tmp_path)
-    shutil.copytree(repository / ".ci", tmp_path / ".ci")
-    for name in (
-        "cpp/seacrane",
-        "cpp/bindings",
-        "cpp/lanes",
-        "cmake",
-        "licenses",
-        "python/seacrane",
-        "examples",
-    ):
-        (tmp_path / name).mkdir(parents=True)
-    source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
-    for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):
-        path.touch()
-    (tmp_path / ".venv" / "bin").mkdir(parents=True)
-    (tmp_path / ".venv" / "bin" / "python").symlink_to(sys.executable)
-    (tmp_path / ".venv" / ".installed-run").touch()
-
-    def builds(edit: str) -> int:
-        """How often it was built so far, once make was called with a "pip" that does this first."""
-        pip = f"INSTALL={edit} && echo >> builds &&:"
-        command = ["make", "-s", f"PYTHON={sys.executable}", pip, ".venv/.installed-seacrane"]
-        subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
-        return (tmp_path / "builds").read_text().count("\n")
-
-    assert builds(f"sleep 0.1 && touch {source}") == 1
-    assert builds("true") == 2
-    assert builds("true") == 2

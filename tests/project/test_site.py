@@ -53,27 +53,17 @@ def test_the_first_page_lists_every_document() -> None:
 
 
 def test_every_public_name_is_on_one_page_once(face: Any) -> None:
+    """Pages follow the order of the work; a name of two homes stands under the shorter one."""
     pages = face.pages()
     names = [name.rpartition(".")[2] for page in pages.values() for name in page]
     assert len(names) == len(set(names))
     for module in (seacrane, *(getattr(seacrane, page) for page in pages)):
-        shown = [one for one in dir(module) if not one.startswith("_")]
-        public = {
-            one
-            for one in shown
-            if inspect.isroutine(getattr(module, one)) or inspect.isclass(getattr(module, one))
-        }
+        shown = {one: getattr(module, one) for one in dir(module) if not one.startswith("_")}
+        public = {one for one, what in shown.items() if inspect.isroutine(what) or inspect.isclass(what)}
         assert public <= set(names), module.__name__
-
-
-def test_the_pages_of_names_follow_the_order_of_the_work(face: Any) -> None:
     tree = (ROOT / "docs" / "api.md").read_text("utf-8")
-    assert re.findall(r"^api/(\w+)$", tree, re.MULTILINE) == list(face.pages())
-
-
-def test_a_name_of_two_homes_stands_under_the_shorter_one(face: Any) -> None:
-    assert "seacrane.HydroDatabase" in face.pages()["hydro"]
-    assert "seacrane.hydro.HydroDatabase" not in face.pages()["hydro"]
+    assert re.findall(r"^api/(\w+)$", tree, re.MULTILINE) == list(pages)
+    assert "seacrane.HydroDatabase" in pages["hydro"] and "seacrane.hydro.HydroDatabase" not in pages["hydro"]
     assert face.homes()["seacrane.scene.scene.Scene"] == "seacrane.Scene"
 
 
@@ -107,31 +97,27 @@ def build(site: Path, *more: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.slow("builds a site")
-def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -> None:
+def test_a_small_site_builds_and_fails_by_a_wrong_link(small_site: Path, offline: Any) -> None:
+    formulas = "\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
+    (small_site / "docs" / "page.md").write_text(PAGE + formulas, encoding="utf-8")
     done = build(small_site)
     assert done.returncode == 0, done.stderr
     page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8")
-    assert 'href="api.html"' in page.split("<article")[1], "a document named in code letters is linked"
+    navigation, _, article = page.partition("<article")
+    assert 'href="api.html"' in article, "a document named in code letters is linked"
     assert "names.pyi" in page, "a file of code can be downloaded"
     assert 'href="../python"' not in page
-    assert "To read" in page.split("<article")[0], "the lists of the first page are the navigation"
+    assert "To read" in navigation, "the lists of the first page are the navigation"
+    assert (
+        article.count("<math ") == 2 and "<msqrt>" in article and "<mfrac>" in article and "$" not in article
+    )
     assert "url=docs/index.html" in (small_site / "out" / "index.html").read_text(encoding="utf-8")
     assert (small_site / "docs" / "api" / "scene.rst").is_file()
     assert offline.outside(small_site / "out") == [], "the site opens without a network"
-
-
-@pytest.mark.slow("makes a site")
-def test_formulas_are_drawn_by_the_browser_itself(small_site: Path, offline: Any) -> None:
-    text = "# Page\n\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
-    (small_site / "docs" / "page.md").write_text(text, encoding="utf-8")
-    done = build(small_site)
-    assert done.returncode == 0, done.stderr
-    page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8").split("<article")[1]
-    assert page.count("<math ") == 2 and "<msqrt>" in page and "<mfrac>" in page and "$" not in page
-    assert offline.outside(small_site / "out") == []
-    (small_site / "docs" / "page.md").write_text("# Page\n\n$\\nonsense{x}$\n", encoding="utf-8")
-    failed = build(small_site)
-    assert failed.returncode != 0 and "nonsense" in failed.stderr
+    for text, words in (("[Gone](gone.md)", "gone.md"), ("$\\nonsense{x}$", "nonsense")):
+        (small_site / "docs" / "page.md").write_text(f"# Page\n\n{text}\n", encoding="utf-8")
+        failed = build(small_site)
+        assert failed.returncode != 0 and words in failed.stderr
 
 
 def test_signatures_say_what_the_code_says(small_site: Path) -> None:
@@ -152,9 +138,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
 
 
 @pytest.mark.slow("makes a site")
-def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
-    small_site: Path, offline: Any
-) -> None:
+def test_a_site_holds_pages_and_runs_a_notebook_once(small_site: Path, offline: Any) -> None:
     pytest.importorskip("ipykernel", reason="the site's packages are missing: pip install seacrane[docs]")
     log = small_site / "log"
     shutil.copy(ROOT / "docs" / "live.md", small_site / "docs")
@@ -173,27 +157,6 @@ def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
     assert offline.outside(small_site / "out") == []
 
 
-LOADS = {
-    "script": '<script src="https://cdn.example/x.js"></script>',
-    "style sheet": '<link rel="stylesheet" href="//cdn.example/x.css">',
-    "picture": '<p style="background: url(http://cdn.example/x.png)">',
-    "set of pictures": '<img src="a.png" srcset="b.png 1x, https://cdn.example/c.png 2x">',
-    "frame": "<iframe srcdoc='<script src=\"https://cdn.example/x.js\"></script>'></iframe>",
-    "import": "<style>@import 'https://cdn.example/x.css';</style>",
-}
-
-
-@pytest.mark.parametrize("what", LOADS)
-def test_what_a_page_would_load_from_a_network_is_found(what: str, tmp_path: Path, offline: Any) -> None:
-    page = tmp_path / "page.html"
-    free = '<a href="https://example.org">to read</a><link rel="canonical" href="https://example.org/page">'
-    page.write_text(f"<html>{free}<img src='data:image/png;base64,AA'></html>", encoding="utf-8")
-    assert offline.outside(tmp_path) == []
-    page.write_text(f"<html>{free}{LOADS[what]}</html>", encoding="utf-8")
-    (found,) = offline.outside(tmp_path)
-    assert "cdn.example" in found
-
-
 @pytest.mark.slow("makes a site")
 def test_the_search_finds_without_a_network(small_site: Path) -> None:
     command = chromium.found()
@@ -206,11 +169,3 @@ def test_the_search_finds_without_a_network(small_site: Path) -> None:
         tab.wait_for("document.querySelector('#search-results li a') !== null")
         assert "page.html" in tab.value("document.querySelector('#search-results li a').href")
         assert all(one.startswith(("file:", "data:")) for one in tab.requests), tab.requests
-
-
-@pytest.mark.slow("builds a site")
-def test_a_link_that_leads_nowhere_fails_the_build(small_site: Path) -> None:
-    (small_site / "docs" / "page.md").write_text("# Page\n\n[Gone](gone.md)\n", encoding="utf-8")
-    done = build(small_site)
-    assert done.returncode != 0
-    assert "gone.md" in done.stderr

@@ -15,6 +15,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from PIL import Image
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
     "--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader",
@@ -44,13 +47,8 @@ class Tab:
 
     def open(self, address: str, *, width: int = 1200, height: int = 760) -> None:
         """Load an address and wait until its page says that it is ready, or has failed."""
-        self.ask(
-            "Emulation.setDeviceMetricsOverride",
-            width=width,
-            height=height,
-            deviceScaleFactor=1,
-            mobile=False,
-        )
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.ask("Emulation.setDeviceMetricsOverride", **size)
         self.ask("Page.navigate", url=address)
         self.wait_for(f"location.href === {json.dumps(address)} && document.documentElement?.dataset.ready")
 
@@ -76,11 +74,15 @@ class Tab:
         self.ask("Input.dispatchKeyEvent", type="keyDown", key=key, **text)
         self.ask("Input.dispatchKeyEvent", type="keyUp", key=key)
 
-    def picture(self, path: Path) -> bytes:
-        """What is seen, as PNG; also written to a file."""
-        data = base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"])
-        path.write_bytes(data)
-        return data
+    def picture(self, path: Path) -> None:
+        """What is seen, to a file as PNG."""
+        path.write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"]))
+
+    def colours(self, path: Path) -> np.ndarray:
+        """Red, green and blue of what is seen, 0 to 255, by row and column; also written to a file."""
+        self.picture(path)
+        with Image.open(path) as image:
+            return np.moveaxis(np.asarray(image.convert("RGB"), dtype=float), -1, 0)
 
     def ask(self, method: str, **parameters: Any) -> dict[str, Any]:
         """The answer to a command of the protocol."""

@@ -1,15 +1,9 @@
-"""Imports of the Python package and includes of the C++ sources, read from the files: who names whom.
-
-A room is a folder, or a module that lies in no folder. ``import_graph.py FOLDER ...`` counts for each folder
-(a package, or the folder of C++ sources, as includes name it) rooms, floors, arrows between rooms, and
-circles. A room stands on the floor above the highest one that it imports from; rooms on a circle share one.
-"""
+"""Imports of the Python package and includes of the C++ sources, read from the files: who names whom."""
 
 from __future__ import annotations
 
 import ast
 import re
-import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,19 +64,15 @@ def _public(package: Path) -> dict[str, str]:
 
 
 def _imported(
-    node: ast.AST,
-    package: str,
-    files: Mapping[str, Path],
-    through: Mapping[str, str],
-    hidden: bool = False,
+    node: ast.AST, package: str, files: Mapping[str, Path], through: Mapping[str, str], hidden: bool = False
 ) -> Iterator[tuple[str, bool]]:
     for child in ast.iter_child_nodes(node):
-        if isinstance(child, ast.ImportFrom):
-            assert child.level == 0, f"relative import of {child.module}"
-            whole = [f"{child.module}.{entry.name}" for entry in child.names]
-            yield from ((name, hidden) for name in _inside(whole, package, files, through))
-        elif isinstance(child, ast.Import):
-            whole = [entry.name for entry in child.names]
+        if isinstance(child, ast.ImportFrom | ast.Import):
+            home = ""
+            if isinstance(child, ast.ImportFrom):
+                assert child.level == 0, f"relative import of {child.module}"
+                home = f"{child.module}."
+            whole = [f"{home}{entry.name}" for entry in child.names]
             yield from ((name, hidden) for name in _inside(whole, package, files, through))
         function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
         yield from _imported(child, package, files, through, hidden or function)
@@ -126,68 +116,11 @@ def circles(arrows: Mapping[str, set[str]]) -> list[list[str]]:
     return found
 
 
-def includes(folder: Path) -> set[tuple[str, str]]:
-    """Arrows between the rooms of C++ sources: the folder of a file, and those of what it includes."""
-    found = set()
-    for path in [*folder.rglob("*.hpp"), *folder.rglob("*.cpp")]:
-        own = path.parent.relative_to(folder).as_posix()
-        for name in re.findall(rf'#include "{folder.name}/([^"]+)"', path.read_text(encoding="utf-8")):
-            found.add((own, Path(name).parent.as_posix()))
-    return found
-
-
 def arrows_between_rooms(folder: Path) -> dict[str, set[str]]:
-    """Rooms of a package or of C++ sources, and those that each imports from or includes."""
-    if next(folder.rglob("*.hpp"), None):
-        pairs = includes(folder)
-        rooms = {one for pair in pairs for one in pair}
-    else:
-        files = modules(folder)
-        rooms = {room(module, files) for module in files if module}
-        pairs = {
-            (room(one.source, files), room(one.target, files))
-            for one in imports(folder)
-            if one.source and one.target
-        }
-    return {one: {other for at, other in pairs if at == one != other} for one in sorted(rooms)}
-
-
-def floors(arrows: Mapping[str, set[str]]) -> dict[str, int]:
-    """The floor of each room, from 1."""
-    ring = {one: tuple(circle) for circle in circles(arrows) for one in circle}
-    found: dict[str, int] = {}
-
-    def floor(one: str) -> int:
-        if one not in found:
-            together = ring.get(one, (one,))
-            below = {other for each in together for other in arrows[each]} - set(together)
-            height = 1 + max((floor(other) for other in below), default=0)
-            found.update(dict.fromkeys(together, height))
-        return found[one]
-
-    return {one: floor(one) for one in arrows}
-
-
-def main() -> None:
-    """The table of counts, and the rooms by floor."""
-    print("| folder | rooms | floors | arrows | of these on a circle | circles of rooms | of modules |")
-    print("|---|---|---|---|---|---|---|")
-    for folder in map(Path, sys.argv[1:]):
-        arrows = arrows_between_rooms(folder)
-        rings = circles(arrows)
-        on_ring = sum(len(arrows[one] & set(ring)) for ring in rings for one in ring)
-        graph: dict[str, set[str]] = {}
-        if not next(folder.rglob("*.hpp"), None):
-            for one in imports(folder):
-                graph.setdefault(one.source, set()).update({one.target} if one.source else ())
-        counts = [len(arrows), max(floors(arrows).values()), sum(map(len, arrows.values())), on_ring]
-        print(f"| {folder.name} | {' | '.join(map(str, [*counts, len(rings), len(circles(graph))]))} |")
-    for folder in map(Path, sys.argv[1:]):
-        height = floors(arrows_between_rooms(folder))
-        print(f"\n{folder.name}, from the top:")
-        for level in range(max(height.values()), 0, -1):
-            print(f"{level:4}  {', '.join(one for one in height if height[one] == level)}")
-
-
-if __name__ == "__main__":
-    main()
+    """Folders of C++ sources, and those that each includes from."""
+    found: dict[str, set[str]] = {}
+    for path in folder.rglob("*.[ch]pp"):
+        own = found.setdefault(path.parent.relative_to(folder).as_posix(), set())
+        for name in re.findall(rf'#include "{folder.name}/([^"]+)"', path.read_text(encoding="utf-8")):
+            own.add(Path(name).parent.as_posix())
+    return {own: others - {own} for own, others in found.items()}
