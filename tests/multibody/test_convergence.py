@@ -22,12 +22,9 @@ def scene(baumgarte: float = 0.0) -> Scene:
     payload = out.bodies["payload"]
     out.bodies = {name: body for name, body in out.bodies.items() if name != "payload"}
     out.add_body(
-        name="payload",
-        mass=payload.mass,
-        inertia=payload.inertia,
-        position=payload.position,
-        velocity=(0.8, 0.5, 0.0),
-    )
+        name="payload", mass=payload.mass, inertia=payload.inertia, position=payload.position,
+        velocity=(0.8, 0.5, 0.0)
+    )  # fmt: skip
     return out
 
 

@@ -32,12 +32,9 @@ def turning_about_a_ball(speed: float) -> Scene:
     """A body without weight that turns about its ball joint: its centre stays on a circle, at 0.5 m."""
     scene = Scene(name="ball", gravity=0.0)
     scene.add_body(
-        name="body",
-        mass=1.0,
-        inertia=[1 / 12] * 3,
-        center_of_mass=(0.5, 0, 0),
-        angular_velocity=(0, speed, 0),
-    )
+        name="body", mass=1.0, inertia=[1 / 12] * 3, center_of_mass=(0.5, 0, 0),
+        angular_velocity=(0, speed, 0)
+    )  # fmt: skip
     scene.add_joint(kind="spherical", name="ball", first="ground", second="body", point=(0, 0, 0))
     return scene
 

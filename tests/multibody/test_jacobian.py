@@ -82,13 +82,11 @@ def mixture(seed: int, **settings: Any) -> Scene:
     for i, kind in enumerate(kinds):
         name, point = f"body {i}", random.uniform(-1.0, 1.0, 3)
         scene.add_body(
-            name=name,
-            mass=random.uniform(1.0, 3.0),
-            inertia=random.uniform(0.8, 1.2, 3),
+            name=name, mass=random.uniform(1.0, 3.0), inertia=random.uniform(0.8, 1.2, 3),
             position=point + random.uniform(-0.5, 0.5, 3),
             quaternion=quaternion_about(random.uniform(-1.0, 1.0, 3), random.uniform(-1.0, 1.0)),
-            center_of_mass=random.uniform(-0.2, 0.2, 3),
-        )
+            center_of_mass=random.uniform(-0.2, 0.2, 3)
+        )  # fmt: skip
         axis = random.uniform(-1.0, 1.0, 3)
         own = own_arguments(
             kind, lambda axis=axis: np.cross(axis, random.uniform(-1.0, 1.0, 3)), lambda: None
@@ -118,11 +116,9 @@ def mixture(seed: int, **settings: Any) -> Scene:
     )
     angle = np.radians([0.0, 45.0, 90.0, 135.0, 180.0])
     flow = FlowCoefficients(
-        angle=angle,
-        x=np.cos(angle),
-        y=np.sin(angle) * [0, 1, 1, 1, 0],
-        yaw=0.1 * np.sin(2 * angle) * [0, 1, 1, 1, 0],
-    )
+        angle=angle, x=np.cos(angle), y=np.sin(angle) * [0, 1, 1, 1, 0],
+        yaw=0.1 * np.sin(2 * angle) * [0, 1, 1, 1, 0]
+    )  # fmt: skip
     areas: dict[str, Any] = {"frontal_area": 2.0, "lateral_area": 3.0, "length": 2.0}
     top = (0.0, 0.0, 0.4)
     scene.add_wind(coefficients=flow, speed=6.0, direction_deg=30.0, body="load", point=top, **areas)
@@ -143,14 +139,10 @@ def test_all_kinds_of_elements(seed: int, on_constraints: bool, orientation: str
 
 
 SEAS: list[dict[str, Any]] = [
-    {"memory": "per-pair"},
-    {"memory": "passive"},
-    {"memory": "none"},
-    {"memory": "convolution"},
-    {"phase": "actual", "count": 20},
-    {"phase": "slow", "count": 20},
-    {"phase": "slow", "count": 20, "memory": "convolution"},
-]
+    {"memory": "per-pair"}, {"memory": "passive"}, {"memory": "none"}, {"memory": "convolution"},
+    {"phase": "actual", "count": 20}, {"phase": "slow", "count": 20},
+    {"phase": "slow", "count": 20, "memory": "convolution"}
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("options", SEAS, ids=str)
@@ -168,14 +160,11 @@ def test_vessel_with_all_its_terms(orientation: str) -> None:
     scene.add_body(name="hull", mass=40.0, inertia=(5.0, 6.0, 7.0), center_of_mass=(0.1, 0.2, 0.3))
     matrix = random.uniform(-1.0, 1.0, (6, 6))
     scene.add_vessel(
-        body="hull",
-        added_mass=30.0 * np.eye(6) + matrix + matrix.T,
-        linear_damping=random.uniform(-1.0, 1.0, (6, 6)),
-        quadratic_damping=random.uniform(5.0, 9.0, 6),
-        restoring=np.diag([0.0, 0.0, 90.0, 70.0, 60.0, 0.0]),
-        mooring_stiffness=(3.0, 4.0, 5.0),
-        mooring_damping=(1.0, 2.0, 3.0),
-    )
+        body="hull", added_mass=30.0 * np.eye(6) + matrix + matrix.T,
+        linear_damping=random.uniform(-1.0, 1.0, (6, 6)), quadratic_damping=random.uniform(5.0, 9.0, 6),
+        restoring=np.diag([0.0, 0.0, 90.0, 70.0, 60.0, 0.0]), mooring_stiffness=(3.0, 4.0, 5.0),
+        mooring_damping=(1.0, 2.0, 3.0)
+    )  # fmt: skip
     model = scene.compile()
     y = moving(model, 6, on_constraints=False, size=1.0)
     assert largest_error(model, 0.0, y, step=1e-4) < 1e-7
@@ -241,13 +230,9 @@ def test_dependent_rows_and_other_formulations_have_none() -> None:
     scene.add_body(name="door", mass=2.0, inertia=(0.3, 0.4, 0.5), position=(0.5, 0.0, 0.0))
     for height in (0.0, 1.0):
         scene.add_joint(
-            kind="revolute",
-            name=f"hinge {height}",
-            first="ground",
-            second="door",
-            point=(0, 0, height),
-            axis=(0, 0, 1),
-        )
+            kind="revolute", name=f"hinge {height}", first="ground", second="door", point=(0, 0, height),
+            axis=(0, 0, 1)
+        )  # fmt: skip
     with pytest.warns(UserWarning, match="redundant"):
         model = scene.compile()
     with pytest.raises(ValueError, match="constraint rows depend on each other"):

@@ -15,16 +15,9 @@ from seacrane import Scene, SceneError
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 FREEDOMS = {
-    "weld": 0,
-    "revolute": 1,
-    "prismatic": 1,
-    "cylindrical": 2,
-    "universal": 2,
-    "spherical": 3,
-    "planar": 3,
-    "distance": 5,
-    "free": 6,
-}
+    "weld": 0, "revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "spherical": 3, "planar": 3,
+    "distance": 5, "free": 6
+}  # fmt: skip
 
 
 def one_joint(kind: str) -> Scene:
@@ -93,37 +86,21 @@ def parallelogram(*, offset: float = 0.0, second_length: float = 1.0) -> Scene:
         return Frame(point=(x, 0.0, z), axes=[[1, 0, 0], [0, 0, 1], [0, -1, 0]])
 
     scene.add_joint(
-        kind="revolute",
-        name="foot",
-        first="ground",
-        second="left",
-        first_frame=frame(0, 0),
-        second_frame=frame(0, -0.5),
-    )
+        kind="revolute", name="foot", first="ground", second="left", first_frame=frame(0, 0),
+        second_frame=frame(0, -0.5)
+    )  # fmt: skip
     scene.add_joint(
-        kind="revolute",
-        name="knee",
-        first="left",
-        second="coupler",
-        first_frame=frame(0, 0.5),
-        second_frame=frame(-1, 0),
-    )
+        kind="revolute", name="knee", first="left", second="coupler", first_frame=frame(0, 0.5),
+        second_frame=frame(-1, 0)
+    )  # fmt: skip
     scene.add_joint(
-        kind="spherical",
-        name="elbow",
-        first="coupler",
-        second="right",
-        first_frame=frame(1, 0),
-        second_frame=frame(0, 0.5 * second_length),
-    )
+        kind="spherical", name="elbow", first="coupler", second="right", first_frame=frame(1, 0),
+        second_frame=frame(0, 0.5 * second_length)
+    )  # fmt: skip
     scene.add_joint(
-        kind="cylindrical",
-        name="heel",
-        first="ground",
-        second="right",
-        first_frame=frame(2, 0),
-        second_frame=frame(0, -0.5 * second_length),
-    )
+        kind="cylindrical", name="heel", first="ground", second="right", first_frame=frame(2, 0),
+        second_frame=frame(0, -0.5 * second_length)
+    )  # fmt: skip
     return scene
 
 
@@ -179,14 +156,9 @@ def test_contradicting_joints_are_named() -> None:
     scene.add_joint(kind="weld", name="bolt", first="ground", second="box")
 
     scene.add_joint(
-        kind="distance",
-        name="long",
-        first="ground",
-        second="box",
-        point=(0, 0, 1),
-        second_point=(0, 0, 0),
-        length=1.5,
-    )
+        kind="distance", name="long", first="ground", second="box", point=(0, 0, 1), second_point=(0, 0, 0),
+        length=1.5
+    )  # fmt: skip
     with pytest.raises(SceneError, match=r"'long'.*contradictory") as caught:
         scene.compile()
     assert "'short'" in str(caught.value)
@@ -201,21 +173,13 @@ def test_joint_frames_may_lie_anywhere_on_their_bodies() -> None:
         from seacrane.inputs.frames import rotation_matrix
 
         scene.add_body(
-            name="flap",
-            mass=3.0,
-            inertia=(0.2, 0.3, 0.4),
-            quaternion=q,
-            position=rotation_matrix(q) @ shift,
-            center_of_mass=np.array([0.5, 0.1, -0.2]) - shift,
-        )
+            name="flap", mass=3.0, inertia=(0.2, 0.3, 0.4), quaternion=q, position=rotation_matrix(q) @ shift,
+            center_of_mass=np.array([0.5, 0.1, -0.2]) - shift
+        )  # fmt: skip
         scene.add_joint(
-            kind="revolute",
-            name="hinge",
-            first="ground",
-            second="flap",
-            point=(0.1, 0.2, 0.0),
-            axis=(1.0, 0.2, 0.0),
-        )
+            kind="revolute", name="hinge", first="ground", second="flap", point=(0.1, 0.2, 0.0),
+            axis=(1.0, 0.2, 0.0)
+        )  # fmt: skip
         runs.append(record(scene, 1.0, rtol=1e-9))
     for name in ("position", "quaternion", "reaction_force", "reaction_moment"):
         np.testing.assert_allclose(

@@ -40,13 +40,9 @@ def test_linear_spring_and_damper(damping: float) -> None:
     stiffness, natural, start = 50.0, 1.0, 1.4
     scene = ball(position=(start, 0.0, 0.0))
     scene.add_spring(
-        name="spring",
-        first="ground",
-        second="ball",
-        stiffness=stiffness,
-        damping=damping,
-        natural_length=natural,
-    )
+        name="spring", first="ground", second="ball", stiffness=stiffness, damping=damping,
+        natural_length=natural
+    )  # fmt: skip
     out = record(scene, 3.0, rtol=1e-9)
     decay = damping / (2.0 * MASS)
     omega = np.sqrt(stiffness / MASS - decay**2)
@@ -89,15 +85,9 @@ def test_spring_pulls_both_bodies_at_their_points() -> None:
     scene = ball(position=(1.0, 0.0, 0.0))
     scene.add_body(name="other", mass=3.0, inertia=INERTIA, position=(-1.0, 0.5, 0.0))
     scene.add_spring(
-        name="spring",
-        first="ball",
-        second="other",
-        first_point=(0, 0, 0.2),
-        second_point=(0, 0.1, 0),
-        stiffness=80.0,
-        damping=1.0,
-        natural_length=1.0,
-    )
+        name="spring", first="ball", second="other", first_point=(0, 0, 0.2), second_point=(0, 0.1, 0),
+        stiffness=80.0, damping=1.0, natural_length=1.0
+    )  # fmt: skip
     out = record(scene, 1.0)
     momentum = MASS * out["velocity"][:, 0] + 3.0 * out["velocity"][:, 1]
     assert np.max(np.abs(momentum)) < 1e-10
@@ -139,12 +129,9 @@ def test_force_table_is_linear_between_its_times_and_held_outside() -> None:
 
 
 SIGNATURE = ctypes.CFUNCTYPE(
-    None,
-    ctypes.c_double,
-    ctypes.POINTER(ctypes.c_double),
-    ctypes.POINTER(ctypes.c_double),
-    ctypes.POINTER(ctypes.c_double),
-)
+    None, ctypes.c_double, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double),
+    ctypes.POINTER(ctypes.c_double)
+)  # fmt: skip
 
 
 def test_c_function_pointer_sees_the_state_and_its_parameters() -> None:

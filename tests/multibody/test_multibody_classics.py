@@ -40,13 +40,9 @@ def tumbling(rates: tuple[float, float, float], orientation: str = "quaternion")
     q = quaternion_about((1.0, 2.0, -0.5), 0.6)
     scene = Scene(gravity=0.0, orientation=orientation)
     scene.add_body(
-        name="block",
-        mass=2.0,
-        inertia=INERTIA,
-        quaternion=q,
-        center_of_mass=(0.1, -0.2, 0.3),
-        angular_velocity=rotation_matrix(q) @ rates,
-    )
+        name="block", mass=2.0, inertia=INERTIA, quaternion=q, center_of_mass=(0.1, -0.2, 0.3),
+        angular_velocity=rotation_matrix(q) @ rates
+    )  # fmt: skip
     return scene
 
 
@@ -78,13 +74,9 @@ def test_spherical_pendulum(kind: str) -> None:
     # On a spherical joint the ball turns with its arm; on a link through its centre it does not turn at all.
     spin = np.cross(start, velocity) / length**2 if turning else np.zeros(3)
     scene.add_body(
-        name="ball",
-        mass=mass,
-        inertia=[inertia] * 3,
-        position=start,
-        velocity=velocity,
-        angular_velocity=spin,
-    )
+        name="ball", mass=mass, inertia=[inertia] * 3, position=start, velocity=velocity,
+        angular_velocity=spin
+    )  # fmt: skip
     second = {} if turning else {"second_point": start}
     scene.add_joint(kind=kind, name="pivot", first="ground", second="ball", point=(0, 0, 0), **second)
     out = record(scene, 5.0, rtol=1e-10)
@@ -105,15 +97,10 @@ def test_double_pendulum() -> None:
     for i, (foot, speed) in enumerate([(np.zeros(3), np.zeros(3)), (elbow, elbow_velocity)]):
         link = links[i]
         scene.add_body(
-            name=f"link {i}",
-            mass=link.mass,
-            inertia=[1.0, link.inertia, 1.0],
-            position=foot,
-            center_of_mass=(0.0, 0.0, -link.center),
-            quaternion=quaternion_about((0, -1, 0), angles[i]),
-            velocity=speed,
-            angular_velocity=(0.0, -rates[i], 0.0),
-        )
+            name=f"link {i}", mass=link.mass, inertia=[1.0, link.inertia, 1.0], position=foot,
+            center_of_mass=(0.0, 0.0, -link.center), quaternion=quaternion_about((0, -1, 0), angles[i]),
+            velocity=speed, angular_velocity=(0.0, -rates[i], 0.0)
+        )  # fmt: skip
     scene.add_joint(
         kind="revolute", name="top", first="ground", second="link 0", point=(0, 0, 0), axis=(0, -1, 0)
     )
@@ -154,11 +141,10 @@ def four_bar(bar: ChangePointFourBar, q: float, rate: float, kinds: dict[str, st
     along = [np.array([c.f for c in m.axes[0]]) for m in bar.kinematics(Jet(q, 1.0))]
     pin = bar.crank.length * along[0]
     places: dict[str, tuple[str, str, Any]] = {
-        "O": ("ground", "crank", np.zeros(3)),
-        "A": ("crank", "coupler", pin),
+        "O": ("ground", "crank", np.zeros(3)), "A": ("crank", "coupler", pin),
         "B": ("coupler", "rocker", pin + bar.coupler.length * along[1]),
-        "C": ("ground", "rocker", np.array([bar.ground, 0.0, 0.0])),
-    }
+        "C": ("ground", "rocker", np.array([bar.ground, 0.0, 0.0]))
+    }  # fmt: skip
     for name, (first, second, point) in places.items():
         axis = {} if kinds[name] == "spherical" else {"axis": (0, 0, 1)}
         scene.add_joint(kind=kinds[name], name=name, first=first, second=second, point=point, **axis)

@@ -88,13 +88,9 @@ def test_hanging_payload_on_a_fixed_crane_top() -> None:
     box = (10e3 / 12.0) * np.array([52.0, 52.0, 72.0])
     scene.add_body(name="payload", mass=10e3, inertia=box, position=(0.0, 0.0, -10.0))
     scene.add_joint(
-        kind="distance",
-        name="link",
-        first="ground",
-        second="payload",
-        point=(0, 0, 0),
-        second_point=(0, 0, -8),
-    )
+        kind="distance", name="link", first="ground", second="payload", point=(0, 0, 0),
+        second_point=(0, 0, -8)
+    )  # fmt: skip
     modes = natural_modes(scene)
     mass, inertia = 10e3, box[0]
     matrix = np.array([[mass * 64.0, mass * 16.0], [mass * 16.0, mass * 4.0 + inertia]])

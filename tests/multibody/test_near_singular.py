@@ -28,21 +28,14 @@ def folding(start: float, *, pins: int = 1, rate: float | None = None) -> Scene:
     turning = 1.0 if rate is None else 0.0
     scene.add_body(name="crank", mass=1.0, inertia=[1, 1, 1], angular_velocity=(0, -turning, 0))
     scene.add_body(
-        name="slider",
-        mass=1.0,
-        inertia=[1, 1, 1],
-        position=end,
-        velocity=(-2.0 * turning * np.sin(start), 0, 0),
-    )
+        name="slider", mass=1.0, inertia=[1, 1, 1], position=end,
+        velocity=(-2.0 * turning * np.sin(start), 0, 0)
+    )  # fmt: skip
     for i in range(pins):
         scene.add_joint(
-            kind="revolute",
-            name=f"pin {i}",
-            first="ground",
-            second="crank",
-            point=(0, 0.2 * i, 0),
-            axis=(0, -1, 0),
-        )
+            kind="revolute", name=f"pin {i}", first="ground", second="crank", point=(0, 0.2 * i, 0),
+            axis=(0, -1, 0)
+        )  # fmt: skip
     scene.add_joint(
         kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
     )
@@ -112,13 +105,9 @@ def test_a_bifurcation_between_outputs_is_told(formulation: str) -> None:
     scene = bricard.scene(last="cylindrical")
     with pytest.warns(NearSingularWarning, match=r"joint 'hinge \d'.*at t = 0\.8[89]"):
         result = simulate(
-            scene,
-            t_end=1.4,
-            dt_out=0.7,
-            rtol=1e-8,
-            formulation=formulation,
-            channels=["position", "energy_balance"],
-        )
+            scene, t_end=1.4, dt_out=0.7, rtol=1e-8, formulation=formulation,
+            channels=["position", "energy_balance"]
+        )  # fmt: skip
     assert np.abs(result["energy_balance"]).max() > 1e-4  # what the warning is about
 
 
@@ -134,20 +123,13 @@ def chain(links: int, *, hinges: int = 1, lean: float = 0.0) -> Scene:
     before = "beam"
     for i in range(links):
         scene.add_body(
-            name=f"link {i}",
-            mass=20.0,
-            inertia=[0.02, 1.7, 1.7],
-            position=(i + 0.5) * along,
-            quaternion=(np.cos(0.5 * lean), 0, -np.sin(0.5 * lean), 0),
-        )
+            name=f"link {i}", mass=20.0, inertia=[0.02, 1.7, 1.7], position=(i + 0.5) * along,
+            quaternion=(np.cos(0.5 * lean), 0, -np.sin(0.5 * lean), 0)
+        )  # fmt: skip
         scene.add_joint(
-            kind="revolute",
-            name=f"pin {i}",
-            first=before,
-            second=f"link {i}",
-            point=i * along,
-            axis=(0, 1, 0),
-        )
+            kind="revolute", name=f"pin {i}", first=before, second=f"link {i}", point=i * along,
+            axis=(0, 1, 0)
+        )  # fmt: skip
         before = f"link {i}"
     return scene
 
@@ -180,13 +162,9 @@ def pendulum(inertia: float, t: float) -> NDArray[np.float64]:
     """Place of a point 1 m from a hinge about y, let go level."""
     share = GRAVITY / (1.0 + inertia)
     found = solve_ivp(
-        lambda _, y: (y[1], -share * np.cos(y[0])),
-        (0.0, t),
-        (0.0, 0.0),
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-12,
-    )
+        lambda _, y: (y[1], -share * np.cos(y[0])), (0.0, t), (0.0, 0.0), method="DOP853", rtol=1e-12,
+        atol=1e-12
+    )  # fmt: skip
     return np.array((np.cos(found.y[0, -1]), 0.0, np.sin(found.y[0, -1])))
 
 

@@ -75,10 +75,9 @@ def test_loads_add_up_to_mass_times_acceleration() -> None:
     np.testing.assert_allclose(result.select("load_moment", load="push"), np.cross(lever, push), atol=1e-12)
     ends = turned @ np.array([0.0, 0.4, 0.2])
     np.testing.assert_allclose(
-        result.select("load_moment", load="rope"),
-        np.cross(ends, result.select("load_force", load="rope")),
-        atol=1e-9,
-    )
+        result.select("load_moment", load="rope"), np.cross(ends, result.select("load_force", load="rope")),
+        atol=1e-9
+    )  # fmt: skip
 
 
 def test_loads_of_one_name_are_told_apart_by_kind() -> None:

@@ -120,12 +120,9 @@ def all_kinds() -> Scene:
     before = "ground"
     for i, kind in enumerate(kinds):
         scene.add_body(
-            name=kind,
-            mass=1.0 + i,
-            inertia=(0.3, 0.4, 0.5),
-            position=(0.4 * i, 0.1 * i, -1.0 * i),
-            center_of_mass=(0.2, -0.1, -0.5),
-        )
+            name=kind, mass=1.0 + i, inertia=(0.3, 0.4, 0.5), position=(0.4 * i, 0.1 * i, -1.0 * i),
+            center_of_mass=(0.2, -0.1, -0.5)
+        )  # fmt: skip
         here = (0.4 * i, 0.1 * i, -1.0 * i)
         own = own_arguments(kind, lambda: (1.0, -0.3, 0.0), lambda i=i: (0.4 * i, 0.1 * i, -1.0 * i - 1.0))
         scene.add_joint(
@@ -154,14 +151,9 @@ def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
         first, second = (joint.second, joint.first) if swap else (joint.first, joint.second)
         frames = (joint.second_frame, joint.first_frame) if swap else (joint.first_frame, joint.second_frame)
         other.add_joint(
-            kind=joint.kind,
-            name=joint.name,
-            first=first,
-            second=second,
-            **joint.parameters,
-            first_frame=frames[0],
-            second_frame=frames[1],
-        )
+            kind=joint.kind, name=joint.name, first=first, second=second, **joint.parameters,
+            first_frame=frames[0], second_frame=frames[1]
+        )  # fmt: skip
     a, b = record(scene, 0.6, rtol=1e-10), record(other, 0.6, rtol=1e-10)
     for j, name in enumerate(scene.joints):
         sign = -1.0 if name in fixed else 1.0

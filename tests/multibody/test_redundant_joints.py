@@ -84,11 +84,9 @@ def test_the_warning_names_the_users_line(way: str) -> None:
     """However deep in the package the scene was compiled."""
     scene = door([-0.8, 0.8])
     ways: dict[str, Any] = {
-        "compile": scene.compile,
-        "simulate": lambda: simulate(scene, t_end=0.01),
-        "report": scene.report,
-        "run": lambda: Run(scene, t_end=0.01),
-    }
+        "compile": scene.compile, "simulate": lambda: simulate(scene, t_end=0.01), "report": scene.report,
+        "run": lambda: Run(scene, t_end=0.01)
+    }  # fmt: skip
     with pytest.warns(UserWarning, match="redundant") as caught:
         ways[way]()
     assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
@@ -114,11 +112,9 @@ def bars(count: int, *, spatial: bool = False) -> Scene:
     for i in range(count):
         foot = np.array([2.0 * i / (count - 1), 0.0, 0.0])
         scene.add_body(
-            name=f"crank {i}",
-            mass=1.0 if i < 2 else 1e-9,
-            position=foot + 0.5 * up,
-            inertia=np.full(3, 0.06 if i < 2 else 1e-10),
-        )
+            name=f"crank {i}", mass=1.0 if i < 2 else 1e-9, position=foot + 0.5 * up,
+            inertia=np.full(3, 0.06 if i < 2 else 1e-10)
+        )  # fmt: skip
         kinds = ("cylindrical", "spherical") if spatial and i == count - 1 else ("revolute", "revolute")
         for kind, name, first, second, point in (
             (kinds[0], f"foot {i}", "ground", f"crank {i}", foot),
@@ -145,13 +141,9 @@ def extra_bar() -> Scene:
     up = np.array([0.3, 0.0, 0.8])
     # A massless-to-rounding bar: a distance joint between the middles.
     scene.add_joint(
-        kind="distance",
-        name="bar",
-        first="ground",
-        second="coupler",
-        point=(1.0, 0.0, 0.0),
-        second_point=np.array([1.0, 0.0, 0.0]) + up,
-    )
+        kind="distance", name="bar", first="ground", second="coupler", point=(1.0, 0.0, 0.0),
+        second_point=np.array([1.0, 0.0, 0.0]) + up
+    )  # fmt: skip
     return scene
 
 

@@ -29,14 +29,10 @@ def thrown_crane() -> Scene:
 
 
 CONSERVATIVE: dict[str, Callable[[], Scene]] = {
-    "pendulum": pendulums.scene,
-    "double pendulum": pendulums.double_scene,
-    "slider-crank": lambda: slider_crank(CRANK, 0.4, 6.0),
-    "bricard": bricard.scene,
-    "heavy top": tops.scene,
-    "wing nut": tops.wing_nut,
-    "thrown crane": thrown_crane,
-}
+    "pendulum": pendulums.scene, "double pendulum": pendulums.double_scene,
+    "slider-crank": lambda: slider_crank(CRANK, 0.4, 6.0), "bricard": bricard.scene, "heavy top": tops.scene,
+    "wing nut": tops.wing_nut, "thrown crane": thrown_crane
+}  # fmt: skip
 QUICK = ("pendulum", "heavy top", "wing nut", "thrown crane")
 
 
@@ -52,13 +48,8 @@ def kinetic_energy(scene: Scene, result: Result) -> Array:
 def drift(scene: Scene, t_end: float, **settings: Any) -> float:
     """Largest change of energy over the largest kinetic energy."""
     channels = [
-        "velocity",
-        "angular_velocity",
-        "quaternion",
-        "energy_balance",
-        "absolute_work",
-        "constraint_error",
-    ]
+        "velocity", "angular_velocity", "quaternion", "energy_balance", "absolute_work", "constraint_error"
+    ]  # fmt: skip
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         result = simulate(scene, t_end=t_end, dt_out=0.5, channels=channels, rtol=1e-10, **settings)

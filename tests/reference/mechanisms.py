@@ -41,12 +41,9 @@ class Moving:
         w1 = np.array([antisymmetric[2, 1], antisymmetric[0, 2], antisymmetric[1, 0]])
         momentum = self.inertia @ w
         return (
-            float(self.mass * p1 @ p1 + w @ momentum),
-            float(self.mass * p1 @ p2 + w1 @ momentum),
-            p,
-            p1,
-            r @ w,
-        )
+            float(self.mass * p1 @ p1 + w @ momentum), float(self.mass * p1 @ p2 + w1 @ momentum), p, p1,
+            r @ w
+        )  # fmt: skip
 
 
 Kinematics = Callable[[Jet], list[Moving]]
@@ -218,10 +215,9 @@ class ChangePointFourBar:
         coupler = scale(add(elbow, scale(pin, -1.0)), 1.0 / b)
         rocker = scale(add(elbow, fixed([-d, 0.0, 0.0])), 1.0 / c)
         return [
-            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank),
-            planar(self.coupler, pin, coupler),
-            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker),
-        ]
+            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank), planar(self.coupler, pin, coupler),
+            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker)
+        ]  # fmt: skip
 
     def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, 0.0), load: float = 0.0) -> SingleCoordinate:
         return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)

@@ -100,17 +100,12 @@ def scene(*, planar: bool = False) -> Scene:
         )  # fmt: skip
     closing, sliding = ("revolute", "revolute") if planar else ("spherical", "cylindrical")
     pins: list[tuple[str, str, str, Any, str]] = [
-        ("O", "ground", "K1", np.zeros(2), "revolute"),
-        ("F", "K1", "K2", pin, "revolute"),
-        ("E3", "K2", "K3", middle, closing),
-        ("E4", "K2", "K4", middle, closing),
-        ("E6", "K2", "K6", middle, closing),
-        ("H", "K5", "K4", elbow, "revolute"),
-        ("G", "K7", "K6", knee, "revolute"),
-        ("B", "ground", "K3", B, sliding),
-        ("A5", "ground", "K5", A, sliding),
-        ("A7", "ground", "K7", A, sliding),
-    ]
+        ("O", "ground", "K1", np.zeros(2), "revolute"), ("F", "K1", "K2", pin, "revolute"),
+        ("E3", "K2", "K3", middle, closing), ("E4", "K2", "K4", middle, closing),
+        ("E6", "K2", "K6", middle, closing), ("H", "K5", "K4", elbow, "revolute"),
+        ("G", "K7", "K6", knee, "revolute"), ("B", "ground", "K3", B, sliding),
+        ("A5", "ground", "K5", A, sliding), ("A7", "ground", "K7", A, sliding)
+    ]  # fmt: skip
     for name, first, second, point, kind in pins:
         add_pin(out, "xy", name, first, second, point, kind=kind)
     out.add_spring(

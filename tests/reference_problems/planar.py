@@ -45,15 +45,10 @@ def add_body(
     plane's."""
     turn = normal(plane)
     scene.add_body(
-        name=name,
-        mass=mass,
-        inertia=np.full(3, inertia),
-        center_of_mass=place(plane, center),
-        position=place(plane, origin),
-        quaternion=np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * turn),
-        velocity=place(plane, velocity),
-        angular_velocity=rate * turn,
-    )
+        name=name, mass=mass, inertia=np.full(3, inertia), center_of_mass=place(plane, center),
+        position=place(plane, origin), quaternion=np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * turn),
+        velocity=place(plane, velocity), angular_velocity=rate * turn
+    )  # fmt: skip
 
 
 def add_pin(

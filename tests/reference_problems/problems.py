@@ -50,15 +50,10 @@ def compared(
         f"{key} {value:g}" if isinstance(value, float) else value for key, value in settings.items()
     )
     return Comparison(
-        problem=problem,
-        quantity=quantity,
-        source=source,
-        setting=text or "default",
-        found=float(found[-1, worst]),
-        expected=float(expected[-1, worst]),
-        difference=float(np.abs(found - expected).max()),
-        unit=unit,
-    )
+        problem=problem, quantity=quantity, source=source, setting=text or "default",
+        found=float(found[-1, worst]), expected=float(expected[-1, worst]),
+        difference=float(np.abs(found - expected).max()), unit=unit
+    )  # fmt: skip
 
 
 def simple_pendulum(**settings: Any) -> Comparison:
@@ -105,14 +100,9 @@ def bricard_loop(**settings: Any) -> Comparison:
     result = run(bricard.scene(), 2.5, 0.125, settings, "position")
     source = "closed form and SciPy"
     return compared(
-        "Bricard's loop",
-        "places of five rods, 2.5 s",
-        source,
-        settings,
-        result["position"],
-        bricard_places(),
-        "m",
-    )
+        "Bricard's loop", "places of five rods, 2.5 s", source, settings, result["position"],
+        bricard_places(), "m"
+    )  # fmt: skip
 
 
 @cache
@@ -157,14 +147,9 @@ def spatial_slider_crank(**settings: Any) -> Comparison:
     result = run(slider_crank(CRANK, 0.4, 6.0), 3.0, 0.05, settings, "position")
     source = "one coordinate, SciPy"
     return compared(
-        "slider-crank",
-        "places of three bodies, 3 s",
-        source,
-        settings,
-        result["position"],
-        crank_places(),
-        "m",
-    )
+        "slider-crank", "places of three bodies, 3 s", source, settings, result["position"], crank_places(),
+        "m"
+    )  # fmt: skip
 
 
 def ship_in_a_wave(memory: str = "states", **settings: Any) -> Comparison:
@@ -214,12 +199,6 @@ def regular_wave_response() -> list[Comparison]:
 
 
 MECHANISMS: dict[str, Callable[..., Comparison]] = {
-    "pendulum": simple_pendulum,
-    "four-bars": four_bar_row,
-    "squeezer": squeezer,
-    "bricard": bricard_loop,
-    "governor": flyball_governor,
-    "top": heavy_top,
-    "nut": wing_nut,
-    "crank": spatial_slider_crank,
-}
+    "pendulum": simple_pendulum, "four-bars": four_bar_row, "squeezer": squeezer, "bricard": bricard_loop,
+    "governor": flyball_governor, "top": heavy_top, "nut": wing_nut, "crank": spatial_slider_crank
+}  # fmt: skip

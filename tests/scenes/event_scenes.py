@@ -30,12 +30,9 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
     """A ball below its hook, thrown sideways so fast that the wire goes slack before the top."""
     scene = Scene(name="pendulum")
     scene.add_body(
-        name="ball",
-        mass=MASS,
-        inertia=INERTIA,
-        position=(0.0, 0.0, -LENGTH),
-        velocity=(FIRST_SPEED, 0.0, 0.0),
-    )
+        name="ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, -LENGTH),
+        velocity=(FIRST_SPEED, 0.0, 0.0)
+    )  # fmt: skip
     scene.add_joint(
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -LENGTH),
@@ -102,10 +99,8 @@ def pushed(restitution: float = 0.0) -> Scene:
     scene.add_body(name="slide", mass=MASS, inertia=INERTIA)
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
     scene.add_actuator(
-        joint="rail",
-        name="ram",
-        feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0),
-    )
+        joint="rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0)
+    )  # fmt: skip
     scene.record_coordinate(joint="rail")
     scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene

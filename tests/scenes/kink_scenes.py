@@ -96,12 +96,9 @@ def by_wind(curve: Curve) -> Scene:
 
 
 ELEMENTS: dict[str, Callable[[Curve], Scene]] = {
-    "feed-forward": by_feed_forward,
-    "reference": by_reference,
-    "driver": by_driver,
-    "force table": by_force_table,
-    "wind": by_wind,
-}
+    "feed-forward": by_feed_forward, "reference": by_reference, "driver": by_driver,
+    "force table": by_force_table, "wind": by_wind
+}  # fmt: skip
 
 
 def random_curve(rng: np.random.Generator, *, continuous: bool = False) -> Curve:

@@ -25,14 +25,9 @@ def record(
     """All channels of a run, opt-in ones too, and `stats`."""
     model = scene.compile()
     run = Run(
-        scene,
-        t_end=t_end,
-        dt_out=dt_out,
-        rtol=rtol,
-        model=model,
-        channels=model.channel_names(defaults_only=False),
-        **settings,
-    )
+        scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
+        channels=model.channel_names(defaults_only=False), **settings
+    )  # fmt: skip
     run.advance(t_end)
     out: dict[str, Any] = dict(run.core.channels())
     return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
@@ -65,14 +60,9 @@ def add_moving_bodies(
         rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
         # Any rotation to and from the quaternion: half turns are avoided by the poses chosen.
         scene.add_body(
-            name=name,
-            mass=moving.mass,
-            inertia=moving.inertia,
-            position=position,
-            quaternion=quaternion_of(rotation),
-            velocity=rate * slope,
-            angular_velocity=rate * spin,
-        )
+            name=name, mass=moving.mass, inertia=moving.inertia, position=position,
+            quaternion=quaternion_of(rotation), velocity=rate * slope, angular_velocity=rate * spin
+        )  # fmt: skip
         rotations.append(rotation)
     return rotations
 
@@ -88,14 +78,9 @@ def slider_crank(crank: SliderCrank, q: float, rate: float, *, gravity: float = 
     )
     scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=middle - half)
     scene.add_joint(
-        kind="universal",
-        name="cross",
-        first="slider",
-        second="rod",
-        point=middle + half,
-        axis=(0, 1, 0),
-        second_axis=rod[:, 1],
-    )
+        kind="universal", name="cross", first="slider", second="rod", point=middle + half, axis=(0, 1, 0),
+        second_axis=rod[:, 1]
+    )  # fmt: skip
     scene.add_joint(
         kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0)
     )
@@ -118,12 +103,9 @@ def add_crane(
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
         scene.add_actuator(
-            name=name,
-            joint=joint,
-            stiffness=stiffness,
-            damping=damping,
-            reference=(references or {}).get(name, 0.0),
-        )
+            name=name, joint=joint, stiffness=stiffness, damping=damping,
+            reference=(references or {}).get(name, 0.0)
+        )  # fmt: skip
 
 
 def swing_out(duration: float = 10.0) -> dict[str, Curve]:
