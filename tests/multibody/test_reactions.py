@@ -9,6 +9,7 @@ import pytest
 from joint_examples import KINDS, own_arguments
 from multibody_runs import (
     ACTUATORS,
+    CRANK,
     Array,
     crane_scene,
     masses,
@@ -17,8 +18,6 @@ from multibody_runs import (
     swing_out,
     world_inertia,
 )
-from reference.classic import Link
-from reference.mechanisms import SliderCrank
 
 from seacrane import Curve, Scene
 from seacrane.analysis import driven
@@ -26,7 +25,6 @@ from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.inputs.frames import rotation_matrix
 
 G = 9.80665
-CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 
 
 def joint_points(scene: Scene, out: dict[str, Any]) -> Array:

@@ -8,10 +8,8 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from multibody_runs import slider_crank
+from multibody_runs import CRANK, slider_crank
 from numpy.typing import NDArray
-from reference.classic import Link
-from reference.mechanisms import SliderCrank
 from test_vessel import moored, regular_wave, steady_state
 
 from seacrane import Result, Scene, simulate
@@ -23,7 +21,6 @@ from .comparison import Comparison
 from .planar import angles
 
 Array = NDArray[np.float64]
-CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 
 
 def run(scene: Scene, t_end: float, dt_out: float, settings: dict[str, Any], *channels: str) -> Result:

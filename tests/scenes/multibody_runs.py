@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from reference.classic import Link
 from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
 
@@ -15,6 +16,7 @@ from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 # Stiffness and damping that give the stiffest coordinate of the crane a frequency of about 5 rad/s.
 GAINS = {"slew": (2.0e9, 6.0e8), "main": (6.0e7, 2.0e7), "knuckle": (2.5e7, 8.0e6)}
 
