@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from test_merge import FORMULATIONS, recorded
 
 from seacrane import Curve, Run, Scene, SeacraneError, _core, shipped_database, simulate
 
 Array = NDArray[np.float64]
-FORMULATIONS = ("redundant", "recursive")
+
 ROPE = {"EA": 2e8, "rung": "elastic"}
 PARTS = [f"{jib}_{part}" for jib in ("main", "knuckle") for part in ("jib", "barrel", "rod")]
 CRANE = sorted(["tower", "king", *PARTS])
@@ -29,22 +30,12 @@ def lift(**crane: Any) -> Scene:
     return scene
 
 
-def recorded(scene: Scene, *, merge: bool, t_end: float, **settings: Any) -> dict[str, Any]:
-    model = scene.compile(merge=merge)
-    run = Run(scene, t_end=t_end, model=model, channels=model.channel_names(defaults_only=False), **settings)
-    run.advance(t_end)
-    return dict(run.core.channels())
-
-
-def test_a_held_crane_is_one_body_with_its_ship() -> None:
+def test_a_held_crane_is_one_body_with_its_ship_and_held_strokes_leave_the_slew_that_moves() -> None:
     model = lift().compile()
     assert sorted(model.merge["bodies"]["vessel"]) == CRANE
     assert (model.merge["coordinates"], model.merge["constraints"]) == (12, 0)
     assert len(model.merge["locked_by"]) == 3
     assert model.tree["loop_rows"] == 0
-
-
-def test_held_strokes_leave_the_slew_that_moves() -> None:
     scene = lift(held=False)
     for joint in ("main_cylinder", "knuckle_cylinder"):
         scene.add_driver(joint, curve=0.0)
@@ -115,15 +106,11 @@ def four_bar(*, coupler: float = 5.0, held: bool = True) -> Scene:
     return scene
 
 
-@pytest.mark.warns("RedundantJointsWarning")
-def test_a_four_bar_is_rigid_under_a_held_crank_and_free_without() -> None:
+@pytest.mark.filterwarnings("ignore")
+def test_a_four_bar_is_rigid_under_a_held_crank_but_not_at_a_dead_centre() -> None:
+    """Coupler and rocker in line: there the loop yields to first order, though the crank is held."""
     assert four_bar().compile().merge["bodies"] == {"ground": ["crank", "coupler", "rocker"]}
     assert four_bar(held=False).compile().merge["bodies"] == {}
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_at_a_dead_centre_a_loop_stays_in_its_joints() -> None:
-    """Coupler and rocker in line: the loop yields to first order, though the crank is held."""
     merged = four_bar(coupler=float(np.linalg.norm(ROCKER_FOOT - CRANK_END)) - ROCKER).compile().merge
     assert merged["bodies"] == {"ground": ["crank"]}
 
@@ -142,15 +129,13 @@ def test_a_state_that_closes_in_the_other_way_is_refused_by_name() -> None:
         values[at : at + 7] = x, 0.0, z, np.cos(0.5 * turn), 0.0, np.sin(0.5 * turn), 0.0
     at = model.pose_index(list(model.bodies).index("bob"))
     values[at : at + 3] = far[0], 0.0, far[1] - 3.0
-    start = _core.State(time=0.0, values=values, inputs=np.zeros(model.slots), parts=model_parts(model))
+    start = _core.State(
+        time=0.0, values=values, inputs=np.zeros(model.slots), parts=list(_core.initial_state(model).parts)
+    )
     with pytest.raises(SeacraneError, match=r"body '(coupler|rocker)' is .* m from where it is held"):
         simulate(scene, 1.0, start=start)
     run = Run(scene, t_end=0.1, model=scene.compile(merge=False), start=start)
     run.advance(0.1)
-
-
-def model_parts(model: _core.Model) -> list[str]:
-    return list(_core.initial_state(model).parts)
 
 
 def test_a_load_on_a_seat_lifts_off_when_the_joints_say() -> None:
@@ -178,10 +163,3 @@ def test_a_restart_keeps_its_bits() -> None:
     rest = Run(scene, t_end=6.0, dt_out=0.5, start=state)
     rest.advance(6.0)
     assert np.array_equal(np.array(rest.core.state.values), np.array(whole.core.state.values))
-
-
-@pytest.mark.warns("BallastWarning")
-def test_drivers_of_held_joints_tell_their_forces() -> None:
-    """Main stroke: by the same run of the joints; nothing moves it, so that it does no work."""
-    run = simulate(lift(), 2.0, channels=["cylinder_force", "slew_torque"])
-    assert (run.curve("cylinder_force[main]") > 1e6).all() and np.ptp(run["slew_torque"]) > 1e3

@@ -16,7 +16,6 @@ from seacrane.scene.wind_current import FlowCoefficients
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
-COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")
 FORCE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
 FORMULATIONS = ("redundant", "recursive")
 
@@ -42,11 +41,18 @@ def compare(scene: Scene, bound: float, **settings: Any) -> None:
     """Runs with and without merging agree within `bound` of the largest value of each channel."""
     merged, full = recorded(scene, merge=True, **settings), recorded(scene, merge=False, **settings)
     assert set(merged) == set(full)
-    for name in COMPARED:
-        if name in full:
-            scale = np.abs(full[name]).max()
-            assert scale > 0.0, name
-            assert np.abs(merged[name] - full[name]).max() <= bound * scale, name
+    compared = (
+        "position",
+        "velocity",
+        "angular_velocity",
+        "acceleration",
+        "reaction_force",
+        "reaction_moment",
+    )
+    for name in compared:
+        scale = np.abs(full[name]).max()
+        assert scale > 0.0, name
+        assert np.abs(merged[name] - full[name]).max() <= bound * scale, name
     work = 1.0 + np.abs(full["absolute_work"]).max()
     assert np.abs(merged["energy_balance"] - full["energy_balance"]).max() <= 10.0 * bound * work
     # Kinks where a power changes sign, outside the error norm.
@@ -156,12 +162,37 @@ def test_joints_held_still_are_locked(formulation: str) -> None:
     assert sorted(model.merge["dropped"]) == ["hold rail", "hold slew", "rail", "slew"]
     assert model.merge["coordinates"] - model.merge["constraints"] == 1
     compare(scene, 1e-8, formulation=formulation)
+    locked = dict(scene_report(scene)["merged"])
+    assert locked["drivers that hold a joint still"] == ["hold slew", "hold rail"]
 
 
-def test_a_driver_that_moves_locks_nothing() -> None:
+def still(kind: str = "quay") -> Scene:
+    """Two vessels, a mast between them and a quay; or a block on the ground."""
+    scene = Scene(gravity=0.0)
+    if kind == "block":
+        scene.add_body(name="block", mass=1.0, inertia=[1.0] * 3)
+        scene.add_joint(kind="weld", name="base", first="ground", second="block")
+        return scene
+    for i, name in enumerate(("one", "mast", "two", "quay")):
+        scene.add_body(name=name, mass=1.0, inertia=[1.0] * 3, position=(2.0 * i, 0.0, 0.0))
+    for name in ("one", "two"):
+        scene.add_vessel(body=name, restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
+    for a, b in (("mast", "one"), ("mast", "two"), ("ground", "quay"), ("quay", "two")):
+        scene.add_joint(kind="weld", name=f"{a}-{b}", first=a, second=b)
+    return scene
+
+
+def test_what_stays_apart() -> None:
+    """Vessels and the ground; what drivers move; what cannot move at all; all bodies of the paper's form."""
+    merge = still().compile().merge
+    assert merge["bodies"] == {"one": ["mast"], "ground": ["quay"]}
+    assert merge["dropped"] == ["mast-one", "ground-quay"]
     moving = Curve.constant(value=0.3).then(time=1.0, curve=Curve.constant(value=0.4))
-    for curve in (moving, Curve.harmonic(amplitude=0.1, omega=2.0)):
-        merge = arm(curve).compile().merge
+    for scene in (
+        arm(moving), arm(Curve.harmonic(amplitude=0.1, omega=2.0)), still("block"),
+        cases.case2(count=5, kinematics="paper"),
+    ):  # fmt: skip
+        merge = scene.compile().merge
         assert (merge["bodies"], merge["dropped"], merge["locked_by"]) == ({}, [], [])
 
 
@@ -212,30 +243,6 @@ def test_merging_costs_no_integrator_evaluations(integrator: str) -> None:
     assert counts[0] == pytest.approx(counts[1], rel=0.2)
 
 
-def test_two_vessels_and_the_ground_stay_apart() -> None:
-    scene = Scene(gravity=0.0)
-    for i, name in enumerate(("one", "mast", "two", "quay")):
-        scene.add_body(name=name, mass=1.0, inertia=[1.0] * 3, position=(2.0 * i, 0.0, 0.0))
-    for name in ("one", "two"):
-        scene.add_vessel(body=name, restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
-    for a, b in (("mast", "one"), ("mast", "two"), ("ground", "quay"), ("quay", "two")):
-        scene.add_joint(kind="weld", name=f"{a}-{b}", first=a, second=b)
-    merge = scene.compile().merge
-    assert merge["bodies"] == {"one": ["mast"], "ground": ["quay"]}
-    assert merge["dropped"] == ["mast-one", "ground-quay"]
-
-
-def test_what_cannot_move_at_all_is_not_merged() -> None:
-    scene = Scene(gravity=9.81)
-    scene.add_body(name="block", mass=1.0, inertia=[1.0] * 3)
-    scene.add_joint(kind="weld", name="base", first="ground", second="block")
-    assert scene.compile().merge["dropped"] == []
-
-
-def test_paper_kinematics_step_every_body() -> None:
-    assert cases.case2(count=5, kinematics="paper").compile().merge["dropped"] == []
-
-
 def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
     scene = with_loads(askew())
     ends = []
@@ -248,14 +255,3 @@ def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
         run.advance(1.5)
         ends.append(np.array(run.core.state.values)[:-1])  # without the absolute work
     np.testing.assert_allclose(ends[0], ends[1], rtol=0.0, atol=1e-7)
-
-
-def test_the_report_tells_what_moves_as_one() -> None:
-    report = scene_report(cases.case2(count=5))
-    merged = dict(report["merged"])
-    assert merged["moves as one with vessel"] == ["tower"]
-    assert merged["elements not stepped (reactions on output only)"] == ["deck"]
-    assert dict(report["size"])["compiled_coordinates"] == 54
-    locked = dict(scene_report(arm(Curve.constant(value=0.3)))["merged"])
-    assert locked["drivers that hold a joint still"] == ["hold slew", "hold rail"]
-    assert not dict(report["merged"]).get("drivers that hold a joint still")
