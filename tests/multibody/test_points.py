@@ -2,42 +2,28 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import Curve, Lift, Scene, simulate
+from seacrane import Curve, Scene, simulate
 from seacrane.errors import SceneError
+from seacrane.inputs.frames import rotation_matrix
 
 LENGTH = 2.0
 
 
-def spinning(**velocity: object) -> Scene:
+def spinning() -> Scene:
     """A free body that flies and turns, with a point off its centre of mass."""
     scene = Scene(name="spinning")
     scene.add_body(
-        name="box",
-        mass=3.0,
-        inertia=(1.0, 2.0, 2.5),
-        center_of_mass=(0.1, -0.2, 0.3),
-        velocity=(1.0, 0.5, 2.0),
-        angular_velocity=(0.3, -0.7, 1.1),
-        **velocity,  # type: ignore[arg-type]
-    )
+        name="box", mass=3.0, inertia=(1.0, 2.0, 2.5), center_of_mass=(0.1, -0.2, 0.3),
+        velocity=(1.0, 0.5, 2.0), angular_velocity=(0.3, -0.7, 1.1),
+    )  # fmt: skip
     scene.add_point(name="corner", body="box", point=(1.0, 2.0, -0.5))
     scene.add_point(name="origin", body="box")
     return scene
-
-
-def rotations(quaternion: np.ndarray) -> np.ndarray:
-    w, x, y, z = np.moveaxis(quaternion, -1, 0)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), -1, 0)
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
@@ -47,7 +33,7 @@ def test_point_moves_with_its_body(formulation: str) -> None:
         spinning(), t_end=1.0, dt_out=1e-3, rtol=1e-11, channels=channels, formulation=formulation
     )
     lever = np.array([1.0, 2.0, -0.5]) - np.array([0.1, -0.2, 0.3])
-    turned = rotations(result["quaternion"][:, 0])
+    turned = rotation_matrix(result["quaternion"][:, 0])
     at = result["point_position"]
     np.testing.assert_allclose(at[:, 0], result["position"][:, 0] + turned @ lever, atol=1e-12)
     for rate, of in (("point_velocity", at), ("point_acceleration", result["point_velocity"])):
@@ -69,7 +55,7 @@ def test_loads_add_up_to_mass_times_acceleration() -> None:
     force = result.select("load_force", load="rope") + result.select("load_force", load="push")
     weight = np.array([0.0, 0.0, -3.0 * scene.gravity])
     np.testing.assert_allclose(3.0 * result["acceleration"][:, 0], force + weight, atol=1e-9)
-    turned = rotations(result["quaternion"][:, 0])
+    turned = rotation_matrix(result["quaternion"][:, 0])
     push = result.select("load_force", load="push")
     lever = turned @ np.array([0.2, 0.1, 0.0])
     np.testing.assert_allclose(result.select("load_moment", load="push"), np.cross(lever, push), atol=1e-12)
@@ -78,15 +64,6 @@ def test_loads_add_up_to_mass_times_acceleration() -> None:
         result.select("load_moment", load="rope"), np.cross(ends, result.select("load_force", load="rope")),
         atol=1e-9
     )  # fmt: skip
-
-
-def test_loads_of_one_name_are_told_apart_by_kind() -> None:
-    scene = spinning()
-    scene.add_body(name="other", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, 4.0))
-    scene.add_spring(name="pull", first="other", second="box", stiffness=1.0)
-    scene.add_point_force(name="pull", body="box", force=(1.0, 0.0, 0.0))
-    result = simulate(scene, t_end=0.1, channels=["load_force"])
-    assert list(result.coords["load"]) == ["point force pull", "spring pull"]
 
 
 def hanging(offlead: float, sidelead: float, slewed: float = 0.0, rate: float = 0.0) -> Scene:
@@ -113,7 +90,7 @@ def hanging(offlead: float, sidelead: float, slewed: float = 0.0, rate: float = 
     return scene
 
 
-@pytest.mark.parametrize(("offlead", "sidelead"), [(0.2, 0.0), (0.0, -0.3), (-0.1, 0.15)])
+@pytest.mark.parametrize(("offlead", "sidelead"), [(0.2, 0.0), (-0.1, 0.15)])
 @pytest.mark.parametrize("slewed", [0.0, 2.0])
 def test_offlead_and_sidelead_are_those_of_the_pose(offlead: float, sidelead: float, slewed: float) -> None:
     result = simulate(hanging(offlead, sidelead, slewed), t_end=0.1)
@@ -135,42 +112,27 @@ def test_tip_velocity_is_that_of_the_slewing_boom() -> None:
     np.testing.assert_allclose(result["tip_velocity"], expected, atol=1e-9)
 
 
-def test_file_keeps_points(tmp_path: Path) -> None:
+def test_loads_of_one_name_are_told_apart_by_kind() -> None:
     scene = spinning()
-    scene.save(tmp_path / "scene.json")
-    again = Scene.load(tmp_path / "scene.json")
-    assert again == scene
-    assert list(again.points) == ["corner", "origin"]
-
-
-def test_lift_file_adds_points(tmp_path: Path) -> None:
-    path = tmp_path / "lift.toml"
-    path.write_text(
-        'format = "seacrane lift"\nversion = 2\n[scene]\nname = "one"\n'
-        '[[body]]\nname = "box"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\n'
-        '[[point]]\nname = "corner"\nbody = "box"\npoint_m = [1.0, 0.0, 0.0]\n[run]\nt_end_s = 1.0\n'
-    )
-    assert np.allclose(Lift.load(path).scene().points["corner"].point, (1.0, 0.0, 0.0))
+    scene.add_body(name="other", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, 4.0))
+    scene.add_spring(name="pull", first="other", second="box", stiffness=1.0)
+    scene.add_point_force(name="pull", body="box", force=(1.0, 0.0, 0.0))
+    result = simulate(scene, t_end=0.1, channels=["load_force"])
+    assert list(result.coords["load"]) == ["point force pull", "spring pull"]
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"name": "corner", "body": "box"}, "point 'corner': the name is used twice"),
+        ({"name": "corner", "body": "box"}, "point 'corner': .*twice"),
         ({"name": "p", "body": "bax"}, "point 'p': .*'bax'"),
         ({"name": "p", "body": "ground"}, "point 'p': .*'ground'"),
-        ({"name": "p", "body": "box", "point": (1.0, 2.0)}, "point 'p': point"),
-        ({"name": "p", "body": "box", "point": (np.nan, 0.0, 0.0)}, "point 'p': point.*finite"),
-        ({"name": "p", "body": "box", "point": (1e9, 0.0, 0.0)}, "point 'p': point"),
     ],
 )
-def test_points_that_are_refused(arguments: dict[str, object], words: str) -> None:
+def test_points_that_are_refused(arguments: dict[str, Any], words: str) -> None:
     scene = spinning()
     with pytest.raises(SceneError, match=words):
-        scene.add_point(**arguments)  # type: ignore[arg-type]
+        scene.add_point(**arguments)
         scene.compile()
-
-
-def test_body_of_a_point_is_not_removed() -> None:
-    with pytest.raises(SceneError, match="point 'corner', point 'origin' refer to it"):
+    with pytest.raises(SceneError, match="point 'corner', point 'origin' refer"):
         spinning().remove("box")
