@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from kink_scenes import CART, cart
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.interpolate import CubicSpline
 
@@ -130,46 +131,38 @@ def test_a_table_that_is_none_is_refused_by_its_sample(
         Curve.table(times, values, between=between)
 
 
-def slider() -> Scene:
-    scene = Scene(gravity=0.0)
-    scene.add_body("block", mass=2.0, size=(1, 1, 1))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="block", axis=(1, 0, 0))
-    return scene
-
-
 FORCE = ([0.31, 1.27, 1.9, 3.3], [0.0, 40.0, -25.0, 5.0])
 
 
 def pushed(t: np.ndarray) -> np.ndarray:
-    """Where a force by `FORCE` brings 2 kg from rest: its double integral, piece by piece, over the mass."""
+    """Where a force by `FORCE` brings the cart: its double integral, piece by piece, over the mass."""
     fine = np.unique(np.concatenate([FORCE[0], t]))
     force = np.interp(fine, *FORCE)
     place = speed = 0.0
     found = {fine[0]: 0.0}
     for i, h in enumerate(np.diff(fine)):
         rise = (force[i + 1] - force[i]) / h
-        place += speed * h + (force[i] * h**2 / 2.0 + rise * h**3 / 6.0) / 2.0
-        speed += (force[i] * h + rise * h**2 / 2.0) / 2.0
+        place += speed * h + (force[i] * h**2 / 2.0 + rise * h**3 / 6.0) / CART
+        speed += (force[i] * h + rise * h**2 / 2.0) / CART
         found[fine[i + 1]] = place
     return np.array([found[one] for one in t])
 
 
-@pytest.mark.warns("MassUnitWarning")
 @pytest.mark.parametrize("integrator", ["dopri5", "tsit5", "verner65", "rk4"])
 def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks(integrator: str) -> None:
     """The motion is a cubic between kinks, which each of these methods steps exactly if it meets them."""
-    scene = slider()
+    scene = cart()
     scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
     step = {"dt": 0.1} if integrator == "rk4" else {"rtol": 1e-9}
     result = simulate(scene, 4.0, dt_out=0.05, integrator=integrator, **step)  # type: ignore[arg-type]
     assert_allclose(result["position"][:, 0, 0], pushed(result.time), atol=2e-12)
 
 
-@pytest.mark.warns("MassUnitWarning", sometimes=["EnergyErrorWarning"])
+@pytest.mark.warns(sometimes=["EnergyErrorWarning"])
 def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told() -> None:
     times = [0.0, 1.0, 3.0]
     for between, values in (("linear", [0.0, 0.0, 2.0]), ("cubic", [0.0, 0.5, 2.0])):
-        scene, curve = slider(), Curve.table(times, values, between=between)
+        scene, curve = cart(), Curve.table(times, values, between=between)
         scene.add_driver("rail", curve=curve)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -182,12 +175,11 @@ def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told() 
         assert_allclose(result["position"][:, 0, 0], curve.evaluate(result.time)[:, 0], atol=1e-12)
 
 
-@pytest.mark.warns("MassUnitWarning")
 def test_a_record_of_a_run_drives_another_one_that_is_read_back_from_its_file(tmp_path: Path) -> None:
-    scene = slider()
+    scene = cart()
     scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
     record = simulate(scene, 4.0, dt_out=0.05)
-    again = slider()
+    again = cart()
     again.add_driver("rail", curve=Curve.table(record.time, record["position"][:, 0, 0], between="cubic"))
     again.save(tmp_path / "scene.json")
     read = Scene.load(tmp_path / "scene.json")

@@ -6,6 +6,7 @@ from math import factorial, inf, isnan
 
 import numpy as np
 import pytest
+from kink_scenes import CART, cart
 from numpy.polynomial import Polynomial
 
 from seacrane import Scene, _core, integrator_names
@@ -32,21 +33,17 @@ def test_known_intervals_of_stability() -> None:
     assert _core.stability_polynomial("ark-dirk") == []
 
 
-def oscillator(damping_ratio: float, omega: float = 20.0) -> Scene:
-    """A mass on a spring, along z."""
-    scene = Scene(name="oscillator", gravity=0.0)
-    scene.add_body(name="mass", mass=2.0, inertia=(1.0, 1.0, 1.0))
-    scene.add_joint(kind="prismatic", name="guide", first="ground", second="mass", point=(0, 0, 0))
-    scene.add_actuator(
-        joint="guide", stiffness=2.0 * omega**2, damping=2.0 * damping_ratio * omega * 2.0, reference=0.0
-    )
+def oscillator() -> Scene:
+    """A cart on a spring, 20 rad/s and a fifth of critical damping."""
+    scene = cart()
+    scene.add_actuator(joint="rail", stiffness=CART * 20.0**2, damping=0.4 * CART * 20.0, reference=0.0)
     return scene
 
 
 @pytest.mark.parametrize("name", ["semi-implicit-euler", "rk4", "rk-low-storage", "bs32", "tsit5", "dop853"])
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -> None:
-    scene = oscillator(0.2)
+    scene = oscillator()
     linear = linear_model(scene)
     predicted = predicted_limit(name, linear, np.asarray(np.linalg.eigvals(linear.a), dtype=complex))
     if name == "semi-implicit-euler":  # h w = 2 sqrt(1 + z^2) - 2 z, by the characteristic polynomial
@@ -55,7 +52,7 @@ def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -
 
 
 def test_methods_that_have_no_limit_or_no_prediction() -> None:
-    scene = oscillator(0.2)
+    scene = oscillator()
     linear = linear_model(scene)
     eigenvalues = np.asarray(np.linalg.eigvals(linear.a), dtype=complex)
     assert isnan(predicted_limit("generalized-alpha", linear, eigenvalues))

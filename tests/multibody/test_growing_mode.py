@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from kink_scenes import CART, cart
 from numpy.polynomial import Polynomial
 
 from seacrane import Curve, Scene, _core, simulate
@@ -20,10 +21,9 @@ AMPLITUDE = 1e-6  # m
 
 
 def swinging(damping_ratio: float = 0.0) -> Scene:
-    scene = Scene(name="swing")
-    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(AMPLITUDE * MODE, 0, 0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    scene.add_actuator(name="hold", joint="rail", stiffness=MODE**2, damping=2.0 * damping_ratio * MODE)
+    scene = cart(AMPLITUDE * MODE)
+    stiffness, damping = CART * MODE**2, 2.0 * damping_ratio * MODE * CART
+    scene.add_actuator(name="hold", joint="rail", stiffness=stiffness, damping=damping)
     return scene
 
 
@@ -39,7 +39,7 @@ def log_growth(integrator: str, step: float) -> float:
 
 @pytest.mark.parametrize("integrator", ["tsit5", "dopri5"])
 def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(integrator: str) -> None:
-    with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'box' grow") as caught:
+    with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'cart' grow") as caught:
         result = run(swinging(), integrator)
     told = re.search(r"factor of (\S+) an hour: a mode of (\S+) rad/s", str(caught[0].message))
     assert told is not None

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from integrator_table import integrator_table
+from kink_scenes import CART, cart
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_integrator_orders import payload_error, run
 from trade_scenes import pendulum
@@ -66,47 +67,6 @@ def test_ida_where_its_steps_stay_at_order_1_and_fail_for_ever() -> None:
     assert reached is not None and 1.0 < reached.time[-1] < 100.0
     right = simulate(pendulum(), float(reached.time[-1]), integrator="dop853", rtol=1e-12)
     np.testing.assert_allclose(reached["position"], right["position"][: len(reached.time)], atol=1e-3)
-
-
-def fast_crank(speed: float, *, crank: float = 0.01, rod: float = 0.03) -> Scene:
-    """A slider-crank of centimetres, its crank up, without weight."""
-    scene = Scene(name="fast crank", gravity=0.0)
-    reach, tip = np.sqrt(rod**2 - crank**2), np.array([speed * crank, 0.0, 0.0])
-    lean = 0.5 * np.arcsin(crank / rod)
-    bodies: dict[str, dict[str, Any]] = {
-        "crank": {"position": (0, 0, crank / 2), "velocity": tip / 2, "angular_velocity": (0, speed, 0)},
-        "rod": {"position": (reach / 2, 0, crank / 2), "velocity": tip,
-                "quaternion": (np.cos(lean), 0, np.sin(lean), 0)},
-        "slider": {"position": (reach, 0, 0), "velocity": tip},
-    }  # fmt: skip
-    for name, state in bodies.items():
-        scene.add_body(name=name, mass=0.1, inertia=[1e-5] * 3, **state)
-    end = (reach, 0, 0)
-    scene.add_joint(kind="revolute", name="shaft", first="ground", second="crank", axis=(0, 1, 0))
-    scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=(0, 0, crank))
-    scene.add_joint(kind="universal", name="cross", first="rod", second="slider", point=end, axis=(0, 1, 0),
-                    second_axis=(0, 0, 1))  # fmt: skip
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
-    )
-    return scene
-
-
-@pytest.mark.warns("UnitWarning")
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-@pytest.mark.parametrize(("integrator", "rtol", "limit"), [
-    ("cvode-bdf", 1e-7, 1e-8),
-    ("cvode-bdf", 1e-8, 1e-8),
-    ("dop853", 1e-13, 1e-11),
-])  # fmt: skip
-def test_a_mechanism_of_1400_rad_per_s_is_no_obstacle(
-    integrator: str, rtol: float, limit: float, formulation: str
-) -> None:
-    """Tolerances are absolute, some 1e-13 of such speeds: below what evaluations and projections resolve."""
-    settings: dict[str, Any] = {"t_end": 0.002, "dt_out": 0.001, "formulation": formulation}
-    found = simulate(fast_crank(1400.0), integrator=integrator, rtol=rtol, **settings)
-    exact_enough = simulate(fast_crank(1400.0), integrator="dop853", rtol=1e-10, **settings)
-    assert np.abs(found["position"] - exact_enough["position"]).max() < limit
 
 
 def tumbling() -> Scene:
@@ -214,11 +174,9 @@ def test_one_step_methods_reach_their_order_on_case_2_afloat(integrator: str, or
 
 
 def oscillator(frequency: float) -> Scene:
-    """1 kg on a rail, 1 mm from where a spring wants it; `frequency` in rad/s."""
-    scene = Scene(gravity=0.0)
-    scene.add_body(name="cart", mass=1.0, inertia=[1, 1, 1])
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
-    scene.add_actuator(joint="rail", stiffness=frequency**2, reference=1e-3)
+    """A cart on a rail, 1 mm from where a spring wants it; `frequency` in rad/s."""
+    scene = cart()
+    scene.add_actuator(joint="rail", stiffness=CART * frequency**2, reference=1e-3)
     return scene
 
 

@@ -13,7 +13,6 @@ from random_scenes import moving
 from test_formulations import Comparison
 
 from seacrane import Curve, Run, Scene, cases, simulate
-from seacrane.analysis import Evaluator
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -152,13 +151,3 @@ def test_outputs_beside_merged_bodies_do_not_change_the_waves() -> None:
         simulate(scene, t_end=4.0, dt_out=dt, formulation="recursive", channels=loads) for dt in (0.1, 2.0)
     )
     np.testing.assert_array_equal(dense["wave_force"][::20], coarse["wave_force"])
-
-
-def test_evaluations_of_case_2_agree_to_rounding() -> None:
-    model = cases.case2(count=20).compile()
-    for seed in range(3):
-        state = moving(model, seed, speed=0.1)
-        tree, bodies = (
-            Evaluator(model, kind).accelerations(3.0, state) for kind in ("recursive", "redundant")
-        )
-        np.testing.assert_allclose(tree, bodies, rtol=0.0, atol=1e-11 * np.abs(bodies).max())

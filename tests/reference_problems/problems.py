@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -174,6 +174,7 @@ def regular_wave_response() -> list[Comparison]:
 
 
 MECHANISMS: dict[str, Callable[..., Comparison]] = {
-    "pendulum": simple_pendulum, "four-bars": four_bar_row, "squeezer": squeezer, "bricard": bricard_loop,
-    "governor": flyball_governor, "top": heavy_top, "nut": wing_nut, "crank": spatial_slider_crank
+    "pendulum": simple_pendulum, "four-bars": four_bar_row,
+    "four-bars spatial": partial(four_bar_row, planar=False), "squeezer": squeezer, "bricard": bricard_loop,
+    "governor": flyball_governor, "top": heavy_top, "nut": wing_nut, "crank": spatial_slider_crank,
 }  # fmt: skip
