@@ -37,43 +37,36 @@ def worst(result: Result, reference: Result, body: str | None = None) -> float:
 # What is offered
 
 
-@pytest.mark.parametrize(
-    ("drive", "force"),
-    [
-        ({"feed_forward": bent(*JUMPS)}, JUMPS),
-        ({"stiffness": 3.0, "damping": 0.5, "reference": bent(*JUMPS)},
-         (3.0 * JUMPS[0] + 0.5 * JUMPS[1], 3.0 * JUMPS[1] + 0.5 * JUMPS[2], 3.0 * JUMPS[2])),
-    ],
-)  # fmt: skip
-def test_an_actuator_offers_jumps_of_its_load_of_the_rate_and_the_acceleration_of_that(
-    drive: dict[str, Any], force: tuple[float, ...]
+def pieces(start: float, *powers: float) -> Curve:
+    return Curve.pieces(starts=[start], coefficients=[[*powers, *([0.0] * (6 - len(powers)))]])
+
+
+# What is added, the times of its kinks and, over the scale of tolerances, the jumps there of the state and of
+# its first three derivatives, loads over the mass.
+V, R, A = JUMPS
+RAMPS = np.array([[f, 0.0, 0.0, 0.0, 0.0, 0.0] for f in (0.0, 1.0, 1.0, 3.0)])
+OFFERED: list[tuple[str, dict[str, Any], list[float], list[list[float]]]] = [
+    ("actuator", {"joint": "rail", "feed_forward": bent(*JUMPS)}, [2.0],
+     [[0.0, V / MASS, R / MASS, A / MASS]]),
+    ("actuator", {"joint": "rail", "stiffness": 3.0, "damping": 0.5, "reference": bent(*JUMPS)}, [2.0],
+     [[0.0, (3.0 * V + 0.5 * R) / MASS, (3.0 * R + 0.5 * A) / MASS, 3.0 * A / MASS]]),
+    ("driver", {"joint": "rail", "curve": pieces(1.0, 0.0, 0.0, 0.5 * 0.7, -0.3 / 6.0)}, [1.0],
+     [[0.0, 0.7, 0.3, 0.0]]),
+    ("driver", {"joint": "rail", "curve": bent(0.0, 0.2, 0.0)}, [2.0], [[0.2, 0.0, 0.0, 0.0]]),
+    ("force_table", {"name": "push", "body": "cart", "times": [1.0, 2.0, 4.0, 5.0], "loads": RAMPS},
+     [1.0, 2.0, 4.0, 5.0], [[0.0, 0.0, slope / MASS, 0.0] for slope in (1.0, 1.0, 2.0, 2.0)]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "arguments", "times", "jumps"), OFFERED)
+def test_elements_offer_their_kinks_with_their_size(
+    kind: str, arguments: dict[str, Any], times: list[float], jumps: list[list[float]]
 ) -> None:
     scene = cart()
-    scene.add_actuator(name="drive", joint="rail", **drive)
-    ((time, jumps),) = scene.compile().kinks
-    assert time == 2.0
-    np.testing.assert_allclose(jumps, [0.0, *(abs(j) / MASS / SCALE for j in force)], rtol=1e-12)
-
-
-def test_a_driver_offers_jumps_of_the_state_and_of_its_accelerations() -> None:
-    scene = cart()
-    cubic = Curve.pieces(starts=[1.0], coefficients=[[0.0, 0.0, 0.5 * 0.7, -0.3 / 6.0, 0.0, 0.0]])
-    scene.add_driver(joint="rail", curve=cubic)
-    ((_, jumps),) = scene.compile().kinks
-    np.testing.assert_allclose(jumps, [0.0, 0.7 / SCALE, 0.3 / SCALE, 0.0], rtol=1e-12)
-    scene.drivers.clear()
-    scene.add_driver(joint="rail", curve=bent(0.0, 0.2, 0.0))
-    assert scene.compile().kinks[0][1][0] == pytest.approx(0.2 / SCALE)
-
-
-def test_a_force_table_offers_the_jumps_of_its_slope_its_ends_included() -> None:
-    scene = cart()
-    loads = np.zeros((4, 6))
-    loads[:, 0] = [0.0, 1.0, 1.0, 3.0]
-    scene.add_force_table(name="push", body="cart", times=[1.0, 2.0, 4.0, 5.0], loads=loads)
-    kinks = scene.compile().kinks
-    assert [time for time, _ in kinks] == [1.0, 2.0, 4.0, 5.0]
-    np.testing.assert_allclose([j[2] * MASS * SCALE for _, j in kinks], [1.0, 1.0, 2.0, 2.0], rtol=1e-12)
+    getattr(scene, f"add_{kind}")(**arguments)
+    found = scene.compile().kinks
+    assert [time for time, _ in found] == times
+    np.testing.assert_allclose([sizes for _, sizes in found], np.abs(jumps) / SCALE, rtol=1e-12, atol=1e-15)
 
 
 def test_kinks_of_the_wind_are_those_of_its_speed_squared() -> None:
