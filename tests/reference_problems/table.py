@@ -11,7 +11,10 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from . import problems as p
+# Every room of tests, as pytest has it.
+sys.path[:0] = [str(room) for room in sorted(Path(__file__).resolve().parents[1].glob("*/"))]
+
+from . import problems as p  # noqa: E402
 
 
 def mechanisms() -> Iterator[p.Comparison]:
