@@ -94,14 +94,15 @@ def check(shape: Shape) -> Comparison:
 FAMILIES: dict[str, dict[str, int]] = {"trees": {}, "struts": {"most": 4, "struts": 2}, "loops": {"loops": 2}}
 
 
-def check_seeds(family: str, seeds: range) -> None:
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize(
+    "seeds",
+    [range(120), pytest.param(range(120, 4000), marks=pytest.mark.slow("thousands of random scenes"))],
+    ids=["hundreds", "thousands"],
+)
+def test_random_scenes(family: str, seeds: range) -> None:
     compared = sum(not check(shape_of(seed, **FAMILIES[family])).nearly_dependent for seed in seeds)
     assert compared > 0.95 * len(seeds)
-
-
-@pytest.mark.parametrize("family", FAMILIES)
-def test_hundreds_of_scenes(family: str) -> None:
-    check_seeds(family, range(120))
 
 
 @pytest.mark.parametrize("planar", [False, True])
@@ -112,12 +113,6 @@ def test_loops_close_to_where_they_fold_flat(turned: float, planar: bool) -> Non
         found = Comparison(model, moving(model, seed))
         assert found.acceleration < (AGREEMENT if planar else found.bound), seed
         assert planar or found.reaction < found.bound, seed
-
-
-@pytest.mark.slow("thousands of random scenes")
-@pytest.mark.parametrize("family", FAMILIES)
-def test_thousands_of_scenes(family: str) -> None:
-    check_seeds(family, range(120, 4000))
 
 
 # Runs
@@ -220,14 +215,10 @@ def test_a_state_hands_over_from_one_formulation_to_the_other(mechanism: str, or
     np.testing.assert_allclose(taken, given, rtol=0.0, atol=1e-12 * np.abs(given).max())
 
 
-CASES = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_cases_agree_in_every_channel(name: str) -> None:
-    scene = CASES[name]()
+@pytest.mark.parametrize("case", [cases.case1, cases.case2, cases.case3])
+def test_cases_agree_in_every_channel(case: Callable[[], Scene]) -> None:
     found, expected = (
-        simulate(scene, t_end=5.0, dt_out=0.5, rtol=1e-9, formulation=kind)
+        simulate(case(), t_end=5.0, dt_out=0.5, rtol=1e-9, formulation=kind)
         for kind in ("recursive", "redundant")
     )
     assert found.stats["compiled_constraints"] == 0
