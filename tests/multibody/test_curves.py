@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from kink_scenes import CART, cart
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.interpolate import CubicSpline
 
-from seacrane import Curve, Scene, SceneError, simulate
+from seacrane import Curve, SceneError, simulate
 from seacrane.scene import gust_curve, spline_curve
 from seacrane.warnings import DriverImpulseWarning
 
@@ -41,16 +40,6 @@ def test_tables_are_those_of_numpy_within_and_beyond_them_and_of_scipy() -> None
     spline = CubicSpline(TIMES, VALUES, bc_type="clamped")
     for order, size in ((0, 1.0), (1, 10.0), (2, 1e3)):
         assert_allclose(found[:, order], spline(WITHIN, order), atol=1e-12 * size)
-
-
-def test_a_cubic_table_converges_with_the_fourth_power_of_its_spacing() -> None:
-    fine = np.linspace(0.0, 2.0 * np.pi, 2001)
-    errors = []
-    for count in (21, 41, 81):
-        times = np.linspace(0.0, 2.0 * np.pi, count)
-        curve = Curve.table(times, np.cos(times), between="cubic")
-        errors.append(np.abs(curve.evaluate(fine)[:, 0] - np.cos(fine)).max())
-    assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx([4.0, 4.0], abs=0.15)
 
 
 def test_a_spline_goes_through_its_samples_and_holds_its_last_value() -> None:
@@ -173,16 +162,3 @@ def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told() 
             if one not in told:
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
         assert_allclose(result["position"][:, 0, 0], curve.evaluate(result.time)[:, 0], atol=1e-12)
-
-
-def test_a_record_of_a_run_drives_another_one_that_is_read_back_from_its_file(tmp_path: Path) -> None:
-    scene = cart()
-    scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
-    record = simulate(scene, 4.0, dt_out=0.05)
-    again = cart()
-    again.add_driver("rail", curve=Curve.table(record.time, record["position"][:, 0, 0], between="cubic"))
-    again.save(tmp_path / "scene.json")
-    read = Scene.load(tmp_path / "scene.json")
-    assert read == again
-    result = simulate(read, 4.0, dt_out=0.05)
-    assert_allclose(result["position"][:, 0, 0], record["position"][:, 0, 0], atol=1e-12)

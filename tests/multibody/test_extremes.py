@@ -7,14 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from seacrane import Method, cases
 from seacrane.accuracy.quantities import ErrorMeasures
 from seacrane.trading import row as rows
 from seacrane.trading.case import Case
-from seacrane.trading.measured_case import timed
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from stability_atlas import committed, stability_atlas, workers
@@ -23,9 +21,6 @@ from stability_atlas.axes import AXES
 from stability_atlas.measure import measure, reference_of
 from stability_atlas.methods import DEFAULT, QUICK, every
 from stability_atlas.vessel_axes import _turn_of
-
-NO_REFERENCE = Reference()
-OPEN = "joint or driver 'hinge': is open by 0.3 m or rad and projection does not close it"
 
 
 def rows_of(folder: Path, name: str = "extremes.csv") -> list[dict[str, str]]:
@@ -77,7 +72,7 @@ def known(error: float, uncertainty: float = 0.0) -> dict[str, Any]:
 GOOD = Row(case={"axis": "payload", "value": 10.0}, method=DEFAULT, verdict=rows.COMPLETED,
            left=1e-15, energy=1e-9, **known(1e-9))  # fmt: skip
 DRIVEN: dict[str, Any] = {"axis": "driven-dead-centre", "value": -0.1}
-STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message=OPEN)
+STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message="'hinge' is open by 0.3 m or rad")
 HEEL: dict[str, Any] = {"axis": "heel", "value": 10.0}
 RK4 = Method(integrator="rk4", dt=0.02)
 
@@ -122,7 +117,7 @@ def empty(method: Method) -> Row:
 
 def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     def verdict(method: Method, case: Case | None = None, limit_s: float = 5.0) -> Row:
-        return measure(case or short(), method, NO_REFERENCE, limit_s, empty(method))
+        return measure(case or short(), method, Reference(), limit_s, empty(method))
 
     done = verdict(DEFAULT)
     assert (done.verdict, done.message) == (rows.COMPLETED, "") and done.energy < 1e-4
@@ -132,30 +127,6 @@ def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     assert 0 < slow.steps < 1e6 and slow.cpu_s < 10.0
     stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), AXES["memory"].case(-10.0))
     assert stopped.verdict == rows.STOPPED and "vessel" in stopped.message
-
-    class Spoilt:
-        """A core that has recorded a value that is not finite."""
-
-        def __init__(self, core: Any) -> None:
-            self._core = core
-
-        def __getattr__(self, name: str) -> Any:
-            return getattr(self._core, name)
-
-        def channels(self) -> dict[str, Any]:
-            values = dict(self._core.channels())
-            values["velocity"][1] = np.nan
-            return values
-
-    def spoilt(*arguments: Any, **settings: Any) -> Any:
-        done = timed(*arguments, **settings)
-        done.run.core = Spoilt(done.run.core)
-        return done
-
-    with monkeypatch.context() as patched:
-        patched.setattr("seacrane.trading.measured_case.timed", spoilt)
-        row = verdict(DEFAULT)
-        assert (row.verdict, row.message) == (rows.NOT_FINITE, "velocity is not finite")
 
     def fail(*_: Any) -> None:
         raise RuntimeError("mystery")
@@ -174,43 +145,6 @@ def test_errors_are_against_a_reference_that_checks_itself() -> None:
     errors = [row.relative_error("points") for row in found]
     assert 1e-6 < errors[0] < 1e-1
     assert errors[1] < 1e-7
-
-
-class _Fake(workers._Worker):
-    """A worker whose process answers as told."""
-
-    def __init__(self, answers: list[Any]) -> None:
-        self.answers, self.starts = answers, 0
-        self._start()
-
-    def _start(self) -> None:
-        self.starts += 1
-        self.pipe = self  # type: ignore[assignment]
-
-    def send(self, group: Any) -> None:
-        self.group = group
-
-    def poll(self, patience: float) -> bool:
-        return bool(self.answers[0] != "hang" or self.answers.pop(0) != "hang")
-
-    def recv(self) -> Any:
-        answer = self.answers.pop(0)
-        if answer == "crash":
-            raise EOFError
-        return None if answer is None else self.group.empty(self.group.methods[0])
-
-    def stop(self) -> None:
-        pass
-
-
-def test_hangs_and_crashes_are_told_and_the_rest_goes_on() -> None:
-    group = workers.Group(axis="heel", value=5.0, methods=QUICK, limit_s=1.0)
-    worker = _Fake(["row", "crash", "hang", "row", None])
-    taken: list[Row] = []
-    worker.run(replace(group, methods=QUICK[:4]), taken.append)
-    assert [row.verdict for row in taken] == ["", rows.CRASHED, rows.HUNG, ""]
-    assert [row.method for row in taken] == list(QUICK[:4])
-    assert worker.starts == 3
 
 
 def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:

@@ -73,25 +73,6 @@ def test_equilibrium_of_a_pendulum_held_aside() -> None:
     assert period == pytest.approx(2.0 * np.pi / np.sqrt(3.0 * G / 4.0 * 0.8), rel=1e-7)
 
 
-def test_hanging_payload_on_a_fixed_crane_top() -> None:
-    """A box on a link of 8 m: a double pendulum in each plane; free to turn about the link."""
-    scene = Scene()
-    box = (10e3 / 12.0) * np.array([52.0, 52.0, 72.0])
-    scene.add_body(name="payload", mass=10e3, inertia=box, position=(0.0, 0.0, -10.0))
-    scene.add_joint(
-        kind="distance", name="link", first="ground", second="payload", point=(0, 0, 0),
-        second_point=(0, 0, -8)
-    )  # fmt: skip
-    modes = natural_modes(scene)
-    mass, inertia = 10e3, box[0]
-    matrix = np.array([[mass * 64.0, mass * 16.0], [mass * 16.0, mass * 4.0 + inertia]])
-    stiffness = mass * G * np.diag([8.0, 2.0])
-    expected = np.sqrt(np.linalg.eigvals(np.linalg.solve(matrix, stiffness)).real)
-    np.testing.assert_allclose(modes.eigenvalues.imag, np.sort(np.repeat(expected, 2)), rtol=1e-6)
-    assert modes.neutral == 1
-    assert modes.table().count("payload") == 4
-
-
 @pytest.mark.parametrize("label", ["payload sway", "payload pitch", "stiffest"])
 def test_free_decay_of_crane_and_payload(label: str) -> None:
     """A run started in a mode shape decays as exp(eigenvalue t) in every pose, to 1 % of its size."""
