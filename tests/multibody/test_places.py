@@ -1,15 +1,19 @@
-"""Where points of bodies are, as a scene describes them."""
+"""Places, points, forces of loads and signs, as a scene describes them and docs/conventions.md shows."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import Lift, Scene, SceneError, simulate
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane import Curve, Lift, Scene, SceneError, cases, simulate
+from seacrane.analysis import driven
+from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.sea import WaveComponents
 
 POSE = {"slew": -1.2, "s1": 1.0, "s2": 2.0}
 
@@ -94,3 +98,185 @@ def test_what_has_no_place_or_two_is_refused(call: Callable[[Scene], None], word
     with pytest.raises(SceneError, match=words):
         call(scene)
     assert "new" not in scene.bodies
+
+
+LENGTH = 2.0
+
+
+def spinning() -> Scene:
+    """A free body that flies and turns, with a point off its centre of mass."""
+    scene = Scene(name="spinning")
+    scene.add_body(
+        name="box", mass=3.0, inertia=(1.0, 2.0, 2.5), center_of_mass=(0.1, -0.2, 0.3),
+        velocity=(1.0, 0.5, 2.0), angular_velocity=(0.3, -0.7, 1.1),
+    )  # fmt: skip
+    scene.add_point(name="corner", body="box", point=(1.0, 2.0, -0.5))
+    scene.add_point(name="origin", body="box")
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_point_moves_with_its_body(formulation: str) -> None:
+    channels = ["position", "quaternion", "point_position", "point_velocity", "point_acceleration"]
+    result = simulate(
+        spinning(), t_end=1.0, dt_out=1e-3, rtol=1e-11, channels=channels, formulation=formulation
+    )
+    lever = np.array([1.0, 2.0, -0.5]) - np.array([0.1, -0.2, 0.3])
+    turned = rotation_matrix(result["quaternion"][:, 0])
+    at = result["point_position"]
+    np.testing.assert_allclose(at[:, 0], result["position"][:, 0] + turned @ lever, atol=1e-12)
+    for rate, of in (("point_velocity", at), ("point_acceleration", result["point_velocity"])):
+        fourth_order = (8 * (of[3:-1] - of[1:-3]) - (of[4:] - of[:-4])) / 12e-3
+        np.testing.assert_allclose(result[rate][2:-2], fourth_order, atol=2e-9)
+    assert list(result.coords["point"]) == ["corner", "origin"]
+
+
+def test_loads_add_up_to_mass_times_acceleration() -> None:
+    scene = spinning()
+    scene.add_body(name="other", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, 4.0))
+    scene.add_spring(
+        name="rope", first="other", second="box", first_point=(0.1, 0.0, 0.0), second_point=(0.0, 0.4, 0.2),
+        stiffness=70.0, damping=3.0, natural_length=1.0,
+    )  # fmt: skip
+    scene.add_point_force(name="push", body="box", point=(0.2, 0.1, 0.0), force=(5.0, -2.0, 1.0))
+    channels = ["acceleration", "load_force", "load_moment", "position", "quaternion"]
+    result = simulate(scene, t_end=0.5, channels=channels)
+    force = result.select("load_force", load="rope") + result.select("load_force", load="push")
+    weight = np.array([0.0, 0.0, -3.0 * scene.gravity])
+    np.testing.assert_allclose(3.0 * result["acceleration"][:, 0], force + weight, atol=1e-9)
+    turned = rotation_matrix(result["quaternion"][:, 0])
+    push = result.select("load_force", load="push")
+    lever = turned @ np.array([0.2, 0.1, 0.0])
+    np.testing.assert_allclose(result.select("load_moment", load="push"), np.cross(lever, push), atol=1e-12)
+    ends = turned @ np.array([0.0, 0.4, 0.2])
+    np.testing.assert_allclose(
+        result.select("load_moment", load="rope"), np.cross(ends, result.select("load_force", load="rope")),
+        atol=1e-9
+    )  # fmt: skip
+
+
+def hanging(offlead: float, sidelead: float, slewed: float = 0.0, rate: float = 0.0) -> Scene:
+    """A post that slews, its boom, and a payload on a link that is held where the angles put it."""
+    scene = Scene(name="hanging", gravity=9.81)
+    turned = (np.cos(slewed / 2), 0.0, 0.0, np.sin(slewed / 2))
+    scene.add_body(
+        name="boom", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(4.0, 1.0, 0.0), quaternion=turned,
+        angular_velocity=(0.0, 0.0, rate),
+    )  # fmt: skip
+    scene.add_joint(kind="revolute", name="slew", first="ground", second="boom", point=(4.0, 1.0, 0.0))
+    turning = Curve.pieces(starts=[0.0], coefficients=[[0.0, rate, 0.0, 0.0, 0.0, 0.0]])
+    scene.add_driver(joint="slew", curve=turning)
+    out = np.array([np.cos(slewed), np.sin(slewed), 0.0])
+    across = np.array([-np.sin(slewed), np.cos(slewed), 0.0])
+    hang = np.tan(offlead) * out + np.tan(sidelead) * across - np.array([0.0, 0.0, 1.0])
+    tip = np.array([4.0, 1.0, 8.0]) + 10.0 * out
+    load = tip + LENGTH * hang / np.linalg.norm(hang)
+    scene.add_body(name="load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=load)
+    scene.add_joint(
+        kind="distance", name="link", first="boom", second="load", point=tip, second_point=load
+    )  # fmt: skip
+    scene.add_roles(slew="slew", link="link")
+    return scene
+
+
+@pytest.mark.parametrize(("offlead", "sidelead"), [(0.2, 0.0), (-0.1, 0.15)])
+@pytest.mark.parametrize("slewed", [0.0, 2.0])
+def test_offlead_and_sidelead_are_those_of_the_pose(offlead: float, sidelead: float, slewed: float) -> None:
+    result = simulate(hanging(offlead, sidelead, slewed), t_end=0.1)
+    assert result["offlead"][0] == pytest.approx(offlead, abs=1e-12)
+    assert result["sidelead"][0] == pytest.approx(sidelead, abs=1e-12)
+
+
+def test_small_swing_is_that_of_a_pendulum() -> None:
+    result = simulate(hanging(1e-3, 0.0), t_end=3.0, rtol=1e-9)
+    pendulum = 1e-3 * np.cos(np.sqrt(9.81 / LENGTH) * result.time)
+    np.testing.assert_allclose(result["offlead"], pendulum, atol=2e-9)
+
+
+@pytest.mark.warns("LargeSwingWarning")
+def test_tip_velocity_is_that_of_the_slewing_boom() -> None:
+    result = simulate(hanging(0.0, 0.0, rate=0.2), t_end=1.0)
+    angle = 0.2 * result.time
+    expected = 0.2 * 10.0 * np.stack([-np.sin(angle), np.cos(angle), 0.0 * angle], axis=1)
+    np.testing.assert_allclose(result["tip_velocity"], expected, atol=1e-9)
+
+
+def test_loads_of_one_name_are_told_apart_by_kind() -> None:
+    scene = spinning()
+    scene.add_body(name="other", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, 4.0))
+    scene.add_spring(name="pull", first="other", second="box", stiffness=1.0)
+    scene.add_point_force(name="pull", body="box", force=(1.0, 0.0, 0.0))
+    result = simulate(scene, t_end=0.1, channels=["load_force"])
+    assert list(result.coords["load"]) == ["point force pull", "spring pull"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"name": "corner", "body": "box"}, "point 'corner': .*twice"),
+        ({"name": "p", "body": "bax"}, "point 'p': .*'bax'"),
+        ({"name": "p", "body": "ground"}, "point 'p': .*'ground'"),
+    ],
+)
+def test_points_that_are_refused(arguments: dict[str, Any], words: str) -> None:
+    scene = spinning()
+    with pytest.raises(SceneError, match=words):
+        scene.add_point(**arguments)
+        scene.compile()
+    with pytest.raises(SceneError, match="point 'corner', point 'origin' refer"):
+        spinning().remove("box")
+
+
+PUSHES = {
+    "surge": ((0.0, 0.0, 0.0), (1e5, 0.0, 0.0)),
+    "sway": ((0.0, 0.0, 0.0), (0.0, 1e5, 0.0)),  # to port
+    "heave": ((0.0, 0.0, 0.0), (0.0, 0.0, 1e6)),
+    "roll": ((0.0, 10.0, 0.0), (0.0, 0.0, 1e6)),  # the port side up
+    "pitch": ((50.0, 0.0, 0.0), (0.0, 0.0, -1e6)),  # the bow down
+    "yaw": ((50.0, 0.0, 0.0), (0.0, 1e5, 0.0)),  # the bow to port
+}
+
+
+@pytest.mark.parametrize("motion", PUSHES)
+def test_a_push_moves_the_vessel_in_the_positive_sense(motion: str) -> None:
+    scene = cases.vessel(hs=0.0)
+    point, force = PUSHES[motion]
+    scene.add_point_force(name="push", body="vessel", point=point, force=force)
+    result = simulate(scene, t_end=2.0)
+    assert result.select("vessel_motion", motion=motion)[-1] > 1e-5
+
+
+@pytest.mark.parametrize("degrees", [0.0, 90.0, 225.0])
+def test_a_wave_travels_to_its_direction(degrees: float) -> None:
+    omega, direction = 0.8, np.radians(degrees)
+    wave = WaveComponents(omega=[omega], amplitude=[1.0], phase=[0.3], direction=[direction])
+    speed, times = 9.80665 / omega, np.linspace(0.0, 20.0, 9)
+    x, y = speed * times * np.cos(direction), speed * times * np.sin(direction)
+    along, against = wave.elevation(times, x=x, y=y), wave.elevation(times, x=-x, y=-y)
+    np.testing.assert_allclose(along, np.cos(0.3), atol=1e-12)
+    assert np.ptp(against) > 1.0
+
+
+def test_slew_turns_to_port_when_negative() -> None:
+    geometry = KnuckleBoomCrane.load().geometry
+    x, y, _ = geometry.tip(slew=-np.pi / 2.0, s1=2.0, s2=2.0)
+    assert y > 10.0 and abs(x) < 1e-9
+    assert geometry.tip(slew=0.0, s1=2.0, s2=2.0)[0] < -10.0
+
+
+@pytest.mark.parametrize(("cylinder", "joint", "angle"), [("main", "C", 0), ("knuckle", "F", 1)])
+def test_extending_a_cylinder_raises_its_jib(cylinder: str, joint: str, angle: int) -> None:
+    scene = Scene(name="crane")
+    scene.add_crane(base="ground", s1=1.0, s2=1.0, payload=Payload())
+    scene.record_coordinate(joint=joint, name="jib")
+    for name, moved in {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}.items():
+        scene.add_actuator(name=name, joint=moved)
+    out = Curve.quintic(start_time=0.0, end_time=20.0, start=0.0, end=1.0)
+    result = simulate(driven(scene, references={cylinder: out}), t_end=20.0)
+    geometry = KnuckleBoomCrane.load().geometry
+    strokes = ({"s1": 1.0, "s2": 1.0}, {"s1": 1.0 + (angle == 0), "s2": 1.0 + (angle == 1)})
+    before, after = (geometry.jib_angles(**one)[angle] for one in strokes)
+    assert after - before > 0.05
+    assert result.select("coordinate[jib]")[-1] == pytest.approx(after - before, abs=1e-6)
+    assert result.select("cylinder_force", cylinder="main").min() > 0.0, "it carries the jib: it pushes"
+    assert result["link_tension"].min() > 0.0, "the payload hangs: the link pulls"
