@@ -39,19 +39,14 @@ def recorded(scene: Scene, *, merge: bool, t_end: float = 2.0, **settings: Any) 
     return dict(run.core.channels())
 
 
+MOTION = ("position", "velocity", "angular_velocity", "acceleration")
+
+
 def compare(scene: Scene, bound: float, **settings: Any) -> None:
     """Runs with and without merging agree within `bound` of the largest value of each channel."""
     merged, full = recorded(scene, merge=True, **settings), recorded(scene, merge=False, **settings)
     assert set(merged) == set(full)
-    compared = (
-        "position",
-        "velocity",
-        "angular_velocity",
-        "acceleration",
-        "reaction_force",
-        "reaction_moment",
-    )
-    for name in compared:
+    for name in (*MOTION, "reaction_force", "reaction_moment"):
         scale = np.abs(full[name]).max()
         assert scale > 0.0, name
         assert np.abs(merged[name] - full[name]).max() <= bound * scale, name
@@ -168,45 +163,40 @@ def test_joints_held_still_are_locked(formulation: str) -> None:
     assert locked["drivers that hold a joint still"] == ["hold slew", "hold rail"]
 
 
-def still(kind: str = "quay") -> Scene:
-    """Two vessels, a mast between them and a quay; or a block on the ground."""
-    scene = Scene(gravity=0.0)
-    if kind == "block":
-        scene.add_body(name="block", mass=1.0, inertia=[1.0] * 3)
-        scene.add_joint(kind="weld", name="base", first="ground", second="block")
-        return scene
-    for i, name in enumerate(("one", "mast", "two", "quay")):
-        scene.add_body(name=name, mass=1.0, inertia=[1.0] * 3, position=(2.0 * i, 0.0, 0.0))
-    for name in ("one", "two"):
-        scene.add_vessel(body=name, restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
-    for a, b in (("mast", "one"), ("mast", "two"), ("ground", "quay"), ("quay", "two")):
-        scene.add_joint(kind="weld", name=f"{a}-{b}", first=a, second=b)
-    return scene
-
-
 def test_what_stays_apart() -> None:
     """Vessels and the ground; what drivers move; what cannot move at all; all bodies of the paper's form."""
-    merge = still().compile().merge
+    quay, block = Scene(gravity=0.0), Scene()
+    for i, name in enumerate(("one", "mast", "two", "quay")):
+        quay.add_body(name=name, mass=1.0, inertia=[1.0] * 3, position=(2.0 * i, 0.0, 0.0))
+    for name in ("one", "two"):
+        quay.add_vessel(body=name, restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
+    for a, b in (("mast", "one"), ("mast", "two"), ("ground", "quay"), ("quay", "two")):
+        quay.add_joint(kind="weld", name=f"{a}-{b}", first=a, second=b)
+    merge = quay.compile().merge
     assert merge["bodies"] == {"one": ["mast"], "ground": ["quay"]}
     assert merge["dropped"] == ["mast-one", "ground-quay"]
+    block.add_body(name="block", mass=1.0, inertia=[1.0] * 3)
+    block.add_joint(kind="weld", name="base", first="ground", second="block")
     moving = Curve.constant(value=0.3).then(time=1.0, curve=Curve.constant(value=0.4))
-    for scene in (
-        arm(moving), arm(Curve.harmonic(amplitude=0.1, omega=2.0)), still("block"),
-        cases.case2(count=5, kinematics="paper"),
-    ):  # fmt: skip
+    swinging, paper = Curve.harmonic(amplitude=0.1, omega=2.0), cases.case2(count=5, kinematics="paper")
+    for scene in (arm(moving), arm(swinging), block, paper):
         merge = scene.compile().merge
         assert (merge["bodies"], merge["dropped"], merge["locked_by"]) == ({}, [], [])
 
 
-def test_a_pendulum_with_a_weld_is_the_compound_pendulum() -> None:
+def compound() -> Scene:
+    """A pendulum of a rod and a disc welded on, level."""
     scene = Scene(gravity=9.81)
     scene.add_body(name="rod", mass=1.0, inertia=[0.2, 0.2, 0.01], position=(0.5, 0.0, 0.0))
     scene.add_body(name="disc", mass=3.0, inertia=[0.1, 0.15, 0.2], position=(1.2, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="rod", point=(0, 0, 0), axis=(0, 1, 0)
-    )
+    pin = {"first": "ground", "second": "rod", "point": (0, 0, 0), "axis": (0, 1, 0)}
+    scene.add_joint(kind="revolute", name="pin", **pin)
     scene.add_joint(kind="weld", name="seam", first="rod", second="disc", point=(1.0, 0.0, 0.0))
-    model = scene.compile()
+    return scene
+
+
+def test_a_pendulum_with_a_weld_is_the_compound_pendulum() -> None:
+    model = compound().compile()
     inertia = 0.2 + 1.0 * 0.5**2 + 0.15 + 3.0 * 1.2**2
     expected = 9.81 * (0.5 + 3.0 * 1.2) / inertia  # about y, from level
     for formulation in FORMULATIONS:
@@ -215,27 +205,14 @@ def test_a_pendulum_with_a_weld_is_the_compound_pendulum() -> None:
     assert model.merge["coordinates"] == 6
 
 
-def welded_bob() -> Scene:
-    """Two links, the second with a bob welded on, held by springs of controllers."""
-    scene = Scene(name="welded bob")
-    for i, (name, first) in enumerate((("upper", "ground"), ("lower", "upper"))):
-        scene.add_body(name=name, mass=1.0, inertia=[0.1] * 3, position=(i + 0.5, 0, 0))
-        scene.add_joint(
-            kind="revolute", name=f"{name} pin", first=first, second=name, point=(i, 0, 0), axis=(0, 1, 0)
-        )
-        scene.add_actuator(name=name, joint=f"{name} pin", stiffness=5.0, damping=0.1)
-    scene.add_body(name="bob", mass=1.0, inertia=[0.1] * 3, position=(2, 0, 0))
-    scene.add_joint(kind="weld", name="weld", first="lower", second="bob", point=(2, 0, 0))
-    return scene
-
-
 # Without projection a scene of its own is compiled, with Baumgarte's terms.
 @pytest.mark.parametrize("integrator", [m.name for m in _core.integrators() if m.projects])
 def test_merging_costs_no_integrator_evaluations(integrator: str) -> None:
     """A capability lost on the way to the merged bodies, such as a Jacobian, costs several times as many."""
     counts = []
     for merge in (True, False):
-        scene = welded_bob()
+        scene = compound()
+        scene.add_actuator(name="spring", joint="pin", stiffness=5.0, damping=0.1)
         run = Run(
             scene, t_end=1.0, model=scene.compile(merge=merge), integrator=integrator,
             formulation="redundant", rtol=1e-4,
