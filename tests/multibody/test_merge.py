@@ -219,7 +219,7 @@ def test_merging_costs_no_integrator_evaluations(integrator: str) -> None:
         )  # fmt: skip
         run.advance(1.0)
         counts.append(run.core.statistics()["evaluations"])
-    assert counts[0] == pytest.approx(counts[1], rel=0.2)
+    assert counts[0] < 1.2 * counts[1]
 
 
 def test_inputs_and_restarts_reach_the_merged_bodies() -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from reference.classic import Link
 from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
+from reference.rotation import quaternions_from_matrices
 
 from seacrane import Curve, Run, Scene
 from seacrane.crane import Payload
@@ -35,13 +36,6 @@ def record(
     return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
 
 
-def quaternion_of(matrix: Array) -> Array:
-    """Scalar-first quaternion of a rotation matrix, away from half turns."""
-    w = 0.5 * np.sqrt(max(0.0, 1.0 + np.trace(matrix)))
-    vector = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
-    return np.append(w, vector / (4.0 * w))
-
-
 def quaternion_about(axis: Any, angle: float) -> Array:
     unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
     return np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * unit)
@@ -60,10 +54,9 @@ def add_moving_bodies(
     for name, moving in zip(names, mechanism.kinematics(Jet(q, 1.0)), strict=True):
         _, _, position, slope, spin = moving.terms()
         rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
-        # Any rotation to and from the quaternion: half turns are avoided by the poses chosen.
         scene.add_body(
-            name=name, mass=moving.mass, inertia=moving.inertia, position=position,
-            quaternion=quaternion_of(rotation), velocity=rate * slope, angular_velocity=rate * spin
+            name=name, mass=moving.mass, inertia=moving.inertia, position=position, velocity=rate * slope,
+            quaternion=quaternions_from_matrices(rotation), angular_velocity=rate * spin,
         )  # fmt: skip
         rotations.append(rotation)
     return rotations
