@@ -143,7 +143,7 @@ def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks
     scene = cart()
     scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
     step = {"dt": 0.1} if integrator == "rk4" else {"rtol": 1e-9}
-    result = simulate(scene, 4.0, dt_out=0.05, integrator=integrator, **step)  # type: ignore[arg-type]
+    result = simulate(scene, 4.0, dt_out=0.05, integrator=integrator, **step)
     assert_allclose(result["position"][:, 0, 0], pushed(result.time), atol=2e-12)
 
 

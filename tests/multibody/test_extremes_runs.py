@@ -50,9 +50,8 @@ def test_methods_of_low_order_do_not_take_the_error_of_a_gap_for_an_impact() -> 
     expected = ended(case, "dopri5", rtol=1e-9).events
     assert len(expected) == 7
     settings: tuple[tuple[str, dict[str, float]], ...] = (
-        ("cvode-bdf", {"rtol": 1e-5}),
-        ("semi-implicit-euler", {"dt": 1e-3}),
-    )
+        ("cvode-bdf", {"rtol": 1e-5}), ("semi-implicit-euler", {"dt": 1e-3})
+    )  # fmt: skip
     for integrator, setting in settings:
         found = ended(case, integrator, **setting).events
         assert [e.kind for e in found] == [e.kind for e in expected], integrator

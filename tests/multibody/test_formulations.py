@@ -45,9 +45,8 @@ class Comparison:
         root = np.linalg.cholesky(terms["mass"])
         forces = np.linalg.solve(root, terms["mass"] @ found - terms["load"])
         like = max(
-            np.abs(root.T @ terms["acceleration"]).max(),
-            np.abs(np.linalg.solve(root, terms["load"])).max(),
-        )
+            np.abs(root.T @ terms["acceleration"]).max(), np.abs(np.linalg.solve(root, terms["load"])).max()
+        )  # fmt: skip
         self.acceleration = float(np.abs(root.T @ (found - terms["acceleration"])).max() / like)
         self.shape = self.condition = 1.0
         self.nearly_dependent = False

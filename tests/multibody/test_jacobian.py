@@ -62,7 +62,7 @@ def moving(model: _core.Model, seed: int, *, on_constraints: bool = True, size: 
     return _core.Evaluator(model).project(0.0, y) if on_constraints else y
 
 
-@ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)  # type: ignore[untyped-decorator]
+@ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
 def _swirl(t: float, state: Any, parameters: Any, wrench: Any) -> None:
     """A nonlinear spring, a drag and a moment that depends on attitude."""
     for i in range(3):

@@ -168,7 +168,7 @@ def test_sampled_controller_at_20_hz_equals_its_difference_equation() -> None:
     calls: list[tuple[float, float]] = []
 
     def control(time: float, measured: object) -> dict[str, float]:
-        x, v = measured["coordinate"][0], measured["coordinate_rate"][0]  # type: ignore[index]
+        x, v = measured["coordinate"][0], measured["coordinate_rate"][0]
         calls.append((time, x))
         return {"motor.force": gain * (1.0 - x) - damp * v}
 

@@ -134,9 +134,6 @@ class Vessel:
         transfer = np.eye(6)
         transfer[:3, 3:] = -skew(lever)
         return VesselLoads(
-            transfer.T @ (load - added @ convective),
-            transfer.T @ added @ transfer,
-            self.memory.a @ memory + self.memory.b @ u,
-            wave,
-            mu,
-        )
+            transfer.T @ (load - added @ convective), transfer.T @ added @ transfer,
+            self.memory.a @ memory + self.memory.b @ u, wave, mu
+        )  # fmt: skip

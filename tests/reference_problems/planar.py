@@ -13,9 +13,8 @@ from seacrane import Scene
 Array = NDArray[np.float64]
 # Plane -> its two axes in space, and the axis about which positive angles turn the first into the second.
 PLANES = {
-    "xy": (np.array([1.0, 0, 0]), np.array([0, 1.0, 0])),
-    "xz": (np.array([1.0, 0, 0]), np.array([0, 0, 1.0])),
-}
+    "xy": (np.array([1.0, 0, 0]), np.array([0, 1.0, 0])), "xz": (np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
+}  # fmt: skip
 
 
 def place(plane: str, point: Any) -> Array:

@@ -33,7 +33,7 @@ def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
         kind="distance", name="wire", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
         second_point=(25.0, 0.0, 12.0),
     )  # fmt: skip
-    scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)  # type: ignore[arg-type]
+    scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)
     return scene
 
 
