@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from integrator_table import integrator_table
-from kink_scenes import CART, cart
+from kink_scenes import sprung
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_integrator_orders import payload_error, run
 from trade_scenes import pendulum
@@ -173,19 +173,12 @@ def test_one_step_methods_reach_their_order_on_case_2_afloat(integrator: str, or
     assert np.all(observed > order - 0.15)
 
 
-def oscillator(frequency: float) -> Scene:
-    """A cart on a rail, 1 mm from where a spring wants it; `frequency` in rad/s."""
-    scene = cart()
-    scene.add_actuator(joint="rail", stiffness=CART * frequency**2, reference=1e-3)
-    return scene
-
-
 @pytest.mark.parametrize("radius", [0.9, 0.5, 0.2])
 def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: float) -> None:
     """All three roots of the step tend to -radius [Chung, Hulbert 1993]: their product, of the recurrence."""
     step = 0.1
     result = simulate(
-        oscillator(1e3), t_end=12 * step, dt_out=step, dt=step, integrator="generalized-alpha",
+        sprung(1e3, rest=1e-3), t_end=12 * step, dt_out=step, dt=step, integrator="generalized-alpha",
         spectral_radius=radius, channels=["position"],
     )  # fmt: skip
     x = np.asarray(result["position"])[:, 0, 0] - 1e-3
@@ -199,8 +192,8 @@ def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: 
 @pytest.mark.parametrize(
     ("scene", "settings", "words"),
     [
-        (oscillator(1.0), {"integrator": "dopri5", "spectral_radius": 0.5}, "spectral_radius.*dopri5"),
-        *((oscillator(1.0), {"integrator": "generalized-alpha", "spectral_radius": bad}, "spectral_radius is")
+        (sprung(1.0), {"integrator": "dopri5", "spectral_radius": 0.5}, "spectral_radius.*dopri5"),
+        *((sprung(1.0), {"integrator": "generalized-alpha", "spectral_radius": bad}, "spectral_radius is")
           for bad in (1.5, float("nan"), "half")),
         (twice_on_balls(), {"integrator": "ida"}, "'ida'.*ball, other are redundant"),
     ],

@@ -365,3 +365,13 @@ def test_a_load_on_a_seat_lifts_off_when_the_joints_say() -> None:
         assert kind == "release" and lifted > 0.1
         found.append([lifted, *run.core.channels()["line_tension"][-1]])
     assert found[0] == pytest.approx(found[1], rel=1e-6)
+
+
+@pytest.mark.warns("BallastWarning")
+def test_a_restart_of_a_held_crane_keeps_its_bits() -> None:
+    whole = Run(lift(), t_end=6.0, dt_out=0.5)
+    whole.advance(3.0)
+    rest = Run(lift(), t_end=6.0, dt_out=0.5, start=whole.core.state)
+    for run in (whole, rest):
+        run.advance(6.0)
+    assert np.array_equal(np.array(rest.core.state.values), np.array(whole.core.state.values))

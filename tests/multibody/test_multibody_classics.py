@@ -67,10 +67,13 @@ def test_spatial_slider_crank_under_a_constant_torque() -> None:
     q0, rate0, load = 0.4, 6.0, 2.0
     scene = slider_crank(CRANK, q0, rate0)
     scene.add_actuator(joint="shaft", feed_forward=load)
+    scene.record_coordinate(joint="shaft")
     assert scene.compile().degrees_of_freedom == 1
     out = record(scene, 3.0, rtol=1e-10)
     mechanism = CRANK.mechanism(load=load)
-    q, _ = mechanism.simulate(out["time"], q0, rate0)
+    q, rate = mechanism.simulate(out["time"], q0, rate0)
+    np.testing.assert_allclose(np.unwrap(out["coordinate"][:, 0]), q - q0, atol=1e-7)  # zero as described
+    np.testing.assert_allclose(out["coordinate_rate"][:, 0], rate, atol=1e-6)
     assert q[-1] - q0 > 4.0 * np.pi
     positions, rotations = mechanism.poses(q)
     np.testing.assert_allclose(out["position"], positions, atol=1e-7)

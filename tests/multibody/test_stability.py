@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kink_scenes import CART, cart
+from kink_scenes import sprung
 from numpy.polynomial import Polynomial
 
 from seacrane import Curve, Scene, _core, integrator_names, simulate
@@ -39,17 +39,10 @@ def test_known_intervals_of_stability() -> None:
     assert _core.stability_polynomial("ark-dirk") == []
 
 
-def oscillator() -> Scene:
-    """A cart on a spring, 20 rad/s and a fifth of critical damping."""
-    scene = cart()
-    scene.add_actuator(joint="rail", stiffness=CART * 20.0**2, damping=0.4 * CART * 20.0, reference=0.0)
-    return scene
-
-
 @pytest.mark.parametrize("name", ["semi-implicit-euler", "rk4", "rk-low-storage", "bs32", "tsit5", "dop853"])
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -> None:
-    scene = oscillator()
+    scene = sprung(20.0, 0.2)
     linear = linear_model(scene)
     predicted = predicted_limit(name, linear, np.asarray(np.linalg.eigvals(linear.a), dtype=complex))
     if name == "semi-implicit-euler":  # h w = 2 sqrt(1 + z^2) - 2 z, by the characteristic polynomial
@@ -58,7 +51,7 @@ def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -
 
 
 def test_methods_that_have_no_limit_or_no_prediction() -> None:
-    scene = oscillator()
+    scene = sprung(20.0, 0.2)
     linear = linear_model(scene)
     eigenvalues = np.asarray(np.linalg.eigvals(linear.a), dtype=complex)
     assert isnan(predicted_limit("generalized-alpha", linear, eigenvalues))
@@ -67,13 +60,6 @@ def test_methods_that_have_no_limit_or_no_prediction() -> None:
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m
-
-
-def swinging(damping_ratio: float = 0.0) -> Scene:
-    scene = cart(AMPLITUDE * MODE)
-    stiffness, damping = CART * MODE**2, 2.0 * damping_ratio * MODE * CART
-    scene.add_actuator(name="hold", joint="rail", stiffness=stiffness, damping=damping)
-    return scene
 
 
 def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
@@ -89,7 +75,7 @@ def log_growth(integrator: str, step: float) -> float:
 @pytest.mark.parametrize("integrator", ["tsit5", "dopri5"])
 def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(integrator: str) -> None:
     with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'cart' grow") as caught:
-        result = run(swinging(), integrator)
+        result = run(sprung(MODE, speed=AMPLITUDE * MODE), integrator)
     told = re.search(r"factor of (\S+) an hour: a mode of (\S+) rad/s", str(caught[0].message))
     assert told is not None
     assert float(told[2]) == pytest.approx(MODE, rel=1e-3)
@@ -111,20 +97,18 @@ def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(i
     ],
 )
 def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
-    given = {"maximum_step": STEP, "rtol": 1e-2} | settings
+    given = {"t_end": 6000.0, "dt_out": 1.0, "maximum_step": STEP, "rtol": 1e-2} | settings
     kept = {name: value for name, value in given.items() if value is not None}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        result = simulate(
-            swinging(damping_ratio), integrator=integrator, dt_out=1.0, **{"t_end": 6000.0} | kept
-        )
+        result = simulate(sprung(MODE, damping_ratio, speed=AMPLITUDE * MODE), integrator=integrator, **kept)
     start, end = np.abs(result["position"][:20, 0, 0]).max(), np.abs(result["position"][-20:, 0, 0]).max()
     assert end < 2.0 * start
 
 
 def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(modes, "jacobian", None)
-    run(swinging(), t_end=900.0)
+    run(sprung(MODE, speed=AMPLITUDE * MODE), t_end=900.0)
 
 
 def hoisted(damping_ratio: float) -> Scene:

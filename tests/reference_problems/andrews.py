@@ -18,7 +18,6 @@ from seacrane import Scene
 from .planar import add_body, add_pin, angles
 
 Array = NDArray[np.float64]
-NAMES = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
 START = np.array([
     -0.0617138900142764496358948458001, 0.0, 0.455279819163070380255912382449,
     0.222668390165885884674473185609, 0.487364979543842550225598953530, -0.222668390165885884674473185609,

@@ -20,6 +20,16 @@ def cart(speed: float = 0.0) -> Scene:
     return scene
 
 
+def sprung(frequency: float, damping_ratio: float = 0.0, *, speed: float = 0.0, rest: float = 0.0) -> Scene:
+    """The cart on a spring and a damper to `rest`; rad/s."""
+    scene = cart(speed)
+    scene.add_actuator(
+        name="hold", joint="rail", stiffness=CART * frequency**2, reference=rest,
+        damping=2.0 * damping_ratio * CART * frequency,
+    )  # fmt: skip
+    return scene
+
+
 def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     """A rotor with a payload on a wire of 18 m."""
     scene = Scene(name="slewing", gravity=9.81)
