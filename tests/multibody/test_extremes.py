@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import replace
+import json
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from seacrane.trading import row as rows
 from seacrane.trading.case import Case
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
+from seacrane.trading.row_file import RowFile
 from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
@@ -167,3 +169,10 @@ def test_phases_far_from_zero_are_known_exactly() -> None:
         exact = Fraction(numerator, 2**20)
         expected = exact - int(exact / (2 * pi)) * 2 * pi
         assert _turn_of(numerator) == pytest.approx(float(expected), abs=1e-15)
+
+
+def test_rows_survive_their_file(tmp_path: Path) -> None:
+    RowFile(tmp_path / "rows.jsonl", {"study": "test"}).add(GOOD.key, GOOD)
+    (again,) = RowFile(tmp_path / "rows.jsonl", {"study": "test"}).rows.values()
+    assert json.dumps(asdict(again)) == json.dumps(asdict(GOOD))
+    assert not RowFile(tmp_path / "rows.jsonl", {"study": "another"}).rows

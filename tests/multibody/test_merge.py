@@ -375,3 +375,9 @@ def test_a_restart_of_a_held_crane_keeps_its_bits() -> None:
     for run in (whole, rest):
         run.advance(6.0)
     assert np.array_equal(np.array(rest.core.state.values), np.array(whole.core.state.values))
+
+
+@pytest.mark.warns("BallastWarning")
+def test_drivers_of_held_joints_tell_their_forces() -> None:
+    run = simulate(lift(), 2.0, channels=["cylinder_force", "slew_torque"])
+    assert (run.curve("cylinder_force[main]") > 1e6).all() and np.ptp(run["slew_torque"]) > 1e3
