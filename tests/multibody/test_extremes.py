@@ -74,7 +74,8 @@ def known(error: float, uncertainty: float = 0.0) -> dict[str, Any]:
 GOOD = Row(case={"axis": "payload", "value": 10.0}, method=DEFAULT, verdict=rows.COMPLETED,
            left=1e-15, energy=1e-9, **known(1e-9))  # fmt: skip
 DRIVEN: dict[str, Any] = {"axis": "driven-dead-centre", "value": -0.1}
-STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message="'hinge' is open by 0.3 m or rad")
+OPEN = "joint or driver 'hinge': is open by 0.3 m or rad and projection does not close it"
+STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message=OPEN)
 HEEL: dict[str, Any] = {"axis": "heel", "value": 10.0}
 RK4 = Method(integrator="rk4", dt=0.02)
 
