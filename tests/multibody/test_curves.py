@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from kink_scenes import CART, cart
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.interpolate import CubicSpline
 
-from seacrane import Curve, SceneError, simulate
+from seacrane import Curve, Scene, SceneError, simulate
 from seacrane.scene import gust_curve, spline_curve
 from seacrane.warnings import DriverImpulseWarning
 
@@ -148,11 +149,14 @@ def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks
 
 
 @pytest.mark.warns(sometimes=["EnergyErrorWarning"])
-def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told() -> None:
+def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told(tmp_path: Path) -> None:
+    """In a scene that comes back from its file."""
     times = [0.0, 1.0, 3.0]
     for between, values in (("linear", [0.0, 0.0, 2.0]), ("cubic", [0.0, 0.5, 2.0])):
         scene, curve = cart(), Curve.table(times, values, between=between)
         scene.add_driver("rail", curve=curve)
+        scene.save(tmp_path / "scene.json")
+        assert Scene.load(tmp_path / "scene.json") == scene
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             result = simulate(scene, 4.0, dt_out=0.1)
