@@ -1,8 +1,7 @@
 """Benchmark rival: the plain NumPy/SciPy reference on the same scene, one process, one thread.
 
-Reads a scene as JSON records (schema: `tests/reference/system.py`), or runs the reference's own ten-body
-crane. Prints one line of JSON: settings, counters, wall time, constraint errors, energy balance. With --out
-it also writes the arrays as an .npz file.
+Reads a scene as JSON records (schema: `tests/reference/system.py`). Prints one line of JSON: settings,
+counters, wall time, constraint errors. With --out it also writes the arrays as an .npz file.
 
     OMP_NUM_THREADS=1 python benchmarks/rival_numpy.py SCENE.json --t-end 100 --dt-out 0.1 --rtol 1e-6 --out
     run.npz
@@ -23,7 +22,6 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
-from reference import ten_body
 from reference.simulate import simulate
 from reference.system import System
 
@@ -35,10 +33,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument(
-        "scene", nargs="?", type=Path, help="JSON records; default: the reference's own crane"
-    )
-    parser.add_argument("--case", type=int, choices=(1, 2, 3), default=2, help="case of the default scene")
+    parser.add_argument("scene", type=Path, help="JSON records")
     parser.add_argument("--t-end", type=float, default=100.0, help="s")
     parser.add_argument("--dt-out", type=float, default=0.1, help="s")
     parser.add_argument("--rtol", type=float, default=1e-6)
@@ -48,10 +43,8 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def load_records(path: Path | None, case: int) -> dict[str, Any]:
-    """Records from a JSON file, or the default scene."""
-    if path is None:
-        return ten_body.records(payload=case == 2, case=case)
+def load_records(path: Path) -> dict[str, Any]:
+    """Records from a JSON file."""
     try:
         records = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, json.JSONDecodeError) as error:
@@ -71,17 +64,14 @@ def output_times(t_end: float, dt_out: float) -> np.ndarray[Any, np.dtype[np.flo
 
 def summary(result: dict[str, Any], settings: argparse.Namespace) -> dict[str, Any]:
     """What the benchmark table needs."""
-    work = float(result["absolute_work"][-1])
     return {
-        "scene": str(settings.scene) if settings.scene else f"reference case {settings.case}",
+        "scene": str(settings.scene),
         "method": settings.method,
         "rtol": settings.rtol,
         "simulated_s": settings.t_end,
         **result["stats"],
         "constraint_error": float(np.max(result["constraint_error"])),
         "constraint_error_before_projection": float(np.max(result["constraint_error_before_projection"])),
-        "energy_balance_J": float(np.max(np.abs(result["energy_balance"]))),
-        "absolute_work_J": work,
     }
 
 
@@ -103,7 +93,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run and print; returns the exit status."""
     settings = arguments(argv)
     try:
-        system = System.from_records(load_records(settings.scene, settings.case))
+        system = System.from_records(load_records(settings.scene))
         times = output_times(settings.t_end, settings.dt_out)
         result = simulate(
             system,

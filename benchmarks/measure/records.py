@@ -64,7 +64,7 @@ def _joint(scene: Scene, joint: Any) -> dict[str, Any]:
     (point, axes), (second_point, second_axes) = ends
     record = {"kind": joint.kind, "name": joint.name, "first": joint.first, "second": joint.second}
     record["point"] = point.tolist()
-    if joint.kind in ("revolute", "prismatic", "cylindrical", "universal", "planar"):
+    if joint.kind in ("revolute", "prismatic", "universal"):
         record["axis"] = axes[:, 2].tolist()
     if joint.kind == "universal":
         record["second_axis"] = second_axes[:, 2].tolist()

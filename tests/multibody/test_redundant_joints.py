@@ -1,18 +1,21 @@
-"""Consistent but redundant joints: a warning, the motion of the twin without them, shortest reactions."""
+"""Redundant joints, and rows that come to depend on each other: warnings, motion, shortest reactions."""
 
 from __future__ import annotations
 
+import re
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from multibody_runs import record
-from reference_problems import bricard
+from multibody_runs import ramp, record
+from reference_problems import bricard, pendulums
 
-from seacrane import Run, Scene, SceneError, simulate
+from seacrane import Result, Run, Scene, SceneError, simulate
 from seacrane.analysis import Evaluator
+from seacrane.warnings import NearSingularWarning
 
 G = 9.80665
 
@@ -42,9 +45,7 @@ def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
 
 def test_two_hinges_warn_and_move_like_one(formulation: str) -> None:
     two = door([-0.8, 0.8])
-    with pytest.warns(
-        UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\).*minimum-norm"
-    ):
+    with pytest.warns(UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\)"):
         out = record(two, 2.0, rtol=1e-9, formulation=formulation)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -56,6 +57,10 @@ def test_two_hinges_warn_and_move_like_one(formulation: str) -> None:
     np.testing.assert_allclose(out["reaction_force"].sum(axis=1), one["reaction_force"][:, 0], atol=1e-6)
     # Alike hinges at the same distance from the middle share the weight.
     np.testing.assert_allclose(out["reaction_force"][:, :, 2], 15.0 * G, rtol=1e-7)
+    # A ball beside a hinge adds nothing: the hinge's moments hold the same two tilts as its forces across.
+    with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
+        out = record(door([-0.8, 0.8], ["revolute", "spherical"]), 1.0, formulation=formulation)
+    np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
 
 
 def test_reactions_of_redundant_joints_are_marked() -> None:
@@ -70,28 +75,16 @@ def test_reactions_of_redundant_joints_are_marked() -> None:
     assert (model.constraints, model.assembly["rank"], model.degrees_of_freedom) == (16, 11, 1)
 
 
-def test_a_hinge_and_a_ball_hold_one_motion_twice(formulation: str) -> None:
-    """The ball adds nothing: three rows that the hinge has already."""
-    scene = door([-0.8, 0.8], ["revolute", "spherical"])
-    with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
-        out = record(scene, 1.0, formulation=formulation)
-    # The hinge's moments hold the same two tilts as the ball's forces across: three shared in all.
-    np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
-
-
-@pytest.mark.parametrize("way", ["compile", "simulate", "report", "run"])
-def test_the_warning_names_the_users_line(way: str) -> None:
+def test_the_warning_names_the_users_line() -> None:
     """However deep in the package the scene was compiled."""
     scene = door([-0.8, 0.8])
-    ways: dict[str, Any] = {
-        "compile": scene.compile,
-        "simulate": lambda: simulate(scene, t_end=0.01),
-        "report": scene.report,
-        "run": lambda: Run(scene, t_end=0.01),
-    }
-    with pytest.warns(UserWarning, match="redundant") as caught:
-        ways[way]()
-    assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
+    ways: list[Callable[[], Any]] = [
+        scene.compile, scene.report, lambda: simulate(scene, t_end=0.01), lambda: Run(scene, t_end=0.01),
+    ]  # fmt: skip
+    for way in ways:
+        with pytest.warns(UserWarning, match="redundant") as caught:
+            way()
+        assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
 
 
 def test_multipliers_are_the_shortest_of_all_that_balance() -> None:
@@ -114,11 +107,9 @@ def bars(count: int, *, spatial: bool = False) -> Scene:
     for i in range(count):
         foot = np.array([2.0 * i / (count - 1), 0.0, 0.0])
         scene.add_body(
-            name=f"crank {i}",
-            mass=1.0 if i < 2 else 1e-9,
-            position=foot + 0.5 * up,
-            inertia=np.full(3, 0.06 if i < 2 else 1e-10),
-        )
+            name=f"crank {i}", mass=1.0 if i < 2 else 1e-9, position=foot + 0.5 * up,
+            inertia=np.full(3, 0.06 if i < 2 else 1e-10)
+        )  # fmt: skip
         kinds = ("cylindrical", "spherical") if spatial and i == count - 1 else ("revolute", "revolute")
         for kind, name, first, second, point in (
             (kinds[0], f"foot {i}", "ground", f"crank {i}", foot),
@@ -130,39 +121,23 @@ def bars(count: int, *, spatial: bool = False) -> Scene:
 
 
 def test_a_planar_parallelogram_moves_like_its_spatial_twin(formulation: str) -> None:
+    """And with a bar between the middles, massless to rounding, which changes no motion."""
     twin_scene = bars(2, spatial=True)
     assert not twin_scene.compile().redundant
     twin = record(twin_scene, 1.0, rtol=1e-9, formulation=formulation)  # flat, and singular, at 0.62 s
-    with pytest.warns(UserWarning, match=r"foot 0, head 0, foot 1, head 1 are redundant \(3 more"):
-        planar = record(bars(2), 1.0, rtol=1e-9, formulation=formulation)
     assert np.max(np.abs(twin["angular_velocity"])) > 1.0
-    for name in ("position", "velocity", "quaternion"):
-        np.testing.assert_allclose(planar[name], twin[name], atol=1e-7)
-
-
-def extra_bar() -> Scene:
-    scene = bars(2)
-    up = np.array([0.3, 0.0, 0.8])
-    # A massless-to-rounding bar: a distance joint between the middles.
-    scene.add_joint(
-        kind="distance",
-        name="bar",
-        first="ground",
-        second="coupler",
-        point=(1.0, 0.0, 0.0),
-        second_point=np.array([1.0, 0.0, 0.0]) + up,
-    )
-    return scene
-
-
-def test_an_extra_bar_changes_no_motion(formulation: str) -> None:
-    with pytest.warns(UserWarning, match=r"bar are redundant \(4 more"):
-        barred = record(extra_bar(), 1.0, rtol=1e-9, formulation=formulation)
-    with pytest.warns(UserWarning):
-        free = record(bars(2), 1.0, rtol=1e-9)
-    for name in ("position", "velocity", "quaternion"):
-        np.testing.assert_allclose(barred[name], free[name], atol=1e-7)
-    assert np.max(barred["constraint_error"]) < 1e-9
+    barred = bars(2)
+    barred.add_joint(
+        kind="distance", name="bar", first="ground", second="coupler", point=(1.0, 0.0, 0.0),
+        second_point=(1.3, 0.0, 0.8),
+    )  # fmt: skip
+    cases = ((bars(2), r"foot 0, head 0, foot 1, head 1 .* \(3 more"), (barred, r"bar .* \(4 more"))
+    for scene, words in cases:
+        with pytest.warns(UserWarning, match=words):
+            planar = record(scene, 1.0, rtol=1e-9, formulation=formulation)
+        for name in ("position", "velocity", "quaternion"):
+            np.testing.assert_allclose(planar[name], twin[name], atol=1e-7)
+        assert np.max(planar["constraint_error"]) < 1e-9
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 1e-10, pytest.param(1e-12, marks=pytest.mark.slow("short steps"))])
@@ -181,26 +156,6 @@ def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str)
     record(scene, 0.3, formulation=formulation)
 
 
-def test_bricard_moves_like_its_twin_with_one_sliding_hinge(formulation: str) -> None:
-    with pytest.warns(UserWarning, match=r"\(1 more than needed\)"):
-        model = bricard.scene().compile()
-    assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (30, 30, 1)
-    twin = bricard.scene(last="cylindrical").compile()
-    assert not twin.redundant
-    assert (twin.constraints, twin.degrees_of_freedom) == (29, 1)
-    out: list[dict[str, Any]] = []
-    with pytest.warns(UserWarning):
-        out.append(record(bricard.scene(), 0.8, rtol=1e-9, formulation=formulation))
-    # The twin has a singular position of its own at 0.89 s, where its last hinge is free to slide.
-    out.append(record(bricard.scene(last="cylindrical"), 0.8, rtol=1e-9, formulation=formulation))
-    assert np.max(np.linalg.norm(out[0]["position"] - out[0]["position"][0], axis=2)) > 0.5
-    for name in ("position", "velocity", "quaternion"):
-        np.testing.assert_allclose(out[0][name], out[1][name], atol=1e-6)
-    assert np.max(out[0]["constraint_error"]) < 1e-9
-    # Nothing but weight: the energy of the start.
-    assert np.max(np.abs(out[0]["energy_balance"])) < 1e-6 * 9.81
-
-
 def chain_below_a_door(light: float) -> Scene:
     """180 bodies, every other one of a mass of its own."""
     scene = door([0.0, 1.0])
@@ -216,8 +171,9 @@ def chain_below_a_door(light: float) -> Scene:
     return scene
 
 
-@pytest.mark.warns("RedundantJointsWarning")
+@pytest.mark.filterwarnings("ignore:.*redundant")
 def test_a_long_chain_on_a_door_with_two_hinges_leaves_five_rows_out() -> None:
+    """Refused where masses are too different for the sparse solution, and bodies too many for a dense one."""
     scene = chain_below_a_door(1.0)
     model = scene.compile()
     assert model.redundant == ["hinge 0", "hinge 1"]
@@ -226,14 +182,142 @@ def test_a_long_chain_on_a_door_with_two_hinges_leaves_five_rows_out() -> None:
     del scene.joints["hinge 1"]
     one = simulate(scene, 0.2, formulation="redundant", dt_out=0.1)
     np.testing.assert_allclose(two["position"], one["position"], atol=1e-9)
+    light = chain_below_a_door(1e-7)
+    with pytest.raises(SceneError, match=r"'chain'.*redundant joints .* 180 bodies"):
+        light.compile()
+    del light.joints["hinge 1"]
+    light.compile()
 
 
-def test_redundant_joints_in_a_large_system_with_light_bodies_are_refused() -> None:
-    """Too many bodies for a dense solution, and masses so different that the sparse one loses its digits."""
-    scene = chain_below_a_door(1e-7)
-    with pytest.raises(
-        SceneError, match=r"'chain': has redundant joints .* 180 bodies .* remove the redundant"
-    ):
-        scene.compile()
-    del scene.joints["hinge 1"]
-    scene.compile()
+def folding(start: float, *, pins: int = 1, rate: float | None = None) -> Scene:
+    """A crank, and a link as long from its tip to a slider: they fold together where the crank is at 90 deg.
+
+    Every pin but the first is redundant. Without a driver's `rate` the crank turns freely, at 1 rad/s.
+    """
+    scene = Scene(name="folding", gravity=0.0)
+    tip, end = (np.cos(start), 0.0, np.sin(start)), (2.0 * np.cos(start), 0.0, 0.0)
+    turning = 1.0 if rate is None else 0.0
+    speed = (-2.0 * turning * np.sin(start), 0, 0)
+    scene.add_body(name="crank", mass=1.0, inertia=[1, 1, 1], angular_velocity=(0, -turning, 0))
+    scene.add_body(name="slider", mass=1.0, inertia=[1, 1, 1], position=end, velocity=speed)
+    for i in range(pins):
+        pin = {"first": "ground", "second": "crank", "point": (0, 0.2 * i, 0), "axis": (0, -1, 0)}
+        scene.add_joint(kind="revolute", name=f"pin {i}", **pin)
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
+    )
+    scene.add_joint(kind="distance", name="link", first="crank", second="slider", point=tip, second_point=end)
+    if rate is not None:
+        scene.add_driver(name="turn", joint="pin 0", curve=ramp(rate))
+    return scene
+
+
+def told(scene: Scene, formulation: str = "auto", **settings: Any) -> tuple[Result, list[str]]:
+    """A run, and its warnings of what is near singular; those of redundant joints are left out."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = simulate(scene, formulation=formulation, **settings)
+    near = [str(one.message) for one in caught if "are redundant" not in str(one.message)]
+    assert all(issubclass(one.category, NearSingularWarning) for one in caught if str(one.message) in near)
+    return result, near
+
+
+def test_rank_is_watched_beside_redundant_joints(formulation: str) -> None:
+    """Ten times nearer to the fold the singular value is ten times smaller, and the link is named."""
+    found = []
+    for gap in (0.1, 0.01):
+        t_end = (0.5 * np.pi - 0.5 - gap) / 0.2
+        result, near = told(folding(0.5, pins=2, rate=0.2), formulation, t_end=t_end, maximum_step=0.05)
+        assert not near
+        assert result.stats["smallest_pivot_joint"] == "link"
+        assert result.stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
+        assert result.stats["rank_changed"] == 0
+        found.append(float(result.stats["smallest_singular_value"]))
+    assert found[0] / found[1] == pytest.approx(10.0, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("scene", "settings", "words"),
+    [
+        # With redundant joints into a singular position.
+        (folding(0.5, pins=2, rate=0.2), {"t_end": (0.5 * np.pi - 0.5 - 1e-5) / 0.2, "maximum_step": 0.05},
+         r"joint 'link'.*at t = 5.35"),
+        # What looks like a redundant joint is a fold that the crank turns out of.
+        (folding(0.5 * np.pi), {"t_end": 0.5}, "at t = 0 s"),
+        # A sliding hinge lets Bricard's loop branch at 0.89 s, where no output is.
+        (bricard.scene(last="cylindrical"), {"t_end": 1.4, "dt_out": 0.7, "rtol": 1e-8},
+         r"joint 'hinge \d'.*at t = 0\.8[89]"),
+        (bricard.scene(), {"t_end": 1.0, "rtol": 1e-8}, None),  # redundant joints that stay so
+    ],
+    ids=["fold", "start", "bifurcation", "redundant"],
+)  # fmt: skip
+def test_a_singular_position_is_told(
+    scene: Scene, settings: dict[str, Any], words: str | None, formulation: str
+) -> None:
+    result, near = told(scene, formulation, **settings)
+    if words is None:
+        assert not near
+        assert 0.01 < float(result.stats["smallest_singular_value"]) < 1.0
+        assert result.stats["rank_changed"] == 0
+        return
+    assert any(re.search(words, one) for one in near), near
+    if words == "at t = 0 s":
+        assert result.stats["rank_changed"] == 1
+    if "dt_out" in settings:  # what the warning is about
+        assert np.abs(result["energy_balance"]).max() > 1e-4
+
+
+def chain(links: int, *, hinges: int = 1, lean: float = 0.0) -> Scene:
+    """A beam on `hinges` hinges on one line, and links of 1 m and 20 kg from it, leaning by `lean` rad."""
+    scene = Scene(name="chain", gravity=G)
+    scene.add_body(name="beam", mass=50.0, inertia=[5.0] * 3)
+
+    def pin(name: str, first: str, second: str, point: Any) -> None:
+        scene.add_joint(kind="revolute", name=name, first=first, second=second, point=point, axis=(0, 1, 0))
+
+    for i in range(hinges):
+        pin(f"hinge {i}", "ground", "beam", (0, i, 0))
+    along = np.array([np.sin(lean), 0.0, -np.cos(lean)])
+    for i in range(links):
+        scene.add_body(
+            name=f"link {i}", mass=20.0, inertia=[0.02, 1.7, 1.7], position=(i + 0.5) * along,
+            quaternion=(np.cos(0.5 * lean), 0, -np.sin(0.5 * lean), 0)
+        )  # fmt: skip
+        pin(f"pin {i}", f"link {i - 1}" if i else "beam", f"link {i}", i * along)
+    return scene
+
+
+def test_a_long_chain_at_rest_is_not_singular(formulation: str) -> None:
+    """Its smallest singular value falls as n^-2, and none of its rows depends on others."""
+    result, near = told(chain(40), formulation, t_end=0.1)
+    assert not near
+    assert float(result.stats["smallest_singular_value"]) < 1e-4
+    assert result.stats["rank_changed"] == 0
+
+
+def test_a_long_chain_on_redundant_hinges_keeps_all_its_joints() -> None:
+    """Beside redundant rows the redundant form would leave out a combination of the chain's."""
+    places = []
+    for hinges in (1, 2):
+        result, near = told(chain(30, hinges=hinges, lean=0.5), t_end=0.2, rtol=1e-9)
+        assert not near and result.stats["formulation"] == "recursive"
+        places.append(result["position"][-1])
+    np.testing.assert_allclose(places[1], places[0], atol=1e-7)
+
+
+@pytest.mark.parametrize("inertia", [1e-4, 1e-10, 1e-20])
+def test_a_body_of_next_to_no_inertia_hangs_on_a_hinge_that_is_not_redundant(
+    inertia: float, formulation: str
+) -> None:
+    scene = Scene(name="plumb", gravity=G)
+    scene.add_body(name="bob", mass=1.0, inertia=[inertia] * 3, position=(1, 0, 0))
+    scene.add_joint(
+        kind="revolute", name="hinge", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    result, near = told(scene, formulation, t_end=2.0, rtol=1e-10)
+    assert not near
+    slower = np.sqrt(G / pendulums.GRAVITY / (1.0 + inertia))
+    ((x, z),) = pendulums.place([2.0 * slower])[0]  # let go on the other side
+    assert np.abs(result["position"][-1, 0] - (-x, 0.0, z)).max() < 1e-8
+    assert np.abs(result["constraint_error"]).max() < 1e-12
+    assert np.abs(result["energy_balance"]).max() < 1e-8

@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 from reference_problems import cummins
 from reference_problems.problems import decays, ship_in_a_wave
 
 
-@pytest.mark.parametrize("memory", ["states", "convolution"])
 @pytest.mark.parametrize(
-    ("settings", "limit"),
-    [({"integrator": "dop853", "rtol": 1e-11}, 2e-6), ({"integrator": "rk4", "dt": 0.02}, 2e-6)],
-    ids=["dop853", "rk4"],
+    ("memory", "settings"),
+    [("states", {"integrator": "dop853", "rtol": 1e-11}), ("convolution", {"integrator": "rk4", "dt": 0.02})],
+    ids=["states", "convolution"],
 )
-def test_a_wave_from_rest_by_the_integral_over_the_past(
-    memory: str, settings: dict[str, Any], limit: float
-) -> None:
-    """6e-7 of each motion's largest value, in waves of 1e-5 m; the engine's finite rotations make that
-    difference."""
-    assert ship_in_a_wave(memory, **settings).difference < limit
+def test_a_wave_from_rest_by_the_integral_over_the_past(memory: str, settings: dict[str, Any]) -> None:
+    """6e-7 of each motion's largest value, in waves of 1e-5 m: the engine's rotations are finite."""
+    assert ship_in_a_wave(memory, **settings).difference < 2e-6
 
 
 def test_the_difference_is_that_of_finite_rotations(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,13 +29,6 @@ def test_the_difference_is_that_of_finite_rotations(monkeypatch: pytest.MonkeyPa
         differences.append(ship_in_a_wave(**settings).difference)
     cummins.by_convolution.cache_clear()
     assert differences[1] / differences[0] == pytest.approx(10.0, rel=0.05)
-
-
-def test_the_reference_converges() -> None:
-    """Trapezoidal rules of half the step are four times as close to what they are extrapolated to."""
-    expected = cummins.by_convolution()
-    errors = [np.abs(cummins.trapezoidal(h, 60.0)[:: round(1.0 / h)] - expected).max() for h in (0.1, 0.05)]
-    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.02)
 
 
 @pytest.mark.parametrize("motion", ["heave", "roll", "pitch"])

@@ -26,15 +26,9 @@ def integrate(rate: Callable[[float, Array], Any], start: ArrayLike, times: Arra
 
     t = np.asarray(times, dtype=float)
     solution = solve_ivp(
-        rate,
-        (0.0, float(t[-1])),
-        np.asarray(start, dtype=float),
-        "DOP853",
-        t,
-        rtol=RTOL,
-        atol=ATOL,
-        max_step=0.05,
-    )
+        rate, (0.0, float(t[-1])), np.asarray(start, dtype=float), "DOP853", t, rtol=RTOL, atol=ATOL,
+        max_step=0.05
+    )  # fmt: skip
     if not solution.success:
         raise RuntimeError(solution.message)
     return np.asarray(solution.y.T)

@@ -3,8 +3,7 @@
 Every row is c(q) - nu(t) = 0 with D v = nudot and D a = gamma + nuddot, v stacked as (velocity of the centre
 of mass, angular velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two
 points, three rows), `perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in
-the first body), `distance` (between two points), `spin` (angle about an axis), `attitude` (a
-yaw-pitch-roll angle).
+the first body), `distance` (between two points), `spin` (angle about an axis).
 """
 
 from __future__ import annotations
@@ -16,25 +15,12 @@ import numpy as np
 
 from .kinematics import BodyVectors, Indices, VectorMotion
 from .reference_curves import ReferenceCurve
-from .rotation import (
-    Array,
-    angle_rate_matrix,
-    angle_rate_matrix_derivative,
-    cross,
-    dot,
-    skew,
-    yaw_pitch_roll,
-)
-
-KINDS = ("coincide", "perpendicular", "slide", "distance", "spin", "attitude")
-ROWS_PER_KIND = {"coincide": 3}
+from .rotation import Array, cross, dot, skew
 
 
 @dataclass
 class RowValues:
-    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, and right side gamma
-    (m).
-    """
+    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, right side gamma (m)."""
 
     residual: Array
     rate: Array
@@ -61,13 +47,11 @@ class ConstraintRows:
     row_joint: list[int] = field(default_factory=list)
     row_second: list[int] = field(default_factory=list)
     drivers: list[Driver] = field(default_factory=list)
-    entries: dict[str, list[tuple[float, ...]]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
+    entries: dict[str, list[tuple[float, ...]]] = field(default_factory=lambda: {kind: [] for kind in FILL})
 
     def add(self, kind: str, joint: int, first: int, second: int, *data: float) -> int:
-        """Append an instance; `data` are vector indices then constants (see `freeze`). Returns its first
-        row.
-        """
-        row, height = self.count, ROWS_PER_KIND.get(kind, 1)
+        """Append an instance; `data` are vector indices, then a constant. Returns its first row."""
+        row, height = self.count, 3 if kind == "coincide" else 1
         self.entries[kind].append((row, first, second, *data))
         self.row_joint += [joint] * height
         self.row_second += [second] * height
@@ -90,41 +74,21 @@ class ConstraintRows:
         self.second_of_row = np.array(self.row_second, dtype=int)
 
     def evaluate(self, t: float, x: VectorMotion) -> RowValues:
-        """Evaluate all rows at time t."""
-        out = RowValues(
-            np.zeros(self.count),
-            np.zeros(self.count),
-            np.zeros((self.count, self.bodies + 1, 6)),
-            np.zeros(self.count),
-        )
-        for kind, fill in (
-            ("coincide", _coincide),
-            ("perpendicular", _perpendicular),
-            ("slide", _slide),
-            ("distance", _distance),
-            ("spin", _spin),
-        ):
+        """All rows at time t."""
+        n = self.count
+        out = RowValues(np.zeros(n), np.zeros(n), np.zeros((n, self.bodies + 1, 6)), np.zeros(n))
+        for kind, fill in FILL.items():
             index = self.index[kind]
             if index is not None:
                 fill(out, x, index, self.constant[kind])
-        for row, _, body, motion in self.entries["attitude"]:
-            _attitude(out, x, int(row), int(body), int(motion))
-        self._apply_drivers(t, out)
-        flat = out.matrix[:, :-1].reshape(self.count, 6 * self.bodies)
-        out.rate += flat @ x.motion.twists()
-        return out
-
-    def _apply_drivers(self, t: float, out: RowValues) -> None:
         for driver in self.drivers:
             value, rate, acceleration = driver.curve(t)
             residual = out.residual[driver.row] - value
             out.residual[driver.row] = wrap(residual) if driver.is_angle else residual
             out.rate[driver.row] -= rate
             out.gamma[driver.row] += acceleration
-
-    def driver_rates(self, t: float) -> Array:
-        """Prescribed rates (number of drivers)."""
-        return np.array([driver.curve(t)[1] for driver in self.drivers])
+        out.rate += out.matrix[:, :-1].reshape(n, 6 * self.bodies) @ x.motion.twists()
+        return out
 
 
 def wrap(angle: float) -> float:
@@ -132,10 +96,7 @@ def wrap(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
-Index = Indices
-
-
-def _coincide(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
+def _coincide(out: RowValues, x: VectorMotion, index: Indices, _: Array) -> None:
     row, first, second, i1, i2 = index[:5]
     rows = row[:, None] + np.arange(3)
     out.residual[rows] = x.point(i2) - x.point(i1)
@@ -146,7 +107,7 @@ def _coincide(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
     out.gamma[rows] = x.bias[i1] - x.bias[i2]
 
 
-def _perpendicular(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
+def _perpendicular(out: RowValues, x: VectorMotion, index: Indices, _: Array) -> None:
     row, first, second, i1, i2 = index[:5]
     g1, g2 = x.g[i1], x.g[i2]
     normal = cross(g2, g1)
@@ -156,7 +117,7 @@ def _perpendicular(out: RowValues, x: VectorMotion, index: Index, _: Array) -> N
     out.gamma[row] = -(dot(x.bias[i1], g2) + 2.0 * dot(x.rate[i1], x.rate[i2]) + dot(g1, x.bias[i2]))
 
 
-def _slide(out: RowValues, x: VectorMotion, index: Index, constant: Array) -> None:
+def _slide(out: RowValues, x: VectorMotion, index: Indices, constant: Array) -> None:
     row, first, second, i1, i2, axis = index
     a = x.g[axis]
     d, rate = x.point(i2) - x.point(i1), x.point_velocity(i2) - x.point_velocity(i1)
@@ -168,7 +129,7 @@ def _slide(out: RowValues, x: VectorMotion, index: Index, constant: Array) -> No
     out.gamma[row] = -(dot(x.bias[axis], d) + 2.0 * dot(x.rate[axis], rate) + dot(a, x.bias[i2] - x.bias[i1]))
 
 
-def _distance(out: RowValues, x: VectorMotion, index: Index, length: Array) -> None:
+def _distance(out: RowValues, x: VectorMotion, index: Indices, length: Array) -> None:
     row, first, second, i1, i2 = index[:5]
     d, rate = x.point(i2) - x.point(i1), x.point_velocity(i2) - x.point_velocity(i1)
     e = d / length[:, None]
@@ -180,21 +141,16 @@ def _distance(out: RowValues, x: VectorMotion, index: Index, length: Array) -> N
     out.gamma[row] = -dot(rate, rate) / length - dot(e, x.bias[i2] - x.bias[i1])
 
 
-def _spin(out: RowValues, x: VectorMotion, index: Index, start: Array) -> None:
+def _spin(out: RowValues, x: VectorMotion, index: Indices, _: Array) -> None:
     row, first, second, axis, t1, t2 = index
     a = x.g[axis]
-    out.residual[row] = start + np.arctan2(dot(a, cross(x.g[t1], x.g[t2])), dot(x.g[t1], x.g[t2]))
+    out.residual[row] = np.arctan2(dot(a, cross(x.g[t1], x.g[t2])), dot(x.g[t1], x.g[t2]))
     out.matrix[row, first, 3:] = -a
     out.matrix[row, second, 3:] = a
     out.gamma[row] = -dot(x.motion.w[second] - x.motion.w[first], x.rate[axis])
 
 
-def _attitude(out: RowValues, x: VectorMotion, row: int, body: int, motion: int) -> None:
-    angles = yaw_pitch_roll(x.motion.rotation[body])
-    w = x.motion.w[body]
-    matrix = angle_rate_matrix(angles[1], angles[2])
-    _, pitch_rate, yaw_rate = matrix @ w
-    derivative = angle_rate_matrix_derivative(angles[1], angles[2], pitch_rate, yaw_rate)
-    out.residual[row] = angles[motion - 3]
-    out.matrix[row, body, 3:] = matrix[motion - 3]
-    out.gamma[row] = -float(derivative[motion - 3] @ w)
+FILL = {
+    "coincide": _coincide, "perpendicular": _perpendicular, "slide": _slide, "distance": _distance,
+    "spin": _spin,
+}  # fmt: skip

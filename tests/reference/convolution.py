@@ -6,22 +6,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .rotation import Array
-from .vessel import MemoryModel
 
 # Gregory's end corrections of the trapezoidal rule, exact for cubics (error of order h^4 and better)
 GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])
 
 
-def kernel_of_model(memory: MemoryModel, times: ArrayLike) -> Array:
-    """K(t) = C exp(A t) B (k, 6, 6) of a state-space model; the direct term D acts besides it."""
-    from scipy.linalg import expm
-
-    return np.array([memory.c @ expm(memory.a * float(t)) @ memory.b for t in np.asarray(times, dtype=float)])
-
-
 def kernel_of_damping(times: ArrayLike, omega: ArrayLike, damping: ArrayLike) -> Array:
-    """K(t) = 2/pi integral of B(w) cos(w t) dw (k, 6, 6), B linear between its frequencies (m) and zero
-    outside.
+    """K(t) = 2/pi integral of B(w) cos(w t) dw (k, 6, 6), B linear between its frequencies, zero outside.
 
     The integral is exact for piecewise linear B, so it stays right for w t beyond the frequency spacing.
     """
@@ -47,26 +38,17 @@ def _odd_moment(x: Array) -> Array:
 
 
 def memory_force(velocity: ArrayLike, kernel: ArrayLike, step: float) -> Array:
-    """mu(t_i) = integral_0^t_i K(t_i - tau) u(tau) dtau (k, 6) on a uniform grid.
+    """mu(t_i) = integral_0^t_i K(t_i - tau) u(tau) dtau (k, 6) of samples of u (k, 6) and K (k, 6, 6).
 
-    Parameters
-    ----------
-    velocity : (k, 6) samples of u at 0, step, 2 step, ...; u = 0 before.
-    kernel : (k, 6, 6) samples of K at the same spacing; beyond its last sample it counts as zero.
-
-    Notes
-    -----
     Trapezoidal sum with Gregory end corrections (fourth order) once six samples are in reach, plain before.
     """
     u, k = np.asarray(velocity, dtype=float), np.asarray(kernel, dtype=float)
     out = np.zeros_like(u)
     for i in range(1, len(u)):
-        count = min(i + 1, len(k))
-        weight = np.ones(count)
-        if count >= 6:
+        weight = np.ones(i + 1)
+        if i >= 5:
             weight[:3], weight[-3:] = GREGORY, GREGORY[::-1]
         else:
             weight[0] = weight[-1] = 0.5
-        past = u[i - count + 1 : i + 1][::-1]
-        out[i] = step * np.einsum("n,njk,nk->j", weight, k[:count], past)
+        out[i] = step * np.einsum("n,njk,nk->j", weight, k[: i + 1], u[i::-1])
     return out

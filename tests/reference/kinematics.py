@@ -14,23 +14,13 @@ Indices = NDArray[np.int_]
 
 @dataclass
 class Motion:
-    """Positions, rotations and velocities of n bodies, with the fixed ground as the last row.
-
-    Attributes
-    ----------
-    r, v : (n + 1, 3) centre of mass and its velocity, inertial frame, m and m/s.
-    rotation : (n + 1, 3, 3) body to inertial.
-    w : (n + 1, 3) angular velocity, inertial frame, rad/s.
-    """
+    """n bodies, with the fixed ground as the last row: centres of mass r and their velocities v (n + 1, 3),
+    rotations (n + 1, 3, 3) body to inertial, angular velocities w (n + 1, 3), all inertial."""
 
     r: Array
     rotation: Array
     v: Array
     w: Array
-
-    @property
-    def bodies(self) -> int:
-        return len(self.r) - 1
 
     def twists(self) -> Array:
         """Velocities (6 n) of the moving bodies: v, w of body 0, v, w of body 1, ..."""
@@ -68,9 +58,7 @@ class BodyVectors:
 
 @dataclass
 class VectorMotion:
-    """Inertial components g (k, 3), their rates, and their second derivatives without angular
-    acceleration.
-    """
+    """Inertial components g (k, 3), their rates, and second derivatives without angular acceleration."""
 
     motion: Motion
     owner: Indices
@@ -83,5 +71,4 @@ class VectorMotion:
         return np.asarray(self.motion.r[self.owner[index]] + self.g[index])
 
     def point_velocity(self, index: Indices | int) -> Array:
-        """Inertial velocity of that point."""
         return np.asarray(self.motion.v[self.owner[index]] + self.rate[index])

@@ -22,9 +22,7 @@ JetVector = list[Jet]
 
 @dataclass(frozen=True)
 class Moving:
-    """Kinematics of one body along q: centre of mass p, p', p''; rotation and w = dR/dq R^T as vectors w,
-    w'.
-    """
+    """Kinematics of one body along q: centre of mass p, and rotation by the body's axes."""
 
     mass: float
     inertia: Array
@@ -41,12 +39,9 @@ class Moving:
         w1 = np.array([antisymmetric[2, 1], antisymmetric[0, 2], antisymmetric[1, 0]])
         momentum = self.inertia @ w
         return (
-            float(self.mass * p1 @ p1 + w @ momentum),
-            float(self.mass * p1 @ p2 + w1 @ momentum),
-            p,
-            p1,
-            r @ w,
-        )
+            float(self.mass * p1 @ p1 + w @ momentum), float(self.mass * p1 @ p2 + w1 @ momentum), p, p1,
+            r @ w
+        )  # fmt: skip
 
 
 Kinematics = Callable[[Jet], list[Moving]]
@@ -81,14 +76,6 @@ class SingleCoordinate:
         positions = [[[c.f for c in body.p] for body in state] for state in states]
         rotations = [[[[c.f for c in a] for a in body.axes] for body in state] for state in states]
         return np.array(positions), np.array(rotations).transpose(0, 1, 3, 2)
-
-    def energy(self, q: float, rate: float) -> float:
-        """Kinetic plus potential energy, without the load's work."""
-        total = 0.0
-        for body in self.kinematics(Jet(q, 1.0)):
-            m, _, p, _, _ = body.terms()
-            total += 0.5 * m * rate * rate - body.mass * float(self.gravity @ p)
-        return total
 
 
 def add(a: JetVector, b: JetVector) -> JetVector:
@@ -143,20 +130,12 @@ class SliderCrank:
         n = scale(n, inner(n, n).sqrt().reciprocal())
         crank_axes = [fixed([1.0, 0.0, 0.0]), along, [zero, -s, c]]
         return [
-            Moving(
-                self.crank.mass,
-                np.diag([self.crank.inertia] * 3),
-                add(pivot, scale(along, self.crank.center)),
-                crank_axes,
-            ),
-            Moving(
-                self.rod_mass,
-                np.diag(self.rod_inertia),
-                scale(add(pin, end), 0.5),
-                [e, n, outer_product(e, n)],
-            ),
+            Moving(self.crank.mass, np.diag([self.crank.inertia] * 3),
+                   add(pivot, scale(along, self.crank.center)), crank_axes),
+            Moving(self.rod_mass, np.diag(self.rod_inertia), scale(add(pin, end), 0.5),
+                   [e, n, outer_product(e, n)]),
             Moving(self.slider_mass, np.eye(3), end, [fixed(row) for row in np.eye(3)]),
-        ]
+        ]  # fmt: skip
 
     def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, -9.81), load: float = 0.0) -> SingleCoordinate:
         return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)
@@ -169,9 +148,7 @@ class ChangePointFourBar:
     Crank a at the origin, coupler b, rocker c at (d, 0, 0). With f^2 = a^2 + d^2 - 2 a d cos q the elbow
     height h obeys 4 f^2 h^2 = [(b+c)^2 - f^2] [f^2 - (b-c)^2], whose first factor is exactly 4 a d
     cos^2(q/2): taking the signed root 2 sqrt(a d) cos(q/2) gives the branch that is smooth through the
-    flat position, period 4 pi. For a parallelogram (a = c, b = d) the second factor is 4 a d sin^2(q/2),
-    and its signed root is used too; with a = b = c = d use q away from 0, where crank and rocker pins
-    coincide with each other's pivots.
+    flat position, period 4 pi. The second factor stays positive for |a - d| > |b - c|.
     """
 
     crank: Link
@@ -179,37 +156,16 @@ class ChangePointFourBar:
     rocker: Link
     ground: float
 
-    def __post_init__(self) -> None:
-        a, b, c, d = self.crank.length, self.coupler.length, self.rocker.length, self.ground
-        if not math.isclose(a + d, b + c, rel_tol=1e-12):
-            raise ValueError(f"four-bar a={a}, b={b}, c={c}, d={d}: a change point needs a + d = b + c")
-        if not self.parallelogram and not abs(a - d) > abs(b - c):
-            raise ValueError(
-                f"four-bar a={a}, b={b}, c={c}, d={d}: needs |a - d| > |b - c| or a parallelogram"
-            )
-
-    @property
-    def parallelogram(self) -> bool:
-        return math.isclose(self.crank.length, self.rocker.length) and math.isclose(
-            self.coupler.length, self.ground
-        )
-
     def kinematics(self, q: Jet) -> list[Moving]:
-        """Crank, coupler, rocker, each with its first body axis along the link (from its pivot or the
-        crank pin).
-        """
+        """Crank, coupler, rocker, each with its first body axis along the link."""
         a, b, c, d = self.crank.length, self.coupler.length, self.rocker.length, self.ground
         zero = Jet(0.0)
         crank = [q.cos(), q.sin(), zero]
         pin = scale(crank, a)
         to_pivot = add(fixed([d, 0.0, 0.0]), scale(pin, -1.0))
         square = inner(to_pivot, to_pivot)
-        half = q * 0.5
-        first = half.cos() * (2.0 * math.sqrt(a * d))
-        if self.parallelogram:
-            second = half.sin() * (2.0 * math.sqrt(a * d))
-        else:
-            second = (square - (b - c) ** 2).sqrt()
+        first = (q * 0.5).cos() * (2.0 * math.sqrt(a * d))
+        second = (square - (b - c) ** 2).sqrt()
         along = (square + b * b - c * c) / (2.0 * square)
         height = first * second / (2.0 * square)
         # elbow = pin + along (pivot - pin) + height (pivot - pin) turned by a quarter
@@ -218,10 +174,9 @@ class ChangePointFourBar:
         coupler = scale(add(elbow, scale(pin, -1.0)), 1.0 / b)
         rocker = scale(add(elbow, fixed([-d, 0.0, 0.0])), 1.0 / c)
         return [
-            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank),
-            planar(self.coupler, pin, coupler),
-            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker),
-        ]
+            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank), planar(self.coupler, pin, coupler),
+            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker)
+        ]  # fmt: skip
 
     def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, 0.0), load: float = 0.0) -> SingleCoordinate:
         return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)

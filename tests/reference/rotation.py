@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Cross product over the last axis (several times faster than `np.cross` on small arrays)."""
+    """Over the last axis (several times faster than `np.cross` on small arrays)."""
     a0, a1, a2 = a[..., 0], a[..., 1], a[..., 2]
     b0, b1, b2 = b[..., 0], b[..., 1], b[..., 2]
     out = np.empty(np.broadcast(a, b).shape)
@@ -22,12 +22,12 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Scalar product over the last axis."""
+    """Over the last axis."""
     return np.asarray(np.einsum("...i,...i->...", a, b))
 
 
 def skew(a: Array) -> Array:
-    """Matrices S (..., 3, 3) with S(a) b = a x b for vectors a (..., 3)."""
+    """Matrices S (..., 3, 3) with S(a) b = a x b."""
     s = np.zeros((*a.shape[:-1], 3, 3))
     s[..., 0, 1], s[..., 0, 2], s[..., 1, 2] = -a[..., 2], a[..., 1], -a[..., 0]
     s[..., 1, 0], s[..., 2, 0], s[..., 2, 1] = a[..., 2], -a[..., 1], a[..., 0]
@@ -35,7 +35,7 @@ def skew(a: Array) -> Array:
 
 
 def rotation_exponential(angle: Array) -> Array:
-    """Rotation matrices (..., 3, 3) of rotation vectors (..., 3), Rodrigues' formula."""
+    """Rotation matrices of rotation vectors (..., 3), Rodrigues' formula."""
     s = skew(angle)
     theta = np.sqrt(dot(angle, angle))[..., None, None]
     # np.sinc is sin(pi x)/(pi x): both factors stay exact at zero angle
@@ -54,10 +54,7 @@ def nearest_rotation(matrix: Array) -> Array:
 def matrix_from_quaternion(quaternion: ArrayLike) -> Array:
     """Rotation matrix (3, 3), body to inertial, of a quaternion w, x, y, z (normalised here)."""
     q = np.asarray(quaternion, dtype=float)
-    norm = float(np.linalg.norm(q))
-    if q.shape != (4,) or not math.isfinite(norm) or norm == 0.0:
-        raise ValueError(f"quaternion {quaternion!r} must hold four finite numbers, not all zero")
-    w, x, y, z = q / norm
+    w, x, y, z = q / np.linalg.norm(q)
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -68,11 +65,7 @@ def matrix_from_quaternion(quaternion: ArrayLike) -> Array:
 
 
 def quaternions_from_matrices(matrices: Array) -> Array:
-    """Quaternions (time, body, 4) of matrices (time, body, 3, 3), continuous in sign along time, w >= 0
-    first.
-
-    The quaternion is the eigenvector of the largest eigenvalue of Bar-Itzhack's symmetric 4x4 matrix.
-    """
+    """Quaternions (..., 4) of any sign: eigenvectors of Bar-Itzhack's symmetric 4x4 matrices."""
     m = matrices
     k = np.empty((*m.shape[:-2], 4, 4))
     xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
@@ -81,11 +74,7 @@ def quaternions_from_matrices(matrices: Array) -> Array:
     k[..., 1, 0], k[..., 2, 0] = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0]
     k[..., 3, 0], k[..., 2, 1] = m[..., 1, 0] - m[..., 0, 1], m[..., 1, 0] + m[..., 0, 1]
     k[..., 3, 1], k[..., 3, 2] = m[..., 0, 2] + m[..., 2, 0], m[..., 1, 2] + m[..., 2, 1]
-    q = np.linalg.eigh(k)[1][..., -1]  # eigh reads the lower triangle
-    q[0] *= np.where(q[0, :, :1] < 0.0, -1.0, 1.0)
-    flips = np.where(dot(q[1:], q[:-1]) < 0.0, -1.0, 1.0)
-    q[1:] *= np.cumprod(flips, axis=0)[..., None]
-    return np.asarray(q)
+    return np.asarray(np.linalg.eigh(k)[1][..., -1])  # eigh reads the lower triangle
 
 
 def yaw_pitch_roll(matrix: Array) -> tuple[float, float, float]:
@@ -99,21 +88,6 @@ def angle_rate_matrix(pitch: float, yaw: float) -> Array:
     """Matrix G (3, 3): rates of roll, pitch, yaw = G omega, with omega in the inertial frame."""
     c, s, t = math.cos(yaw), math.sin(yaw), math.tan(pitch)
     return np.array([[c / math.cos(pitch), s / math.cos(pitch), 0.0], [-s, c, 0.0], [t * c, t * s, 1.0]])
-
-
-def angle_rate_matrix_derivative(pitch: float, yaw: float, pitch_rate: float, yaw_rate: float) -> Array:
-    """Time derivative (3, 3) of `angle_rate_matrix`."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    secant, tangent = 1.0 / math.cos(pitch), math.tan(pitch)
-    by_pitch = np.array(
-        [
-            [secant * tangent * c, secant * tangent * s, 0.0],
-            [0.0, 0.0, 0.0],
-            [secant * secant * c, secant * secant * s, 0.0],
-        ]
-    )
-    by_yaw = np.array([[-secant * s, secant * c, 0.0], [-c, -s, 0.0], [-tangent * s, tangent * c, 0.0]])
-    return np.asarray(by_pitch * pitch_rate + by_yaw * yaw_rate)
 
 
 def yaw_matrix(yaw: float) -> Array:

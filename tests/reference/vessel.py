@@ -3,7 +3,7 @@
 With psi the yaw angle, P = blockdiag(Rz(psi), Rz(psi)) and V the inertial twist of the reference point,
 u = P^T V, the load on the reference point is
 
-    P ( -A du/dt - B u - b4 |u4| u4 e4 - mu + waves(t) + constant )  +  restoring  +  station keeping,
+    P ( -A du/dt - B u - b4 |u4| u4 e4 - mu + waves(t) )  +  restoring  +  station keeping,
 
     x' = Am x + Bm u,   mu = Cm x + Dm u.
 
@@ -36,42 +36,22 @@ class MemoryModel:
     d: Array
 
     @classmethod
-    def none(cls) -> MemoryModel:
-        return cls(np.zeros((0, 0)), np.zeros((0, 6)), np.zeros((6, 0)), np.zeros((6, 6)))
-
-    @classmethod
     def from_record(cls, record: Mapping[str, Any] | None) -> MemoryModel:
-        """Full matrices A, B, C, D, or blocks with 0-based `inputs` and `outputs` that are placed and
-        summed.
-        """
-        if not record:
-            return cls.none()
-        blocks = record.get("blocks")
-        if blocks is None:
-            blocks = [{**record, "inputs": range(6), "outputs": range(6)}]
-        total = cls.none()
+        """Blocks with 0-based `inputs` and `outputs`, placed side by side and summed."""
+        blocks = record["blocks"] if record else []
+        n = sum(len(block["A"]) for block in blocks)
+        a, b, c, d = np.zeros((n, n)), np.zeros((n, 6)), np.zeros((6, n)), np.zeros((6, 6))
+        first = 0
         for block in blocks:
-            total = total.joined(cls._placed(block))
-        return total
-
-    @classmethod
-    def _placed(cls, block: Mapping[str, Any]) -> MemoryModel:
-        inputs, outputs = list(block["inputs"]), list(block["outputs"])
-        a = np.atleast_2d(np.asarray(block["A"], dtype=float))
-        b, c, d = np.zeros((len(a), 6)), np.zeros((6, len(a))), np.zeros((6, 6))
-        b[:, inputs] = np.reshape(np.asarray(block["B"], dtype=float), (len(a), len(inputs)))
-        c[outputs] = np.reshape(np.asarray(block["C"], dtype=float), (len(outputs), len(a)))
-        if block.get("D") is not None:
-            direct = np.reshape(np.asarray(block["D"], dtype=float), (len(outputs), len(inputs)))
-            d[np.ix_(outputs, inputs)] = direct
+            inputs, outputs, k = list(block["inputs"]), list(block["outputs"]), len(block["A"])
+            here = slice(first, first + k)
+            a[here, here] = np.reshape(block["A"], (k, k))
+            b[here, inputs] = np.reshape(block["B"], (k, len(inputs)))
+            c[outputs, here] = np.reshape(block["C"], (len(outputs), k))
+            if block.get("D") is not None:
+                d[np.ix_(outputs, inputs)] += np.reshape(block["D"], (len(outputs), len(inputs)))
+            first += k
         return cls(a, b, c, d)
-
-    def joined(self, other: MemoryModel) -> MemoryModel:
-        """Both models side by side, outputs added."""
-        n, m = len(self.a), len(other.a)
-        a = np.zeros((n + m, n + m))
-        a[:n, :n], a[n:, n:] = self.a, other.a
-        return MemoryModel(a, np.vstack([self.b, other.b]), np.hstack([self.c, other.c]), self.d + other.d)
 
     def transfer(self, omega: float) -> np.ndarray[Any, np.dtype[np.complex128]]:
         """Complex retardation function K(i omega) (6, 6)."""
@@ -79,18 +59,12 @@ class MemoryModel:
         return np.asarray(self.c @ states + self.d)
 
 
-def waves_from_record(record: Mapping[str, Any] | None) -> WaveLoads | None:
-    """Loads t -> Re sum_k F_k exp(i omega_k t) (6), F_k = force_real + i force_imag including the
-    amplitude.
-    """
+def waves_from_record(record: Mapping[str, Any] | None) -> WaveLoads:
+    """Loads t -> Re sum_k F_k exp(i omega_k t) (6), F_k = force_real + i force_imag with the amplitude."""
     if not record:
-        return None
+        return lambda t: np.zeros(6)
     omega = np.asarray(record["omega"], dtype=float)
-    amplitude = np.asarray(record["force_real"], dtype=float) + 1j * np.asarray(
-        record["force_imag"], dtype=float
-    )
-    if amplitude.shape != (len(omega), 6):
-        raise ValueError(f"waves: force has shape {amplitude.shape}, needs ({len(omega)}, 6)")
+    amplitude = np.asarray(record["force_real"]) + 1j * np.asarray(record["force_imag"])
     transposed = np.ascontiguousarray(amplitude.T)
     return lambda t: np.asarray((transposed @ np.exp(1j * t * omega)).real)
 
@@ -102,8 +76,6 @@ class VesselLoads:
     wrench: Array
     inertia: Array
     memory_rate: Array
-    power: float
-    energy: float
     wave: Array
     memory_force: Array
 
@@ -112,37 +84,21 @@ class Vessel:
     """Compiled hydrodynamics of one body."""
 
     def __init__(
-        self,
-        record: Mapping[str, Any],
-        body: int,
-        start: Motion,
-        vectors: BodyVectors,
+        self, record: Mapping[str, Any], body: int, start: Motion, vectors: BodyVectors,
         wave_loads: WaveLoads | None,
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.body = body
-        point = np.asarray(record.get("reference_point", [0.0, 0.0, 0.0]), dtype=float)
-        self.point = vectors.add(body, start.rotation[body], point - start.r[body])
-        self.rest = np.asarray(record.get("rest_position", point), dtype=float)
+        self.rest = np.asarray(record["reference_point"], dtype=float)
+        self.point = vectors.add(body, start.rotation[body], self.rest - start.r[body])
         self.added_mass, self.damping, self.restoring = (
-            _six_by_six(record.get(key), key) for key in ("added_mass", "damping", "restoring")
+            np.asarray(record[key], dtype=float) for key in ("added_mass", "damping", "restoring")
         )
-        stiff = self.restoring.copy()
-        stiff[2:5, 2:5] = 0.0
-        if np.any(stiff) or not np.allclose(self.restoring, self.restoring.T):
-            raise ValueError(
-                "vessel restoring: must be symmetric, with entries in heave, roll and pitch only"
-            )
-        self.quadratic_roll = float(record.get("quadratic_roll_damping", 0.0))
-        station = record.get("station_keeping") or {}
-        self.station_stiffness = np.asarray(station.get("stiffness", [0.0] * 3), dtype=float)
-        self.station_damping = np.asarray(station.get("damping", [0.0] * 3), dtype=float)
-        self.constant = np.asarray(record.get("constant_load", [0.0] * 6), dtype=float)
+        self.quadratic_roll = float(record["quadratic_roll_damping"])
+        self.station_stiffness, self.station_damping = (
+            np.asarray(record["station_keeping"][key], dtype=float) for key in ("stiffness", "damping")
+        )
         self.memory = MemoryModel.from_record(record.get("memory"))
         self.waves = wave_loads or waves_from_record(record.get("waves"))
-
-    def wave_force(self, t: float) -> Array:
-        """Wave load in the yaw-following frame."""
-        return np.zeros(6) if self.waves is None else np.asarray(self.waves(t), dtype=float)
 
     def displacement(self, x: VectorMotion) -> Array:
         """Surge, sway, heave from rest and roll, pitch, yaw of yaw-pitch-roll (6)."""
@@ -160,47 +116,24 @@ class Vessel:
         u = yaw.T @ twist
 
         mu = self.memory.c @ memory + self.memory.d @ u
-        wave = self.wave_force(t)
-        local = wave + self.constant - self.damping @ u - mu
+        wave = np.asarray(self.waves(t), dtype=float)
+        local = wave - self.damping @ u - mu
         local[3] -= self.quadratic_roll * abs(u[3]) * u[3]
-        dissipative = yaw @ local
-        station_rate = np.array([twist[0], twist[1], angle_rates[2]])
-        drag = -self.station_damping * station_rate
-        dissipative[:2] += drag[:2]
-        dissipative[3:] += rates[2] * drag[2]
-
-        station = np.array([eta[0], eta[1], eta[5]])
-        pull = -self.station_stiffness * station
+        load = yaw @ local
+        drag = -self.station_damping * np.array([twist[0], twist[1], angle_rates[2]])
+        pull = drag - self.station_stiffness * np.array([eta[0], eta[1], eta[5]])
         restoring = -self.restoring @ eta
-        conservative = np.concatenate(
-            [[pull[0], pull[1], restoring[2]], rates.T @ np.array([restoring[3], restoring[4], pull[2]])]
-        )
-        energy = 0.5 * float(self.station_stiffness @ station**2) - 0.5 * float(restoring @ eta)
+        load[:3] += [pull[0], pull[1], restoring[2]]
+        load[3:] += rates.T @ np.array([restoring[3], restoring[4], pull[2]])
 
         # du/dt = P^T (dV/dt - psidot ez x V); dV/dt holds w x (w x lever) besides the accelerations
-        convective = np.concatenate(
-            [
-                x.bias[self.point] - angle_rates[2] * cross(UP, twist[:3]),
-                -angle_rates[2] * cross(UP, w),
-            ]
-        )
+        turning = np.concatenate([cross(UP, twist[:3]), cross(UP, w)])
+        convective = -angle_rates[2] * turning
+        convective[:3] += x.bias[self.point]
         added = yaw @ self.added_mass @ yaw.T
-        load = dissipative + conservative - added @ convective
         transfer = np.eye(6)
         transfer[:3, 3:] = -skew(lever)
         return VesselLoads(
-            transfer.T @ load,
-            transfer.T @ added @ transfer,
-            self.memory.a @ memory + self.memory.b @ u,
-            float(dissipative @ twist),
-            energy,
-            wave,
-            mu,
-        )
-
-
-def _six_by_six(values: Any, name: str) -> Array:
-    matrix = np.zeros((6, 6)) if values is None else np.asarray(values, dtype=float)
-    if matrix.shape != (6, 6) or not np.all(np.isfinite(matrix)):
-        raise ValueError(f"vessel {name}: needs a finite 6 x 6 matrix, has shape {matrix.shape}")
-    return matrix
+            transfer.T @ (load - added @ convective), transfer.T @ added @ transfer,
+            self.memory.a @ memory + self.memory.b @ u, wave, mu
+        )  # fmt: skip

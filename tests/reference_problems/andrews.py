@@ -18,56 +18,28 @@ from seacrane import Scene
 from .planar import add_body, add_pin, angles
 
 Array = NDArray[np.float64]
-NAMES = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
-START = np.array(
-    [
-        -0.0617138900142764496358948458001,
-        0.0,
-        0.455279819163070380255912382449,
-        0.222668390165885884674473185609,
-        0.487364979543842550225598953530,
-        -0.222668390165885884674473185609,
-        1.23054744454982119249735015568,
-    ]
-)
+START = np.array([
+    -0.0617138900142764496358948458001, 0.0, 0.455279819163070380255912382449,
+    0.222668390165885884674473185609, 0.487364979543842550225598953530, -0.222668390165885884674473185609,
+    1.23054744454982119249735015568,
+])  # fmt: skip
 END_TIME = 0.03
-END = np.array(
-    [
-        0.1581077119629904e2,
-        -0.1575637105984298e2,
-        0.4082224013073101e-1,
-        -0.5347301163226948,
-        0.5244099658805304,
-        0.5347301163226948,
-        0.1048080741042263e1,
-    ]
-)
-END_RATES = np.array(
-    [
-        0.1139920302151208e4,
-        -0.1424379294994111e4,
-        0.1103291221937134e2,
-        0.1929337464421385e2,
-        0.5735699284790808,
-        -0.1929337464421385e2,
-        0.3231791658026955,
-    ]
-)
+END = np.array([
+    0.1581077119629904e2, -0.1575637105984298e2, 0.4082224013073101e-1, -0.5347301163226948,
+    0.5244099658805304, 0.5347301163226948, 0.1048080741042263e1,
+])  # fmt: skip
+END_RATES = np.array([
+    0.1139920302151208e4, -0.1424379294994111e4, 0.1103291221937134e2, 0.1929337464421385e2,
+    0.5735699284790808, -0.1929337464421385e2, 0.3231791658026955,
+])  # fmt: skip
 # Second derivatives at the start, and at the end.
 START_ACCELERATION = np.array(
     [14222.4439199541138705911625887, -10666.8329399655854029433719415, 0, 0, 0, 0, 0]
 )
-END_ACCELERATION = np.array(
-    [
-        -0.2463176316945196e5,
-        0.5185037701610329e5,
-        0.3241025686413781e6,
-        0.5667493645176213e6,
-        0.1674362929479361e5,
-        -0.5667493645176222e6,
-        0.9826520791458422e4,
-    ]
-)
+END_ACCELERATION = np.array([
+    -0.2463176316946196e5, 0.5185037701610329e5, 0.3241025686413781e6, 0.5667493645176213e6,
+    0.1674362929479361e5, -0.5667493645176222e6, 0.9826520791458422e4,
+])  # fmt: skip
 A, B, C = np.array([-0.06934, -0.00227]), np.array([-0.03635, 0.03273]), np.array([0.014, 0.072])
 MASS = (0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498)
 INERTIA = (2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5)
@@ -100,17 +72,12 @@ def scene(*, planar: bool = False) -> Scene:
         )  # fmt: skip
     closing, sliding = ("revolute", "revolute") if planar else ("spherical", "cylindrical")
     pins: list[tuple[str, str, str, Any, str]] = [
-        ("O", "ground", "K1", np.zeros(2), "revolute"),
-        ("F", "K1", "K2", pin, "revolute"),
-        ("E3", "K2", "K3", middle, closing),
-        ("E4", "K2", "K4", middle, closing),
-        ("E6", "K2", "K6", middle, closing),
-        ("H", "K5", "K4", elbow, "revolute"),
-        ("G", "K7", "K6", knee, "revolute"),
-        ("B", "ground", "K3", B, sliding),
-        ("A5", "ground", "K5", A, sliding),
-        ("A7", "ground", "K7", A, sliding),
-    ]
+        ("O", "ground", "K1", np.zeros(2), "revolute"), ("F", "K1", "K2", pin, "revolute"),
+        ("E3", "K2", "K3", middle, closing), ("E4", "K2", "K4", middle, closing),
+        ("E6", "K2", "K6", middle, closing), ("H", "K5", "K4", elbow, "revolute"),
+        ("G", "K7", "K6", knee, "revolute"), ("B", "ground", "K3", B, sliding),
+        ("A5", "ground", "K5", A, sliding), ("A7", "ground", "K7", A, sliding)
+    ]  # fmt: skip
     for name, first, second, point, kind in pins:
         add_pin(out, "xy", name, first, second, point, kind=kind)
     out.add_spring(

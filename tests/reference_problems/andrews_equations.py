@@ -66,10 +66,9 @@ def force(q: Array, v: Array) -> Array:
 QUARTER = 0.5 * np.pi
 _CRANK = [(a.RR, (0,), 0.0), (-a.D, (0, 1), 0.0)]
 _LOOPS = (
-    [*_CRANK, (-a.SS, (2,), -QUARTER)],
-    [*_CRANK, (-a.ZT, (4,), 0.0), (-a.E, (3, 4), -QUARTER)],
-    [*_CRANK, (-a.U, (6,), -QUARTER), (-a.ZF, (5, 6), 0.0)],
-)
+    [*_CRANK, (-a.SS, (2,), -QUARTER)], [*_CRANK, (-a.ZT, (4,), 0.0), (-a.E, (3, 4), -QUARTER)],
+    [*_CRANK, (-a.U, (6,), -QUARTER), (-a.ZF, (5, 6), 0.0)]
+)  # fmt: skip
 
 
 def rows(q: Array, v: Array) -> tuple[Array, Array]:
@@ -95,7 +94,6 @@ def solution(times: ArrayLike) -> tuple[Array, Array]:
     """Angles and rates (k, 7), DOP853 at 1e-12."""
     y = integrate(
         lambda _, s: np.concatenate([s[7:], acceleration(s[:7], s[7:])]),
-        np.concatenate([a.START, np.zeros(7)]),
-        times,
-    )
+        np.concatenate([a.START, np.zeros(7)]), times
+    )  # fmt: skip
     return y[:, :7], y[:, 7:]

@@ -46,13 +46,9 @@ def scene(*, last: str = "revolute", section: float = 0.1) -> Scene:
     for i in range(6):
         kind = last if i == 0 else "revolute"
         out.add_joint(
-            kind=kind,
-            name=f"hinge {i}",
-            first=bodies[i - 1],
-            second=bodies[i],
-            point=VERTICES[i],
-            axis=AXES[i],
-        )
+            kind=kind, name=f"hinge {i}", first=bodies[i - 1], second=bodies[i], point=VERTICES[i],
+            axis=AXES[i]
+        )  # fmt: skip
     return out
 
 

@@ -59,9 +59,3 @@ def turned(loops: int, times: ArrayLike) -> tuple[Array, Array]:
     m = 4.0 * weight / (inertia * fastest**2)
     _, _, dn, amplitude = ellipj(0.5 * fastest * np.asarray(times, dtype=float) - ellipk(m), m)
     return 2.0 * amplitude + np.pi, fastest * dn
-
-
-def top(loops: int, times: ArrayLike) -> Array:
-    """Place (x, z) of the first post's top, B0, (k, 2)."""
-    angle, _ = turned(loops, times)
-    return np.column_stack([np.sin(angle), np.cos(angle)])

@@ -40,12 +40,9 @@ def scene() -> Scene:
     spin = (0.0, 0.0, SPIN)
     slim = ROD * (LENGTH**2 + WIDTH**2) / 12.0
     out.add_body(
-        name="shaft",
-        mass=ROD,
-        inertia=(slim, slim, AXIAL),
-        position=(0, 0, 0.5 * LENGTH),
-        angular_velocity=spin,
-    )
+        name="shaft", mass=ROD, inertia=(slim, slim, AXIAL), position=(0, 0, 0.5 * LENGTH),
+        angular_velocity=spin
+    )  # fmt: skip
     out.add_body(
         name="slider", mass=SLIDING, inertia=[SLIDING * BLOCK**2 / 6.0] * 3, position=(0, 0, SLIDER),
         angular_velocity=spin,
@@ -94,11 +91,8 @@ def rate(_: float, y: Array, momentum: float) -> list[float]:
     tension = STIFFNESS * (length - NATURAL_LENGTH) + DAMPING * (by_beta * beta_rate + by_height * speed)
     push = 0.5 * slope * spin**2 + RAISED * GRAVITY * CENTER * c - tension * by_beta
     return [
-        beta_rate,
-        speed,
-        push / (RAISED * CENTER**2 + ACROSS),
-        -GRAVITY - 2.0 * tension * by_height / SLIDING,
-    ]
+        beta_rate, speed, push / (RAISED * CENTER**2 + ACROSS), -GRAVITY - 2.0 * tension * by_height / SLIDING
+    ]  # fmt: skip
 
 
 def solution(times: ArrayLike) -> Array:

@@ -13,9 +13,8 @@ from seacrane import Scene
 Array = NDArray[np.float64]
 # Plane -> its two axes in space, and the axis about which positive angles turn the first into the second.
 PLANES = {
-    "xy": (np.array([1.0, 0, 0]), np.array([0, 1.0, 0])),
-    "xz": (np.array([1.0, 0, 0]), np.array([0, 0, 1.0])),
-}
+    "xy": (np.array([1.0, 0, 0]), np.array([0, 1.0, 0])), "xz": (np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
+}  # fmt: skip
 
 
 def place(plane: str, point: Any) -> Array:
@@ -45,15 +44,10 @@ def add_body(
     plane's."""
     turn = normal(plane)
     scene.add_body(
-        name=name,
-        mass=mass,
-        inertia=np.full(3, inertia),
-        center_of_mass=place(plane, center),
-        position=place(plane, origin),
-        quaternion=np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * turn),
-        velocity=place(plane, velocity),
-        angular_velocity=rate * turn,
-    )
+        name=name, mass=mass, inertia=np.full(3, inertia), center_of_mass=place(plane, center),
+        position=place(plane, origin), quaternion=np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * turn),
+        velocity=place(plane, velocity), angular_velocity=rate * turn
+    )  # fmt: skip
 
 
 def add_pin(

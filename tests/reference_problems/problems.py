@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from multibody_runs import slider_crank
+from multibody_runs import CRANK, slider_crank
 from numpy.typing import NDArray
-from reference.classic import Link
-from reference.mechanisms import SliderCrank
 from test_vessel import moored, regular_wave, steady_state
 
 from seacrane import Result, Scene, simulate
@@ -19,11 +18,29 @@ from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
 
 from . import andrews, andrews_equations, bricard, cummins, four_bars, governor, pendulums, tops
-from .comparison import Comparison
 from .planar import angles
 
 Array = NDArray[np.float64]
-CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
+HEAD = ("problem", "compared", "source", "setting", "here", "reference", "largest difference")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """`difference` is the largest over what was compared, `found` and `expected` are one value of it."""
+
+    problem: str
+    quantity: str
+    source: str
+    setting: str
+    found: float
+    expected: float
+    difference: float
+    unit: str
+
+    def row(self) -> tuple[str, ...]:
+        """As the table shows it, in the order of HEAD."""
+        values = (f"{self.found:.12g}", f"{self.expected:.12g}", f"{self.difference:.1e} {self.unit}".strip())
+        return (self.problem, self.quantity, self.source, self.setting, *values)
 
 
 def run(scene: Scene, t_end: float, dt_out: float, settings: dict[str, Any], *channels: str) -> Result:
@@ -34,40 +51,21 @@ def run(scene: Scene, t_end: float, dt_out: float, settings: dict[str, Any], *ch
 
 
 def compared(
-    problem: str,
-    quantity: str,
-    source: str,
-    settings: dict[str, Any],
-    found: Array,
-    expected: Array,
-    unit: str,
+    problem: str, quantity: str, source: str, settings: dict[str, Any], found: Any, expected: Any, unit: str
 ) -> Comparison:
-    """The largest difference over all times; as numbers, the last values of the component that differs
-    most."""
+    """The largest difference over all times; as numbers, the last values of the worst component."""
     found, expected = (np.asarray(a, dtype=float).reshape(len(a), -1) for a in (found, expected))
-    worst = int(np.argmax(np.abs(found - expected).max(axis=0)))
-    text = ", ".join(
-        f"{key} {value:g}" if isinstance(value, float) else value for key, value in settings.items()
-    )
-    return Comparison(
-        problem=problem,
-        quantity=quantity,
-        source=source,
-        setting=text or "default",
-        found=float(found[-1, worst]),
-        expected=float(expected[-1, worst]),
-        difference=float(np.abs(found - expected).max()),
-        unit=unit,
-    )
+    apart = np.abs(found - expected)
+    worst = int(np.argmax(apart.max(axis=0)))
+    text = ", ".join(f"{key} {one:g}" if isinstance(one, float) else one for key, one in settings.items())
+    values = float(found[-1, worst]), float(expected[-1, worst])
+    return Comparison(problem, quantity, source, text or "default", *values, float(apart.max()), unit)
 
 
 def simple_pendulum(**settings: Any) -> Comparison:
     result = run(pendulums.scene(), 10.0, 0.05, settings, "position")
-    expected, _ = pendulums.place(result.time)
-    source = "elliptic functions"
-    return compared(
-        "simple pendulum", "place, 10 s", source, settings, result["position"][:, 0, ::2], expected, "m"
-    )
+    found, (expected, _) = result["position"][:, 0, ::2], pendulums.place(result.time)
+    return compared("simple pendulum", "place, 10 s", "elliptic functions", settings, found, expected, "m")
 
 
 def four_bar_row(loops: int = 2, *, planar: bool = True, t_end: float = 10.0, **settings: Any) -> Comparison:
@@ -75,57 +73,46 @@ def four_bar_row(loops: int = 2, *, planar: bool = True, t_end: float = 10.0, **
     found = 0.5 * np.pi - angles("xz", result["quaternion"])[:, 0]
     expected, _ = four_bars.turned(loops, result.time)
     name = f"{loops} four-bars" + ("" if planar else ", spatial joints")
-    source = "elliptic functions"
-    return compared(name, f"angle of a post, {t_end:g} s", source, settings, found, expected, "rad")
+    what = f"angle of a post, {t_end:g} s"
+    return compared(name, what, "elliptic functions", settings, found, expected, "rad")
 
 
 @cache
-def squeezer_solution() -> Array:
-    return andrews_equations.solution([0.0, andrews.END_TIME])[0]
+def solution_of(name: str) -> Array:
+    """Computed once for all settings: at the outputs of the runs."""
+    if name == "squeezer":
+        return andrews_equations.solution([0.0, andrews.END_TIME])[0]
+    if name == "governor":
+        return governor.solution(np.linspace(0.0, 5.0, 51))[:, 1]
+    mechanism, t_end, count, start = {
+        "bricard": (bricard.mechanism(), 2.5, 21, (bricard.CUBE, 0.0)),
+        "crank": (CRANK.mechanism(), 3.0, 61, (0.4, 6.0)),
+    }[name]
+    coordinate, _ = mechanism.simulate(np.linspace(0.0, t_end, count), *start)
+    return mechanism.poses(coordinate)[0]
 
 
 def squeezer(*, planar: bool = False, published: bool = False, **settings: Any) -> Comparison:
     result = run(andrews.scene(planar=planar), andrews.END_TIME, 1e-4, settings, "quaternion")
     found = andrews.problem_angles(result["quaternion"])[[0, -1]]
-    expected = np.array([andrews.START, andrews.END]) if published else squeezer_solution()
+    expected = np.array([andrews.START, andrews.END]) if published else solution_of("squeezer")
     source = "IVP test set" if published else "its equations, SciPy"
     name = "Andrews' squeezer" + (", planar joints" if planar else "")
     return compared(name, "seven angles, 0.03 s", source, settings, found, expected, "rad")
 
 
-@cache
-def bricard_places() -> Array:
-    """Of the rods' middles every 0.125 s."""
-    mechanism = bricard.mechanism()
-    coordinate, _ = mechanism.simulate(np.linspace(0.0, 2.5, 21), bricard.CUBE, 0.0)
-    return mechanism.poses(coordinate)[0]
-
-
 def bricard_loop(**settings: Any) -> Comparison:
-    result = run(bricard.scene(), 2.5, 0.125, settings, "position")
-    source = "closed form and SciPy"
-    return compared(
-        "Bricard's loop",
-        "places of five rods, 2.5 s",
-        source,
-        settings,
-        result["position"],
-        bricard_places(),
-        "m",
-    )
-
-
-@cache
-def governor_solution() -> Array:
-    return governor.solution(np.linspace(0.0, 5.0, 51))
+    found = run(bricard.scene(), 2.5, 0.125, settings, "position")["position"]
+    what, source = "places of five rods, 2.5 s", "closed form and SciPy"
+    return compared("Bricard's loop", what, source, settings, found, solution_of("bricard"), "m")
 
 
 def flyball_governor(**settings: Any) -> Comparison:
     result = run(governor.scene(), 5.0, 0.1, settings, "position")
-    expected = governor_solution()[:, 1]
-    source = "Lagrange's equations, SciPy"
-    found = result.select("position", body="slider")[:, 2]
-    return compared("flyball governor", "slider's height, 5 s", source, settings, found, expected, "m")
+    found, source = result.select("position", body="slider")[:, 2], "Lagrange's equations, SciPy"
+    return compared(
+        "flyball governor", "slider's height, 5 s", source, settings, found, solution_of("governor"), "m"
+    )
 
 
 def heavy_top(*, published: bool = False, **settings: Any) -> Comparison:
@@ -146,25 +133,10 @@ def wing_nut(**settings: Any) -> Comparison:
     return compared("Dzhanibekov's nut", "body rates, 100 s", source, settings, found, expected, "rad/s")
 
 
-@cache
-def crank_places() -> Array:
-    mechanism = CRANK.mechanism()
-    coordinate, _ = mechanism.simulate(np.linspace(0.0, 3.0, 61), 0.4, 6.0)
-    return mechanism.poses(coordinate)[0]
-
-
 def spatial_slider_crank(**settings: Any) -> Comparison:
-    result = run(slider_crank(CRANK, 0.4, 6.0), 3.0, 0.05, settings, "position")
-    source = "one coordinate, SciPy"
-    return compared(
-        "slider-crank",
-        "places of three bodies, 3 s",
-        source,
-        settings,
-        result["position"],
-        crank_places(),
-        "m",
-    )
+    found = run(slider_crank(CRANK, 0.4, 6.0), 3.0, 0.05, settings, "position")["position"]
+    what, source = "places of three bodies, 3 s", "one coordinate, SciPy"
+    return compared("slider-crank", what, source, settings, found, solution_of("crank"), "m")
 
 
 def ship_in_a_wave(memory: str = "states", **settings: Any) -> Comparison:
@@ -178,22 +150,15 @@ def ship_in_a_wave(memory: str = "states", **settings: Any) -> Comparison:
 
 
 def decays(label: str, **settings: Any) -> list[Comparison]:
-    found, expected = cummins.decay(label, **settings)
-    source = "roots of its equation"
-    pairs = (
-        ("period", 2.0 * np.pi / found.imag, 2.0 * np.pi / expected.imag, "s"),
-        (
-            "decrement",
-            -2.0 * np.pi * found.real / found.imag,
-            -2.0 * np.pi * expected.real / expected.imag,
-            "",
-        ),
-    )
-    name = f"free decay in {label.split()[1]}"
+    given = {"rtol": 1e-11, **settings}
+    name, source = f"free decay in {label.split()[1]}", "roots of its equation"
+    found, expected = (np.array([a]) for a in cummins.decay(label, **settings))
+    turn = 2.0 * np.pi
     return [
-        compared(name, what, source, {"rtol": 1e-11, **settings}, np.array([a]), np.array([b]), unit)
-        for what, a, b, unit in pairs
-    ]
+        compared(name, "period", source, given, turn / found.imag, turn / expected.imag, "s"),
+        compared(name, "decrement", source, given, -turn * found.real / found.imag,
+                 -turn * expected.real / expected.imag, ""),
+    ]  # fmt: skip
 
 
 def regular_wave_response() -> list[Comparison]:
@@ -201,25 +166,15 @@ def regular_wave_response() -> list[Comparison]:
     database, size = shipped_database(), 1e-4
     sea = regular_wave(database, omega=0.8, heading_deg=135.0, amplitude=size, phase=0.4)
     found, expected = (np.abs(a) / size for a in steady_state(database, moored(database), sea, t_end=500.0))
-    out = []
-    for i, motion, unit in ((2, "heave", ""), (3, "roll", "rad/m"), (4, "pitch", "rad/m")):
-        name, source = f"regular wave, {motion}", "complex linear equations"
-        settings = {"rtol": 1e-10}
-        out.append(
-            compared(
-                name, "amplitude at 0.8 rad/s", source, settings, found[i : i + 1], expected[i : i + 1], unit
-            )
-        )
-    return out
+    return [
+        compared(f"regular wave, {motion}", "amplitude at 0.8 rad/s", "complex linear equations",
+                 {"rtol": 1e-10}, found[i : i + 1], expected[i : i + 1], unit)
+        for i, motion, unit in ((2, "heave", ""), (3, "roll", "rad/m"), (4, "pitch", "rad/m"))
+    ]  # fmt: skip
 
 
 MECHANISMS: dict[str, Callable[..., Comparison]] = {
-    "pendulum": simple_pendulum,
-    "four-bars": four_bar_row,
-    "squeezer": squeezer,
-    "bricard": bricard_loop,
-    "governor": flyball_governor,
-    "top": heavy_top,
-    "nut": wing_nut,
-    "crank": spatial_slider_crank,
-}
+    "pendulum": simple_pendulum, "four-bars": four_bar_row,
+    "four-bars spatial": partial(four_bar_row, planar=False), "squeezer": squeezer, "bricard": bricard_loop,
+    "governor": flyball_governor, "top": heavy_top, "nut": wing_nut, "crank": spatial_slider_crank,
+}  # fmt: skip

@@ -30,12 +30,9 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
     """A ball below its hook, thrown sideways so fast that the wire goes slack before the top."""
     scene = Scene(name="pendulum")
     scene.add_body(
-        name="ball",
-        mass=MASS,
-        inertia=INERTIA,
-        position=(0.0, 0.0, -LENGTH),
-        velocity=(FIRST_SPEED, 0.0, 0.0),
-    )
+        name="ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, -LENGTH),
+        velocity=(FIRST_SPEED, 0.0, 0.0)
+    )  # fmt: skip
     scene.add_joint(
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -LENGTH),
@@ -54,8 +51,8 @@ def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]
     def reach(_: float, y: Array) -> Any:
         return y[0] ** 2 + y[1] ** 2 - LENGTH**2
 
-    tension.terminal, tension.direction = True, -1.0  # type: ignore[attr-defined]
-    reach.terminal, reach.direction = True, 1.0  # type: ignore[attr-defined]
+    tension.terminal, tension.direction = True, -1.0
+    reach.terminal, reach.direction = True, 1.0
     settings: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-12, "dense_output": True, "method": "DOP853"}
     out, events = np.full((times.size, 2), np.nan), []
     t, end, taut = 0.0, float(times[-1]), True
@@ -102,10 +99,8 @@ def pushed(restitution: float = 0.0) -> Scene:
     scene.add_body(name="slide", mass=MASS, inertia=INERTIA)
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
     scene.add_actuator(
-        joint="rail",
-        name="ram",
-        feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0),
-    )
+        joint="rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0)
+    )  # fmt: skip
     scene.record_coordinate(joint="rail")
     scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene
@@ -121,9 +116,8 @@ def lift(rate: float = 0.2, stiffness: float = 2.0e3) -> Scene:
     scene.add_joint(kind="weld", name="deck", first="ground", second="load")
     scene.add_joint(kind="prismatic", name="hoist", first="ground", second="hook")
     scene.add_driver(
-        joint="hoist",
-        curve=Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0.0, 0.0, 0.0, 0.0]]),
-    )
+        joint="hoist", curve=Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0.0, 0.0, 0.0, 0.0]])
+    )  # fmt: skip
     scene.add_spring(
         name="wire", first="hook", second="load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
         stiffness=stiffness, natural_length=5.0,

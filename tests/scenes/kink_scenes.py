@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -19,6 +20,16 @@ def cart(speed: float = 0.0) -> Scene:
     return scene
 
 
+def sprung(frequency: float, damping_ratio: float = 0.0, *, speed: float = 0.0, rest: float = 0.0) -> Scene:
+    """The cart on a spring and a damper to `rest`; rad/s."""
+    scene = cart(speed)
+    scene.add_actuator(
+        name="hold", joint="rail", stiffness=CART * frequency**2, reference=rest,
+        damping=2.0 * damping_ratio * CART * frequency,
+    )  # fmt: skip
+    return scene
+
+
 def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     """A rotor with a payload on a wire of 18 m."""
     scene = Scene(name="slewing", gravity=9.81)
@@ -32,75 +43,45 @@ def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
         kind="distance", name="wire", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
         second_point=(25.0, 0.0, 12.0),
     )  # fmt: skip
-    scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)  # type: ignore[arg-type]
+    scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)
     return scene
 
 
-def pendulum_on(scene: Scene) -> Scene:
-    """A rod below a cart."""
+def driven_by(element: str, curve: Curve) -> Scene:
+    """A cart with a rod below it, moved by what follows a curve; loads act against a soft spring."""
+    scene = cart()
     scene.gravity = 9.81
     scene.add_body(name="rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
     scene.add_joint(
         kind="revolute", name="pin", first="cart", second="rod", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
     )
-    return scene
-
-
-def held(scene: Scene) -> Scene:
-    """A cart held by a soft spring."""
-    scene.add_spring(
-        name="hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0, damping=1.0,
-        natural_length=20.0,
-    )  # fmt: skip
-    return scene
-
-
-def by_feed_forward(curve: Curve) -> Scene:
-    scene = held(pendulum_on(cart()))
-    scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
-    return scene
-
-
-def by_reference(curve: Curve) -> Scene:
-    scene = pendulum_on(cart())
-    scene.add_actuator(name="drive", joint="rail", stiffness=40.0, damping=12.0, reference=curve)
-    return scene
-
-
-def by_driver(curve: Curve) -> Scene:
-    scene = pendulum_on(cart())
-    scene.add_driver(joint="rail", curve=curve)
-    return scene
-
-
-def by_force_table(curve: Curve) -> Scene:
-    """Its table takes the curve at every half second."""
-    scene = held(pendulum_on(cart()))
-    times = np.linspace(0.0, 20.0, 41)
-    loads = np.zeros((41, 6))
-    loads[:, 0] = curve.evaluate(times)[:, 0]
-    scene.add_force_table(name="push", body="cart", times=times, loads=loads)
-    return scene
-
-
-def by_wind(curve: Curve) -> Scene:
-    scene = held(pendulum_on(cart()))
-    angle = np.linspace(0.0, np.pi, 13)
-    zero = np.zeros_like(angle)
-    coefficients = FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero)
-    scene.add_wind(
-        coefficients=coefficients, speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5,
-        lateral_area=0.5, length=1.0,
-    )  # fmt: skip
+    if element in ("feed-forward", "force table", "wind"):
+        scene.add_spring(
+            name="hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0,
+            damping=1.0, natural_length=20.0,
+        )  # fmt: skip
+    if element == "feed-forward":
+        scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
+    elif element == "reference":
+        scene.add_actuator(name="drive", joint="rail", stiffness=40.0, damping=12.0, reference=curve)
+    elif element == "driver":
+        scene.add_driver(joint="rail", curve=curve)
+    elif element == "force table":  # takes the curve at every half second
+        times, loads = np.linspace(0.0, 20.0, 41), np.zeros((41, 6))
+        loads[:, 0] = curve.evaluate(times)[:, 0]
+        scene.add_force_table(name="push", body="cart", times=times, loads=loads)
+    else:
+        angle = np.linspace(0.0, np.pi, 13)
+        zero = np.zeros_like(angle)
+        scene.add_wind(
+            coefficients=FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero), speed=curve,
+            direction_deg=0.0, body="cart", frontal_area=0.5, lateral_area=0.5, length=1.0,
+        )  # fmt: skip
     return scene
 
 
 ELEMENTS: dict[str, Callable[[Curve], Scene]] = {
-    "feed-forward": by_feed_forward,
-    "reference": by_reference,
-    "driver": by_driver,
-    "force table": by_force_table,
-    "wind": by_wind,
+    name: partial(driven_by, name) for name in ("feed-forward", "reference", "driver", "force table", "wind")
 }
 
 

@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from reference.classic import Link
 from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
+from reference.rotation import quaternions_from_matrices
 
 from seacrane import Curve, Run, Scene
 from seacrane.crane import Payload
@@ -15,6 +17,7 @@ from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 # Stiffness and damping that give the stiffest coordinate of the crane a frequency of about 5 rad/s.
 GAINS = {"slew": (2.0e9, 6.0e8), "main": (6.0e7, 2.0e7), "knuckle": (2.5e7, 8.0e6)}
 
@@ -25,24 +28,12 @@ def record(
     """All channels of a run, opt-in ones too, and `stats`."""
     model = scene.compile()
     run = Run(
-        scene,
-        t_end=t_end,
-        dt_out=dt_out,
-        rtol=rtol,
-        model=model,
-        channels=model.channel_names(defaults_only=False),
-        **settings,
-    )
+        scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
+        channels=model.channel_names(defaults_only=False), **settings
+    )  # fmt: skip
     run.advance(t_end)
     out: dict[str, Any] = dict(run.core.channels())
     return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
-
-
-def quaternion_of(matrix: Array) -> Array:
-    """Scalar-first quaternion of a rotation matrix, away from half turns."""
-    w = 0.5 * np.sqrt(max(0.0, 1.0 + np.trace(matrix)))
-    vector = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
-    return np.append(w, vector / (4.0 * w))
 
 
 def quaternion_about(axis: Any, angle: float) -> Array:
@@ -63,16 +54,10 @@ def add_moving_bodies(
     for name, moving in zip(names, mechanism.kinematics(Jet(q, 1.0)), strict=True):
         _, _, position, slope, spin = moving.terms()
         rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
-        # Any rotation to and from the quaternion: half turns are avoided by the poses chosen.
         scene.add_body(
-            name=name,
-            mass=moving.mass,
-            inertia=moving.inertia,
-            position=position,
-            quaternion=quaternion_of(rotation),
-            velocity=rate * slope,
-            angular_velocity=rate * spin,
-        )
+            name=name, mass=moving.mass, inertia=moving.inertia, position=position, velocity=rate * slope,
+            quaternion=quaternions_from_matrices(rotation), angular_velocity=rate * spin,
+        )  # fmt: skip
         rotations.append(rotation)
     return rotations
 
@@ -88,14 +73,9 @@ def slider_crank(crank: SliderCrank, q: float, rate: float, *, gravity: float = 
     )
     scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=middle - half)
     scene.add_joint(
-        kind="universal",
-        name="cross",
-        first="slider",
-        second="rod",
-        point=middle + half,
-        axis=(0, 1, 0),
-        second_axis=rod[:, 1],
-    )
+        kind="universal", name="cross", first="slider", second="rod", point=middle + half, axis=(0, 1, 0),
+        second_axis=rod[:, 1]
+    )  # fmt: skip
     scene.add_joint(
         kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0)
     )
@@ -118,12 +98,9 @@ def add_crane(
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
         scene.add_actuator(
-            name=name,
-            joint=joint,
-            stiffness=stiffness,
-            damping=damping,
-            reference=(references or {}).get(name, 0.0),
-        )
+            name=name, joint=joint, stiffness=stiffness, damping=damping,
+            reference=(references or {}).get(name, 0.0)
+        )  # fmt: skip
 
 
 def swing_out(duration: float = 10.0) -> dict[str, Curve]:

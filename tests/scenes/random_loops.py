@@ -16,15 +16,12 @@ def shape_of(seed: int, *, most: int = 6, loops: int = 0, struts: int = 0) -> Sh
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, most + 1))
     return Shape(
-        seed=int(rng.integers(2**32)),
-        parents=tuple(int(rng.integers(-1, i)) for i in range(count)),
+        seed=int(rng.integers(2**32)), parents=tuple(int(rng.integers(-1, i)) for i in range(count)),
         kinds=tuple(str(rng.choice(KINDS)) for _ in range(count)),
         swapped=tuple(bool(b) for b in rng.integers(0, 2, count)),
         closing=tuple(str(rng.choice(CLOSING)) for _ in range(rng.integers(1, loops + 1) if loops else 0)),
-        base=str(rng.choice(["ground", "floating", "vessel"])),
-        driven=bool(rng.integers(2)),
-        struts=struts,
-    )
+        base=str(rng.choice(["ground", "floating", "vessel"])), driven=bool(rng.integers(2)), struts=struts
+    )  # fmt: skip
 
 
 def four_bar(rng: np.random.Generator, turned: float) -> Array | None:

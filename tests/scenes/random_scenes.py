@@ -7,7 +7,6 @@ from typing import Any
 
 import joint_examples
 import numpy as np
-from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from seacrane import Curve, Model, Scene
@@ -33,24 +32,6 @@ class Shape:
     base: str = "ground"  # or floating, vessel
     driven: bool = False
     struts: int = 0  # of the hinges that get one
-
-
-@st.composite
-def shapes(draw: st.DrawFn, *, loops: int = 0, most: int = 6, **fixed: Any) -> Shape:
-    """Trees of up to `most` bodies with up to `loops` joints more than a tree has."""
-    count = draw(st.integers(1, most))
-    return Shape(
-        **{
-            "seed": draw(st.integers(0, 2**32 - 1)),
-            "parents": tuple(draw(st.integers(-1, i - 1)) for i in range(count)),
-            "kinds": tuple(draw(st.sampled_from(KINDS)) for _ in range(count)),
-            "swapped": tuple(draw(st.booleans()) for _ in range(count)),
-            "closing": tuple(draw(st.lists(st.sampled_from(CLOSING), max_size=loops))),
-            "base": draw(st.sampled_from(["ground", "floating", "vessel"])),
-            "driven": draw(st.booleans()),
-            **fixed,
-        }
-    )
 
 
 def unit(rng: np.random.Generator) -> Array:

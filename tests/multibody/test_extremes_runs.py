@@ -1,17 +1,19 @@
-"""What the atlas found at stiff stops: methods whose error estimate is blind there do not leap through."""
+"""What the atlas found: at stiff stops, far from the origin of time, at large heel, over a day."""
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import Method, simulate
+from seacrane import Method, cases, simulate
 from seacrane.result import Result
 from seacrane.trading.case import Case
 from seacrane.trading.reference import Reference
 from stability_atlas.axes import AXES
+from stability_atlas.duration_axes import HOUR
 from stability_atlas.measure import measure, reference_of
 from stability_atlas.points import POINTS
 from stability_atlas.workers import Group
@@ -48,9 +50,8 @@ def test_methods_of_low_order_do_not_take_the_error_of_a_gap_for_an_impact() -> 
     expected = ended(case, "dopri5", rtol=1e-9).events
     assert len(expected) == 7
     settings: tuple[tuple[str, dict[str, float]], ...] = (
-        ("cvode-bdf", {"rtol": 1e-5}),
-        ("semi-implicit-euler", {"dt": 1e-3}),
-    )
+        ("cvode-bdf", {"rtol": 1e-5}), ("semi-implicit-euler", {"dt": 1e-3})
+    )  # fmt: skip
     for integrator, setting in settings:
         found = ended(case, integrator, **setting).events
         assert [e.kind for e in found] == [e.kind for e in expected], integrator
@@ -63,3 +64,39 @@ def test_rebounds_that_a_fixed_step_cannot_resolve_come_to_rest() -> None:
     assert tight.events[-1].kind == found.events[-1].kind == "contact"
     assert found.events[-1].time == pytest.approx(tight.events[-1].time, abs=2e-2)
     assert np.abs(found["position"][-1] - tight["position"][-1]).max() < 5e-3
+
+
+@pytest.mark.slow("hours of motion")
+def test_a_day_of_a_vessel_whose_memory_is_not_passive_does_not_grow() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = simulate(cases.vessel(memory="per-pair"), t_end=24.0 * HOUR, dt_out=2.0,
+                          channels=["vessel_motion"])  # fmt: skip
+    motion = result["vessel_motion"]
+    part = len(motion) // 24
+    size = [np.std(motion[k * part : (k + 1) * part], axis=0) for k in range(1, 24)]
+    swell = np.array(size)[:, 2:5]  # heave, roll, pitch: surge, sway and yaw drift slowly in their mooring
+    assert np.max(swell[-6:].mean(axis=0) / swell[:6].mean(axis=0)) < 1.2
+    assert np.max(swell.max(axis=0) / swell.min(axis=0)) < 2.0
+
+
+def test_a_heeled_vessel_loses_energy_and_never_gains_any() -> None:
+    """Memory and damping are passive: from rest at any heel it comes no further than it started."""
+    for degrees in (20.0, 89.0, 120.0):
+        scene = AXES["heel"].case(degrees).scene
+        result = simulate(scene, t_end=120.0, dt_out=0.5, channels=["quaternion"])
+        w, x = result["quaternion"][:, 0, 0], result["quaternion"][:, 0, 1]
+        heel = np.degrees(2.0 * np.arctan2(x, w))
+        assert np.max(np.abs(heel)) <= degrees * (1.0 + 1e-9)
+        assert np.max(np.abs(heel[-40:])) < 0.9 * degrees
+
+
+@pytest.mark.parametrize("integrator", ["cvode-bdf", "cvode-adams", "ida", "ark-dirk", "dop853"])
+def test_methods_start_30_years_from_zero(integrator: str) -> None:
+    """Solvers of SUNDIALS begin with steps of few roundings of the time there, and may."""
+    case = AXES["time-origin"].case(1e9)
+    run = simulate(case.scene, t_end=case.t_end, dt_out=case.dt_out, start=case.start, integrator=integrator,
+                   channels=["position"])  # fmt: skip
+    assert case.truth is not None
+    points = case.truth[POINTS.name].reshape(run.time.size, -1, 4, 3)  # the first of each body is its centre
+    np.testing.assert_allclose(run["position"], points[:, :, 0], atol=1e-4)

@@ -1,30 +1,65 @@
-"""A method that feeds an oscillation over many steps is told of; one that damps it is not."""
+"""Stability polynomials, the step limits that follow from them, and modes that a method feeds."""
 
 from __future__ import annotations
 
 import re
 import warnings
+from math import factorial, inf, isnan
 from typing import Any
 
 import numpy as np
 import pytest
+from kink_scenes import sprung
 from numpy.polynomial import Polynomial
 
-from seacrane import Curve, Scene, _core, simulate
+from seacrane import Curve, Scene, _core, integrator_names, simulate
+from seacrane.analysis.linear_system import linear_model
 from seacrane.run import modes
 from seacrane.scene import spline_curve
 from seacrane.warnings import GrowingModeWarning
+from stability_atlas.step_limit import found_limit, predicted_limit
+
+
+@pytest.mark.parametrize("name", [name for name in integrator_names() if _core.stability_polynomial(name)])
+def test_a_stability_polynomial_is_the_exponential_up_to_its_order(name: str) -> None:
+    coefficients = _core.stability_polynomial(name)
+    order = _core.integrator(name).order
+    exact = [1.0 / factorial(k) for k in range(order + 2)]
+    np.testing.assert_allclose(coefficients[: order + 1], exact[:-1], rtol=1e-12)
+    if len(coefficients) > order + 1:
+        assert coefficients[order + 1] != pytest.approx(exact[-1], rel=1e-3)
+
+
+def test_known_intervals_of_stability() -> None:
+    """Real axis: 2.785 for order 4 in four stages, 3.307 for dopri5 [Hairer, Wanner II, IV.2]."""
+    for name, limit in (("rk4", 2.7853), ("bs32", 2.5127), ("dopri5", 3.3066)):
+        polynomial = Polynomial(_core.stability_polynomial(name))
+        assert abs(polynomial(-limit * 0.999)) < 1.0 < abs(polynomial(-limit * 1.001))
+    assert _core.stability_polynomial("cvode-bdf") == []
+    assert _core.stability_polynomial("ark-dirk") == []
+
+
+@pytest.mark.parametrize("name", ["semi-implicit-euler", "rk4", "rk-low-storage", "bs32", "tsit5", "dop853"])
+@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
+def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -> None:
+    scene = sprung(20.0, 0.2)
+    linear = linear_model(scene)
+    predicted = predicted_limit(name, linear, np.asarray(np.linalg.eigvals(linear.a), dtype=complex))
+    if name == "semi-implicit-euler":  # h w = 2 sqrt(1 + z^2) - 2 z, by the characteristic polynomial
+        assert predicted == pytest.approx((2.0 * np.sqrt(1.04) - 0.4) / 20.0, rel=0.03)
+    assert found_limit(scene, linear, formulation, name, predicted) == pytest.approx(predicted, rel=0.01)
+
+
+def test_methods_that_have_no_limit_or_no_prediction() -> None:
+    scene = sprung(20.0, 0.2)
+    linear = linear_model(scene)
+    eigenvalues = np.asarray(np.linalg.eigvals(linear.a), dtype=complex)
+    assert isnan(predicted_limit("generalized-alpha", linear, eigenvalues))
+    assert found_limit(scene, linear, "redundant", "generalized-alpha", float("nan")) == inf
+
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m
-
-
-def swinging(damping_ratio: float = 0.0) -> Scene:
-    scene = Scene(name="swing")
-    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(AMPLITUDE * MODE, 0, 0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    scene.add_actuator(name="hold", joint="rail", stiffness=MODE**2, damping=2.0 * damping_ratio * MODE)
-    return scene
 
 
 def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
@@ -39,8 +74,8 @@ def log_growth(integrator: str, step: float) -> float:
 
 @pytest.mark.parametrize("integrator", ["tsit5", "dopri5"])
 def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(integrator: str) -> None:
-    with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'box' grow") as caught:
-        result = run(swinging(), integrator)
+    with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'cart' grow") as caught:
+        result = run(sprung(MODE, speed=AMPLITUDE * MODE), integrator)
     told = re.search(r"factor of (\S+) an hour: a mode of (\S+) rad/s", str(caught[0].message))
     assert told is not None
     assert float(told[2]) == pytest.approx(MODE, rel=1e-3)
@@ -62,20 +97,18 @@ def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(i
     ],
 )
 def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
-    given = {"maximum_step": STEP, "rtol": 1e-2} | settings
+    given = {"t_end": 6000.0, "dt_out": 1.0, "maximum_step": STEP, "rtol": 1e-2} | settings
     kept = {name: value for name, value in given.items() if value is not None}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        result = simulate(
-            swinging(damping_ratio), integrator=integrator, dt_out=1.0, **{"t_end": 6000.0} | kept
-        )
+        result = simulate(sprung(MODE, damping_ratio, speed=AMPLITUDE * MODE), integrator=integrator, **kept)
     start, end = np.abs(result["position"][:20, 0, 0]).max(), np.abs(result["position"][-20:, 0, 0]).max()
     assert end < 2.0 * start
 
 
 def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(modes, "jacobian", None)
-    run(swinging(), t_end=900.0)
+    run(sprung(MODE, speed=AMPLITUDE * MODE), t_end=900.0)
 
 
 def hoisted(damping_ratio: float) -> Scene:

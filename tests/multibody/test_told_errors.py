@@ -1,0 +1,181 @@
+"""Errors that are told: of a fixed step, and of a fitted fluid memory, against runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from trade_scenes import pendulum
+
+from seacrane import Scene, SceneError, cases, simulate, step_error
+from seacrane.accuracy import model_error
+from seacrane.accuracy.quantities import compare
+from seacrane.description.databases import without_databases
+from seacrane.hydro import shipped_database
+from seacrane.warnings import ModelErrorWarning
+
+
+def error_of(scene: Scene, rtol: float = 1e-12, **setting: Any) -> float:
+    """Largest difference of positions from a run at a tight tolerance."""
+    run = simulate(scene, **setting)
+    truth = simulate(scene, integrator="verner76", rtol=rtol, t_end=setting["t_end"])
+    return compare(np.asarray(truth["position"]), np.asarray(run["position"])).largest
+
+
+def thrown() -> Scene:
+    """Two bodies on pins that turn over: the smallest differences grow to all of the motion."""
+    scene = pendulum()
+    scene.add_body(name="second", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
+    scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
+    return scene
+
+
+def stiff() -> Scene:
+    """A mass on a spring, 200 rad/s: "rk4" is stable up to 2.83/200 s."""
+    scene = Scene(name="stiff", gravity=0.0)
+    scene.add_body(name="bob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.01))
+    scene.add_spring(name="spring", first="ground", second="bob", stiffness=4e4, natural_length=1.0)
+    return scene
+
+
+@pytest.mark.parametrize(
+    ("make", "integrator", "dt", "t_end"),
+    [
+        (pendulum, "semi-implicit-euler", 1e-3, 6.0), (pendulum, "rk4", 5e-3, 6.0),
+        (pendulum, "rk-low-storage", 0.01, 6.0), (pendulum, "generalized-alpha", 4e-3, 6.0),
+        (thrown, "rk4", 1e-3, 1.0),  # before its error has grown
+        (stiff, "rk4", 5e-4, 2.0), (cases.case2, "rk4", 0.025, 20.0),
+    ],
+)  # fmt: skip
+def test_the_error_told_is_the_error(
+    make: Callable[[], Scene], integrator: str, dt: float, t_end: float
+) -> None:
+    scene = make()
+    setting: dict[str, Any] = {"integrator": integrator, "dt": dt, "t_end": t_end}
+    told = step_error(scene, **setting, quantities=["position"])["position"]
+    assert told.error is not None and not told.sensitive and told.stable_step is None
+    wide = 2.5 if make is cases.case2 else 2.0
+    assert 1.0 / wide < told.error / error_of(scene, **setting) < wide
+    if t_end == 6.0:
+        assert told.order == pytest.approx(told.method_order, abs=0.7)
+
+
+def test_a_run_whose_energy_closes_and_whose_motion_is_wrong_is_called_sensitive() -> None:
+    setting: dict[str, Any] = {"integrator": "rk4", "dt": 0.005, "t_end": 20.0}
+    run = simulate(thrown(), **setting)
+    assert error_of(thrown(), **setting) > 1.0  # m: as large as the motion
+    exchanged = 2.0 * 9.80665 * np.ptp(run["position"][:, 0, 2])
+    assert np.abs(run["energy_balance"]).max() < 1e-4 * exchanged
+    told = step_error(thrown(), **setting)["position"]
+    assert told.sensitive and told.error is None
+    assert str(told).startswith("sensitive")
+
+
+def test_a_motion_without_error_says_so() -> None:
+    scene = Scene(name="fall")
+    scene.add_body(name="stone", mass=1.0, inertia=(0.1, 0.1, 0.1))
+    told = step_error(scene, integrator="rk4", dt=0.1, t_end=2.0, quantities=["position"])["position"]
+    assert told.error is not None and told.error < 1e-9
+
+
+def test_an_unstable_longer_step_is_named() -> None:
+    told = step_error(stiff(), integrator="rk4", dt=0.008, t_end=2.0, quantities=["position"])["position"]
+    assert told.stable_step == pytest.approx(2.828 / 200.0, rel=0.06)
+    assert "unstable" in str(told)
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"integrator": "dopri5", "dt": 0.1}, "'dopri5'"),
+        ({"integrator": "rk4", "dt": 0.0}, "dt is 0.0 s"),
+        ({"integrator": "rk4", "dt": float("nan")}, "dt is nan s"),
+        ({"integrator": "rk4", "dt": 0.1, "quantities": ["roll"]}, "'roll' is unknown"),
+    ],
+)
+def test_what_cannot_be_told_is_refused(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        step_error(pendulum(), t_end=1.0, **given)
+
+
+SEA: dict[str, Any] = {"hs": 0.2, "tp": 9.0, "count": 40}
+TIMES = np.arange(0.0, 5.0, 0.5)
+
+
+def by_convolution(scene: Scene) -> Scene:
+    """The same vessel and springs with the retardation functions in place of the fit."""
+    out = cases.vessel(memory="convolution", **SEA)
+    fields = out.vessels["vessel"].__getstate__()
+    for name in ("mooring_stiffness", "mooring_damping"):
+        fields[name] = getattr(scene.vessels["vessel"], name)
+    out.vessels["vessel"] = type(out.vessels["vessel"])(**fields)
+    return out
+
+
+@pytest.mark.parametrize(("memory", "nearness"), [("per-pair", 0.2), ("by-motion", 0.4)])
+def test_it_is_the_difference_of_two_runs(memory: str, nearness: float) -> None:
+    """In every motion, the slow ones of the springs included; heave, roll and pitch to a tenth."""
+    scene = cases.vessel(memory=memory, **SEA)
+    options = {"t_end": 40.0, "dt_out": 0.25, "rtol": 1e-8, "channels": ["vessel_motion"]}
+    run, truth = simulate(scene, **options), simulate(by_convolution(scene), **options)
+    apart = np.abs(run["vessel_motion"] - truth["vessel_motion"]).reshape(-1, 6).max(axis=0)
+    found = model_error(scene, body="vessel", times=run.time)
+    np.testing.assert_allclose(found.largest, apart, rtol=nearness, atol=3e-6)
+    assert found.largest[2] / apart[2] == pytest.approx(1.0, abs=0.1)
+    np.testing.assert_allclose(found.error[0], 0.0, atol=1e-12)
+    assert np.abs(found.motion).max() > 50.0 * found.largest[2]
+
+
+def test_a_run_to_an_accuracy_tells_it_beside_its_own_error() -> None:
+    """Not of a convolution, which fits nothing, nor in calm water, which moves nothing."""
+    scene = cases.vessel(memory="per-pair", **SEA)
+    options = {"t_end": 20.0, "dt_out": 0.5}
+    with pytest.warns(ModelErrorWarning, match="roll of 1e-06 was asked.*by-motion"):
+        result = simulate(scene, accuracy={"roll": 1e-6}, **options)
+    assert result.stats["error_estimate_roll"] <= 1e-6
+    expected = model_error(scene, body="vessel", times=result.time).largest[3]
+    wide = simulate(scene, accuracy={"roll": 1e-3}, **options)
+    for told in (result, wide):
+        assert told.stats["model_error_roll"] == pytest.approx(expected, rel=0.02)
+    with pytest.warns(ModelErrorWarning, match="memory='convol"):
+        simulate(cases.vessel(memory="by-motion", **SEA), t_end=5.0, dt_out=0.5, accuracy={"roll": 1e-7})
+    for scene in (cases.vessel(memory="convolution", **SEA), cases.vessel(hs=0.0)):
+        silent = simulate(scene, t_end=5.0, dt_out=0.5, accuracy={"roll": 1e-3})
+        assert "model_error_roll" not in silent.stats
+
+
+def test_results_and_files_state_what_the_memory_changes(tmp_path: Path) -> None:
+    scene = cases.vessel(memory="by-motion", **SEA)
+    known = scene.provenance["vessel"].memory_error
+    assert known is not None and 0.0 < known <= 0.01
+    assert simulate(scene, t_end=1.0).settings["memory_error"] == known
+    assert "memory_error" not in simulate(cases.vessel(**SEA), t_end=1.0).settings
+    scene.save(tmp_path / "by_motion.json")
+    assert Scene.load(tmp_path / "by_motion.json").provenance["vessel"].memory_error == known
+
+
+@pytest.mark.parametrize(
+    ("given", "times", "words"),
+    [
+        ({"hs": 0.0}, TIMES, "waves on one vessel"),
+        ({"memory": "convolution", **SEA}, TIMES, "no fitted memory"),
+        (SEA, TIMES[::-1], "times do not increase"),
+        (SEA, [0.0, 4000.0], "3600 s"),
+    ],
+)
+def test_what_it_needs_is_named(given: dict[str, Any], times: Any, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        model_error(cases.vessel(**given), body="vessel", times=times)
+
+
+def test_a_database_given_to_the_matrices_is_as_good_as_their_own() -> None:
+    scene = cases.vessel(**SEA)
+    expected = model_error(scene, body="vessel", times=TIMES)
+    bare = without_databases(scene)
+    with pytest.raises(SceneError, match="no database"):
+        model_error(bare, body="vessel", times=TIMES)
+    bare.replace("vessel", kind="vessel", database=shipped_database())
+    np.testing.assert_array_equal(model_error(bare, body="vessel", times=TIMES).largest, expected.largest)
