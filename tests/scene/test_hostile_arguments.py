@@ -245,16 +245,18 @@ WAVES: dict[str, Any] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("usual", [WAVES, HULL], ids=["waves", "loads on a hull"])
 @seed(23)
-@SETTINGS
-@given(data=st.data())
-def test_waves(usual: dict[str, Any], data: st.DataObject) -> None:
-    arguments, scene = replaced(data, usual, most=1), base()
+@settings(SETTINGS, max_examples=160)
+@given(key=st.sampled_from(sorted(WAVES | HULL)), value=HOSTILE)
+def test_waves(key: str, value: Any) -> None:
+    """Of the sea, and of the loads on a hull in it."""
+    scene = base()
     scene.add_vessel(**CALLS["add_vessel"])
 
     def waves() -> Waves:
-        return Waves(**(arguments if usual is WAVES else WAVES | {"hulls": {"hull": HullLoads(**arguments)}}))
+        on_hull = {key: value} if key in HULL else {}
+        given = {key: value} if key in WAVES else {"hulls": {"hull": HullLoads(**HULL | on_hull)}}
+        return Waves(**WAVES | given)
 
     scene.waves = refused(waves, ValueError, TypeError)
     if scene.waves is not None:
