@@ -33,18 +33,19 @@ WHOLE = [
 OTHER_DAMPING = 3  # last lines of the OrcaFlex model, which it may lack
 
 
-def needs(target: Target) -> None:
+def placed(name: str, folder: Path) -> Target:
+    """A target among the files that stand beside its cases."""
+    target = TARGETS[name]
     if target.reader == "orcaflex":
         pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
+    target.place(folder)
+    return target
 
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_corpus(name: str, tmp_path: Path) -> None:
     """Each case is read or refused by name; the seeds are read."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
-    found: Counter[str] = Counter()
+    target, found = placed(name, tmp_path), Counter[str]()
     with quiet():
         for path in cases(target):
             found[target.run(path.read_bytes(), tmp_path)] += 1
@@ -54,9 +55,7 @@ def test_corpus(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("damage", damages(), ids=lambda damage: damage.target)
 def test_damage_is_answered(damage: Damage, tmp_path: Path) -> None:
-    target = TARGETS[damage.target]
-    needs(target)
-    target.place(tmp_path)
+    target = placed(damage.target, tmp_path)
     (tmp_path / target.file).write_bytes(damage.case())
     with quiet(), pytest.raises(FileFormatError, match=damage.answer) as caught:
         target.read(tmp_path / target.file)
@@ -66,9 +65,7 @@ def test_damage_is_answered(damage: Damage, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", [*WHOLE, "orcaflex-text"])
 def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
     """Refused with the file and the line, or, where only whole frequencies are gone, read with a warning."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
+    target = placed(name, tmp_path)
     lines = sound_case(name).splitlines(keepends=True)
     place = re.escape(target.file) + (r", line \d+" if name in WHOLE else "")
     for kept in range(len(lines) - (0 if name in WHOLE else OTHER_DAMPING)):
@@ -86,13 +83,9 @@ def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", TARGETS)
 def test_short_run(name: str, tmp_path: Path) -> None:
     """Seeded mutations of the corpus: the same cases each time, as many as the time allows."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
+    target, generator = placed(name, tmp_path), random.Random(name)
     pool = [path.read_bytes() for path in cases(target)] + [damage.case() for damage in damages(name)]
-    generator = random.Random(name)
-    mutate = target.mutate or mutate_text
-    start = time.process_time()
+    mutate, start = target.mutate or mutate_text, time.process_time()
     with quiet():
         for _ in range(MOST_CASES):
             case = mutate(generator.choice(pool), generator)

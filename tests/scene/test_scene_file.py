@@ -24,12 +24,12 @@ THIRD = 1.0 / 3.0
 
 def waves(body: str) -> Waves:
     draw = np.random.default_rng(3)
+    omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
+    phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
     transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
-    hull = HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)
     return Waves(
-        omega=np.array([0.5, 0.7, 1.1]), amplitude=draw.uniform(0.01, 0.02, 3),
-        phase=draw.uniform(0.0, 6.0, 3), direction=draw.uniform(-3.0, 3.0, 3), hulls={body: hull},
-        evaluation="exact",
+        omega=omega, amplitude=amplitude, phase=phase, direction=direction, evaluation="exact",
+        hulls={body: HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)},
         provenance=SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD)),
     )  # fmt: skip
 
