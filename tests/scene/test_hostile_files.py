@@ -110,47 +110,23 @@ def test_giant_arrays(kind: str, tmp_path: Path) -> None:
     refused(lambda: read(path), "MiB, above")
 
 
-def opened(change: Callable[[h5py.File], Any]) -> Callable[[Path], None]:
-    def apply(path: Path) -> None:
-        with h5py.File(path, "a") as file:
-            change(file)
-
-    return apply
-
-
-def holds_itself(name: str) -> Callable[[Path], None]:
-    def change(file: h5py.File) -> None:
-        file.create_group("inner")
-        file["inner/again"] = file[name]
-
-    return opened(change)
+FORBIDDEN = {  # what HDF5 allows and no writer of NetCDF makes, in the smallest files, and what is told
+    "itself": "a is in the file more than once", "inner-itself": "a/b is in the file more than once",
+    "link": "a is a link to another place", "link-outside": "a is a link to another place",
+    "elsewhere": "a is stored in another file", "virtual": "a is stored in another file",
+    "deep": "nested more than 8 deep", "ragged": "variable length that are no texts",
+    "ragged-attribute": "attribute a has values of variable length",
+    "packed-texts": "a holds texts that are packed", "folded-twice": "a is packed by more than deflate",
+    "large": "with it the file's arrays take 16384 MiB", "damaged-heap": "damaged heap at byte",
+    "endless-heap": "damaged heap at byte", "endless-heap-2": "damaged heap at byte",
+    "user-block": "user block or short addresses",
+}  # fmt: skip
 
 
-def linked(link: Any) -> Callable[[Path], None]:
-    return opened(lambda file: file.__setitem__("elsewhere", link))
-
-
-def stored_outside(path: Path) -> None:
-    """Else a result could carry away what its reader may read."""
-    secret = path.with_name("secret")
-    secret.write_bytes(bytes(24))
-    opened(lambda file: file.create_dataset("stolen", (3,), "f8", external=[(str(secret), 0, 24)]))(path)
-
-
-def stored_virtually(file: h5py.File) -> None:
-    layout = h5py.VirtualLayout((3,), "f8")
-    layout[:] = h5py.VirtualSource("secret", "a", (3,))
-    file.create_virtual_dataset("stolen", layout)
-
-
-def endless_heap(size: int) -> Callable[[Path], None]:
-    def change(path: Path) -> None:
-        content = bytearray(path.read_bytes())
-        heap = content.index(hdf5_structure.HEAP)
-        content[heap + 16 : heap + 32] = struct.pack("<HHIQ", 0, 0, 0, size)
-        path.write_bytes(content)
-
-    return change
+@pytest.mark.parametrize("name", FORBIDDEN)
+def test_what_HDF5_allows_and_no_writer_makes(name: str, tmp_path: Path) -> None:
+    (tmp_path / "run.nc").write_bytes((CORPUS / "result-bytes" / name).read_bytes())
+    refused(lambda: Result.load(tmp_path / "run.nc"), FORBIDDEN[name])
 
 
 def heaps_within_heaps(path: Path) -> None:
@@ -159,45 +135,30 @@ def heaps_within_heaps(path: Path) -> None:
         file.write((hdf5_structure.HEAP + struct.pack("<Q", 2**19)) * 2**16)
 
 
-def ragged(file: h5py.File) -> None:
-    file.create_dataset("ragged", (3,), h5py.vlen_dtype(np.float64))
-
-
-def folded_twice(file: h5py.File) -> None:
-    """Each filter unfolds a thousandfold."""
-    made = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
-    made.set_chunk((100,))
-    made.set_deflate(1)
-    made.set_deflate(1)
-    h5py.h5d.create(file.id, b"folded", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((100,)), made)
-
-
-def large_chunks(file: h5py.File) -> None:
+def large_chunks(path: Path) -> None:
     """HDF5 unfolds a chunk as a whole."""
-    for i in range(3):
-        file.create_dataset(f"zeros {i}", (1,), "f8", maxshape=(None,), chunks=(2**28,), compression="gzip")
+    with h5py.File(path, "a") as file:
+        made = {"maxshape": (None,), "chunks": (2**28,), "compression": "gzip"}
+        for i in range(3):
+            file.create_dataset(f"zeros {i}", (1,), "f8", **made)
 
 
 REPEATED = 5000  # times 100 kB
 
 
-def one_text_repeated(chunks: tuple[int, ...] | None) -> Callable[[Path], None]:
+def one_text_repeated(path: Path, chunks: tuple[int, ...] | None = None) -> None:
     """Texts of 100 kB that are one and the same in a file of some 200 kB, 500 MB in memory: references to the
     first in the place of all others."""
-
-    def change(path: Path) -> None:
-        with h5py.File(path, "a") as file:
-            texts = file.create_dataset("texts", (REPEATED,), h5py.string_dtype(), chunks=chunks)
-            texts[0] = "x" * 100_000
-        with h5py.File(path, "r") as file:
-            data = file["texts"].id
-            offset = data.get_offset() if chunks is None else data.get_chunk_info(0).byte_offset
-        content = bytearray(path.read_bytes())
-        content[offset : offset + 16 * REPEATED] = content[offset : offset + 16] * REPEATED
-        path.write_bytes(content)
-        assert len(content) < 500_000
-
-    return change
+    with h5py.File(path, "a") as file:
+        texts = file.create_dataset("texts", (REPEATED,), h5py.string_dtype(), chunks=chunks)
+        texts[0] = "x" * 100_000
+    with h5py.File(path, "r") as file:
+        data = file["texts"].id
+        offset = data.get_offset() if chunks is None else data.get_chunk_info(0).byte_offset
+    content = bytearray(path.read_bytes())
+    content[offset : offset + 16 * REPEATED] = content[offset : offset + 16] * REPEATED
+    path.write_bytes(content)
+    assert len(content) < 500_000
 
 
 def a_sparse_file(path: Path) -> None:
@@ -205,31 +166,20 @@ def a_sparse_file(path: Path) -> None:
     os.truncate(path, 100 * 2**30)
 
 
-STRUCTURES: dict[str, tuple[Callable[[Path], Any], str]] = {
-    "a group that holds the root": (holds_itself("/"), "inner/again is .* more than once"),
-    "a group that holds itself": (holds_itself("inner"), "inner/again is .* more than once"),
-    "soft link": (linked(h5py.SoftLink("/")), "elsewhere is a link to another"),
-    "dead link": (linked(h5py.SoftLink("/nowhere")), "elsewhere is a link to another"),
-    "link to a file": (linked(h5py.ExternalLink("a.nc", "/")), "elsewhere is a link to another"),
-    "another file's bytes": (stored_outside, "stolen is stored in another file"),
-    "virtual": (opened(stored_virtually), "stolen is stored in another file"),
-    **{f"heap of {size}": (endless_heap(size), "damaged heap at byte") for size in (0, 2**63, 2**64 - 8)},
-    "heaps within heaps": (heaps_within_heaps, "damaged heap at byte"),
-    "ragged": (opened(ragged), "ragged has values of variable length that are no texts"),
-    "filters upon filters": (opened(folded_twice), "folded is packed by more than deflate"),
-    "chunks beyond their array": (opened(large_chunks), "with it the file's arrays take .* above"),
-    "texts": (one_text_repeated(None), "texts brings its texts .* above 128 MiB"),
-    "texts in chunks": (one_text_repeated((REPEATED,)), "texts brings its texts .* above 128 MiB"),
-    "sparse": (a_sparse_file, "has 102400 MiB"),
+CHANGED: dict[Callable[[Path], Any], str] = {
+    heaps_within_heaps: "damaged heap at byte",
+    large_chunks: "with it the file's arrays take .* above",
+    one_text_repeated: "texts brings its texts .* above 128 MiB",
+    partial(one_text_repeated, chunks=(REPEATED,)): "texts brings its texts .* above 128 MiB",
+    a_sparse_file: "has 102400 MiB",
 }
 
 
-@pytest.mark.parametrize("name", STRUCTURES)
-def test_what_HDF5_allows_and_no_writer_makes(name: str, tmp_path: Path) -> None:
-    change, told = STRUCTURES[name]
+@pytest.mark.parametrize("change", CHANGED)
+def test_results_that_promise_more_than_they_hold(change: Callable[[Path], Any], tmp_path: Path) -> None:
     assert build((CORPUS / "result" / "run").read_bytes(), tmp_path / "run.nc")
     change(tmp_path / "run.nc")
-    refused(lambda: Result.load(tmp_path / "run.nc"), told)
+    refused(lambda: Result.load(tmp_path / "run.nc"), CHANGED[change])
 
 
 @pytest.mark.parametrize("kind", READ)
@@ -237,14 +187,9 @@ def test_every_reader_looks_at_the_structure_first(kind: str, tmp_path: Path) ->
     seed, _, read = READ[kind]
     path = tmp_path / TARGETS[kind].file
     assert build((CORPUS / kind / seed).read_bytes(), path)
-    linked(h5py.SoftLink("/"))(path)
+    with h5py.File(path, "a") as file:
+        file["elsewhere"] = h5py.SoftLink("/")
     refused(lambda: read(path), "elsewhere is a link")
-
-
-def test_a_file_that_only_holds_itself(tmp_path: Path) -> None:
-    with h5py.File(tmp_path / "run.nc", "w", libver="latest") as file:
-        file["a"] = file["/"]
-    refused(lambda: Result.load(tmp_path / "run.nc"), "'?a'? is in the file more than once")
 
 
 def test_limits_of_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -388,13 +333,6 @@ def test_crane_values(line: str, text: str, told: str, tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=told) as caught:
         load_crane(tmp_path / "crane.toml")
     assert changed != lines and len(str(caught.value)) < 600
-
-
-def test_deep_groups(tmp_path: Path) -> None:
-    with netCDF4.Dataset(tmp_path / "hull.nc", "w") as file:
-        file.format, file.format_version = "seacrane hydrodynamic database", 1
-        file.createGroup("/".join(["g"] * 30))
-    refused(lambda: HydroDatabase.load(tmp_path / "hull.nc"), "groups are nested more than 8 deep")
 
 
 def test_memory_that_is_not_a_number(tmp_path: Path) -> None:
