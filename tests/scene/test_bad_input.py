@@ -272,7 +272,7 @@ def test_velocities_that_break_a_joint_are_corrected_and_reported() -> None:
     assert assembly["rate_residual_after"] < 1e-9
 
 
-# waves and curves
+# waves
 
 
 @rows(
@@ -297,19 +297,6 @@ def test_waves(what: dict[str, Any], told: str) -> None:
         scene.compile()
 
     refused(compiled, told)
-
-
-@rows(
-    (lambda: Curve.pieces(starts=[], coefficients=[]), "no pieces"),
-    (lambda: Curve.constant(value=NAN), "not finite"),
-    (lambda: Curve.pieces(starts=[1.0, 0.0], coefficients=[[0.0] * 6] * 2), "piece 1.*0.0"),
-    (lambda: Curve.pieces(starts=[1.0], coefficients=[[0.0] * 6] * 2), "one entry per piece"),
-    (lambda: Curve.quintic(start_time=2.0, end_time=1.0, start=0.0, end=1.0), "(?=.*1.0).*2.0"),
-    (lambda: spline_curve(times=[0, 1], values=[0, 1]), "at least 6"),
-    (lambda: spline_curve(times=[0, 1, 2, 3, 3, 4], values=[0] * 6), "must increase"),
-)  # fmt: skip
-def test_curves(what: Callable[[], Any], told: str) -> None:
-    refused(what, told)
 
 
 # runs
@@ -367,16 +354,6 @@ def test_controllers(what: Any, told: str) -> None:
     )
 
 
-def test_periods_of_controllers() -> None:
-    for period in (0.0, -1.0, NAN, INF, "fast", None):
-        refused(lambda: SampledController(period=period, function=len), f"period is .*{period}")  # noqa: B023
-    refused(lambda: SampledController(period=1.0, function=3), "function is 3")
-    scene, tick = pendulum(), SampledController(period=1e-20, function=lambda t, m: {})
-    first = _core.initial_state(scene.compile())
-    start = State(time=1.0, values=first.values, inputs=first.inputs)  # whose time the period does not change
-    refused(lambda: simulate(scene, t_end=2.0, start=start, controllers=[tick]), "period is 1e-20 s")
-
-
 def test_euler_angles_at_their_singularity() -> None:
     scene = Scene(orientation="euler_xyz")
     scene.add_body(name="mast", mass=1.0, inertia=[1, 1, 1], quaternion=(np.sqrt(0.5), 0, np.sqrt(0.5), 0))
@@ -409,26 +386,55 @@ def test_joints_too_close_together_to_hold_stop_the_run_by_name() -> None:
         refused(lambda: simulate(scene, t_end=5.0), "(?=.*nearly depend).*er'.*open by", SimulationError)
 
 
+def at_one_second() -> dict[str, Any]:
+    """A time that a period of 1e-20 s does not change."""
+    first = _core.initial_state(pendulum().compile())
+    tick = SampledController(period=1e-20, function=lambda t, m: {})
+    return {"start": State(time=1.0, values=first.values, inputs=first.inputs), "controllers": [tick]}
+
+
+def period(value: Any) -> Any:
+    return lambda: SampledController(period=value, function=len)
+
+
+def force(value: Any) -> Any:
+    return lambda: pendulum().add_point_force(name="f", body="bob", force=value)
+
+
+MODEL = pendulum().compile()
+DATES = np.array(["2026-01-01"] * 3, dtype="M8[D]")
+
+
 @rows(
-    (lambda s: s.add_point_force(name="f", body="bob", force=np.array([1, b"2", 3], dtype=object)), "force"),
-    (lambda s: s.add_body(name="x", mass=1, inertia=np.array(["2026-01-01"] * 3, dtype="M8[D]")), "inertia"),
-    (lambda s: s.add_crane(foot=("33", "10", "10")), "foot"), (lambda s: Payload(mass="20e3"), "mass"),
-    (lambda s: inverse_dynamics(s, times=["0", "1"]), "times"),
-    (lambda s: Run(s, t_end=1.0).set_inputs({"motor.force": "1"}), "motor.force"),
+    (lambda: Curve.pieces(starts=[], coefficients=[]), "no pieces"),
+    (lambda: Curve.constant(value=NAN), "not finite"),
+    (lambda: Curve.pieces(starts=[1.0, 0.0], coefficients=[[0.0] * 6] * 2), "piece 1.*0.0"),
+    (lambda: Curve.pieces(starts=[1.0], coefficients=[[0.0] * 6] * 2), "one entry per piece"),
+    (lambda: Curve.quintic(start_time=2.0, end_time=1.0, start=0.0, end=1.0), "(?=.*1.0).*2.0"),
+    (lambda: spline_curve(times=[0, 1], values=[0, 1]), "at least 6"),
+    (lambda: spline_curve(times=[0, 1, 2, 3, 3, 4], values=[0] * 6), "must increase"),
+    (period(0.0), "period is 0.0"), (period(-1.0), "period is -1.0"), (period(NAN), "period is nan"),
+    (period(INF), "period is inf"), (period("fast"), "period is .*fast"), (period(None), "period is None"),
+    (lambda: SampledController(period=1.0, function=3), "function is 3"),
+    (lambda: simulate(pendulum(), t_end=2.0, **at_one_second()), "period is 1e-20 s"),
+    (force(np.array([1, b"2", 3], dtype=object)), "force.*give .*number"),
+    (lambda: Scene().add_body(name="x", mass=1, inertia=DATES), "inertia.*give .*number"),
+    (lambda: Scene().add_crane(foot=("33", "10", "10")), "foot.*give .*number"),
+    (lambda: Payload(mass="20e3"), "mass.*give .*number"),
+    (lambda: inverse_dynamics(pendulum(), times=["0", "1"]), "times.*give .*number"),
+    (lambda: Run(pendulum(), t_end=1.0).set_inputs({"motor.force": "1"}), "motor.force.*give .*number"),
+    (lambda: Run(pendulum(), t_end=1.0).set_inputs({"motor": 1.0}), "'motor'.*motor.force, motor.reference"),
+    (lambda: Run(pendulum(), t_end=1.0).core.set_inputs([1.0]), "inputs.*1 values.*3 slots"),
+    (lambda: Run(pendulum(), t_end=1.0).advance(NAN), "t_end.*finite"),
+    (lambda: Evaluator(MODEL).derivative(0.0, np.zeros(3)), "3 values.*15"),
+    (lambda: Evaluator(MODEL).project(0.0, np.zeros((15, 15))), "225 values"),
+    (lambda: Evaluator(MODEL).time_parts(0.0, np.array(MODEL.initial_state), 0), "count is 0"),
 )  # fmt: skip
-def test_texts_that_read_as_numbers_are_no_numbers(what: Any, told: str) -> None:
-    refused(lambda: what(pendulum()), f"{told}.*give .*number")
+def test_calls(what: Callable[[], Any], told: str) -> None:
+    refused(what, told)
 
 
-def test_inputs_of_a_run_and_low_level_calls_that_would_crash() -> None:
-    run, model = Run(pendulum(), t_end=1.0), pendulum().compile()
-    refused(lambda: run.set_inputs({"motor": 1.0}), "input 'motor'.*motor.force, motor.reference")
-    refused(lambda: run.core.set_inputs([1.0]), "inputs.*1 values.*3 slots")
-    refused(lambda: run.advance(NAN), "t_end.*finite")
-    evaluator = Evaluator(model)
-    refused(lambda: evaluator.derivative(0.0, np.zeros(3)), "3 values.*15")
-    refused(lambda: evaluator.project(0.0, np.zeros((15, 15))), "225 values")
-    refused(lambda: evaluator.time_parts(0.0, np.array(model.initial_state), 0), "count is 0")
+def test_no_model_is_none() -> None:
     for call in (Evaluator, _core.initial_state):
         with pytest.raises(TypeError):
             call(None)

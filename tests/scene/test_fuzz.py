@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 from fuzz.damage import Damage, damages, sound_case
+from fuzz.grow import grown
 from fuzz.limits import Hang
 from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
@@ -26,6 +27,7 @@ from seacrane.warnings import PartialSetWarning
 
 SHORT_RUN = 0.4  # s of processor time for each target
 MOST_CASES = 400
+LARGE = 100_000  # bytes
 TABLES = "re7 re8 re1 re2", "1 3 4 hst frc out"  # files of VERES and WAMIT that have to be whole
 WHOLE = [
     f"{name}-{kind}" for name, kinds in zip(("veres", "wamit"), TABLES, strict=True) for kind in kinds.split()
@@ -82,7 +84,7 @@ def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_short_run(name: str, tmp_path: Path) -> None:
-    """Seeded mutations of the corpus: the same cases each time, as many as the time allows."""
+    """Seeded mutations of the corpus, the same each time, as many as the time allows."""
     target, generator = placed(name, tmp_path), random.Random(name)
     pool = [path.read_bytes() for path in cases(target)] + [damage.case() for damage in damages(name)]
     mutate, start = target.mutate or mutate_text, time.process_time()
@@ -97,6 +99,16 @@ def test_short_run(name: str, tmp_path: Path) -> None:
                 raise
             if time.process_time() - start > SHORT_RUN:
                 break
+
+
+@pytest.mark.parametrize("name", [name for name, target in TARGETS.items() if not target.unfolds])
+def test_cost_of_files_made_large(name: str, tmp_path: Path) -> None:
+    """One line, word or run of blanks repeated: no more time and memory per byte than the limits."""
+    target, generator = placed(name, tmp_path), random.Random(name)
+    pool = [path.read_bytes() for path in cases(target)]
+    with quiet():
+        for _ in range(6):
+            target.run(grown(generator.choice(pool), LARGE, generator), tmp_path)
 
 
 @pytest.mark.slow("counts lines of readers")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import random
 import struct
 import tracemalloc
 from collections.abc import Callable
@@ -17,10 +16,9 @@ import h5py
 import netCDF4
 import numpy as np
 import pytest
-from fuzz.grow import grown
 from fuzz.limits import bounded
 from fuzz.netcdf_spec import build
-from fuzz.targets import CORPUS, TARGETS, Target, cases, quiet
+from fuzz.targets import CORPUS, TARGETS, Target
 
 from seacrane import Lift, Result, Scene, shipped_database
 from seacrane.crane.data_file import load as load_crane
@@ -37,7 +35,6 @@ from seacrane.hydro.readers.veres_files import read_drift
 from seacrane.inputs import hdf5_structure
 
 LITTLE = 64 * 2**20  # bytes: what refusing a small file may take
-LARGE = 100_000  # bytes
 DEEP = 100_000
 
 
@@ -287,16 +284,6 @@ def test_memory_of_a_table_in_a_scene_file(tmp_path: Path) -> None:
     (tmp_path / "scene.json").write_text(text)
     with bounded(len(text)):
         Scene.load(tmp_path / "scene.json")
-
-
-@pytest.mark.parametrize("name", [name for name, target in TARGETS.items() if not target.unfolds])
-def test_cost_of_files_made_large(name: str, tmp_path: Path) -> None:
-    """One line, word or run of blanks repeated: no more time and memory per byte than the limits."""
-    target, _ = placed(name, tmp_path)
-    generator, pool = random.Random(name), [path.read_bytes() for path in cases(target)]
-    with quiet():
-        for _ in range(6):
-            target.run(grown(generator.choice(pool), LARGE, generator), tmp_path)
 
 
 def test_many_speeds(tmp_path: Path) -> None:

@@ -107,8 +107,8 @@ class Drawn:
 
 
 def fits(lift: Drawn, view: View) -> bool:
-    """Whether the lift is the same in that view: given motions have a clock, a second ship lies to port, damping
-    is that of one body, and what holds by friction is as stiff as the load's weight asks, whatever presses."""
+    """Whether the lift is the same in that view: given motions have a clock, a second ship lies to port,
+    damping is that of one body, and friction holds as stiffly as the load's weight asks, whatever presses."""
     return not (
         (view.later and lift.base == "given")
         or (view.mirrored and lift.base == "pair")
