@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 import joint_examples
+import named
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -49,12 +50,8 @@ def scene_of_two(**settings: Any) -> Scene:
     return scene
 
 
-def pendulum(**settings: Any) -> Scene:
-    scene = Scene(name="pendulum", **settings)
-    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
+def pendulum() -> Scene:
+    scene = named.pendulum()
     scene.add_actuator(name="motor", joint="pin", damping=0.1)
     return scene
 

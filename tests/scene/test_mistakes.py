@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import mistaken_units
+import named
 import numpy as np
 import pytest
 from hydraulic_scenes import raised
 from mistaken_units import raos, record
+from named import on_joint, on_wire
 from slipped_scenes import MASS, G, with_load
 
 import seacrane
@@ -97,14 +99,8 @@ def follow(drive: str, curve: Curve, t_end: float = 5.0) -> None:
     simulate(driven(lift(), references={drive: curve}), t_end=t_end)
 
 
-def hoist(*, depth: float = 10.0, **line: Any) -> Scene:
-    scene, given = with_load((0, 0, -depth)), {"EA": 5e7, "tension_at_start": MASS * G} | line
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=ENDS, **given)
-    return scene
-
-
 def hung(line: dict[str, Any] | None = None, **winch: Any) -> None:
-    scene = hoist(depth=15.0, **(line or {}))
+    scene = on_wire(depth=15.0, **(line or {}))
     if winch:
         scene.add_winch(line="hoist", **winch)
     simulate(scene, t_end=0.2)
@@ -141,16 +137,9 @@ def on_a_ship(*, slew: float = -np.pi / 2, parts: Any = (), **hoist: Any) -> Non
     simulate(scene, t_end=0.1)
 
 
-def rail(mass: float = 1.0, **body: Any) -> Scene:
-    scene = Scene(name="rail")
-    scene.add_body(name="box", mass=mass, inertia=[mass] * 3, **body)
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    return scene
-
-
 def lowered(depth: float, *, stages: bool) -> None:
     """Down a shaft of water: by a stage that waits for it, or by time."""
-    scene = hoist(tension_at_start=None, length=10.0)
+    scene = on_wire(tension_at_start=None, length=10.0)
     scene.add_winch(line="hoist", lag=0.1)
     scene.add_sea(vessel=None, sea=SeaState(systems=[waves(hs=0.5, tp=6.0)], depth=depth))
     scene.add_immersed("load", parts=[BoxPart(size=(2.0, 2.0, 2.0), fill=0.5)])
@@ -238,7 +227,7 @@ def held_by_drivers(scene: Scene, *names: str) -> Scene:
 
 
 def a_stop_of_steel() -> None:
-    scene = rail(velocity=(0.1, 0, 0), gravity=False)
+    scene = on_joint("box", velocity=(0.1, 0, 0), gravity=False)
     scene.add_actuator(joint="rail", stiffness=1e8, damping=2e4)
     simulate(scene, t_end=10.0, integrator="dopri5", channels=["position"])
 
@@ -267,7 +256,7 @@ def let_go(t_end: float, **crane: Any) -> None:
 
 def hours_at_a_loose_tolerance() -> None:
     """A box on a spring in place of the load, with the steps that waves would give."""
-    scene = rail(velocity=(1e-6, 0, 0))
+    scene = on_joint("box", velocity=(1e-6, 0, 0))
     scene.add_spring(name="spring", first="ground", second="box", first_point=(-9, 0, 0), stiffness=5.0,
                      natural_length=9.0)  # fmt: skip
     simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, maximum_step=0.5)
@@ -279,14 +268,14 @@ def a_hose_that_bursts_and_no_makeup() -> None:
 
 
 def a_guide_ten_centimetres_off() -> None:
-    scene = hoist()
+    scene = on_wire()
     scene.add_contact("load", on="ground", points=[(1, 0, 0)], surface="post", place=(1.1, 0, -10),
                       size=(0.4, 6), stiffness=1e6, name="guide")  # fmt: skip
     simulate(scene, t_end=0.1)
 
 
 def a_tagline_connected_short() -> None:
-    scene, points = hoist(), [(6.5, 0, -10), (0, 0, 0)]
+    scene, points = on_wire(), [(6.5, 0, -10), (0, 0, 0)]
     scene.add_line(name="tag", bodies=["ground", "load"], points=points, EA=1e6, length=5.0)
     simulate_stages(
         scene, [Stage(name="wait", duration=0.1), Stage(name="on", duration=0.1, connect=["tag"])]
@@ -427,7 +416,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
         lambda: on_deck(axis=(0, 0, -1), place=(0, 0, 1.0)), lambda: on_deck(place=(0, 0, 2.8))
     ],
 }  # fmt: skip
-FILES = {__file__, mistaken_units.__file__}
+FILES = {__file__, mistaken_units.__file__, named.__file__}
 
 
 def test_the_page_and_these_scripts_hold_the_same_mistakes_and_public_answers() -> None:

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import pendulum
 
 from seacrane import (
     Criterion,
     Kept,
     Result,
-    Scene,
     SceneError,
     Until,
     cases,
@@ -125,15 +125,12 @@ def test_what_is_kept_is_said_by_a_text() -> None:
 
 
 def test_an_ensemble_keeps_by_text_what_it_keeps_by_value() -> None:
-    scene, pin = Scene(name="pendulum"), {"point": (0, 0, 0), "axis": (0, 1, 0)}
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1, 0, 0))
-    scene.add_joint(kind="revolute", name="pin", first="ground", second="bob", **pin)
     value = Kept(channel="position", what="minimum", names={"body": "bob", "axis": "z"})
     keep: dict[str, Any] = {"low": "position[bob, z].min", "same": value}
-    found = ensemble(scene, over={"gravity": [9.0, 9.8]}, keep=keep, t_end=1.0)
+    found = ensemble(pendulum(), over={"gravity": [9.0, 9.8]}, keep=keep, t_end=1.0)
     assert np.array_equal(found.dataset.low, found.dataset.same)
     with pytest.raises(SceneError, match=r"give a text such as 'hook_load.max'"):
-        ensemble(scene, over={"gravity": [9.0]}, keep={"low": 3}, t_end=1.0)  # type: ignore[dict-item]
+        ensemble(pendulum(), over={"gravity": [9.0]}, keep={"low": 3}, t_end=1.0)  # type: ignore[dict-item]
 
 
 def test_criteria_conditions_and_extremes_take_the_text(lift: Result) -> None:

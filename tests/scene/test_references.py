@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import on_joint
 
 from seacrane import (
     Curve,
@@ -34,10 +35,7 @@ WEIGHT = 10e3 * 9.80665
 
 def rail(curve: Curve | None = None, **actuator: Any) -> Scene:
     """10 t on a vertical rail, driven or held by an actuator."""
-    scene = Scene(name="hoist")
-    scene.add_body(name="load", mass=10e3, inertia=[1e4, 1e4, 1e4])
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", axis=(0, 0, 1))
-    scene.record_coordinate(joint="rail")
+    scene = on_joint("load", mass=10e3, inertia=1e4, axis=(0, 0, 1))
     if curve is not None:
         scene.add_driver(joint="rail", curve=curve)
     if actuator:
@@ -47,10 +45,7 @@ def rail(curve: Curve | None = None, **actuator: Any) -> Scene:
 
 def slewing(**actuator: Any) -> Scene:
     """A turntable with an actuator: critically damped at 2 rad/s."""
-    scene = Scene(name="turntable", gravity=0.0)
-    scene.add_body(name="table", mass=1.0, inertia=[1, 1, 1])
-    scene.add_joint(kind="revolute", name="pin", first="ground", second="table", axis=(0, 0, 1))
-    scene.record_coordinate(joint="pin")
+    scene = on_joint("table", kind="revolute", joint="pin", axis=(0, 0, 1), gravity=0.0)
     scene.add_actuator(name="slew", joint="pin", **{"stiffness": 4.0, "damping": 4.0, **actuator})
     return scene
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from named import on_joint
 from numpy.testing import assert_allclose, assert_array_equal
 
 from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, _core, cases, simulate
@@ -22,11 +23,8 @@ def turned_pair() -> Scene:
 
 def mass_on_rail(**actuator: float | Curve) -> Scene:
     """4 kg on a frictionless rail along x without gravity, pushed by an actuator."""
-    scene = Scene(gravity=0.0)
-    scene.add_body(name="cart", mass=4.0, inertia=[1, 1, 1])
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
+    scene = on_joint("cart", mass=4.0, gravity=0.0)
     scene.add_actuator(name="motor", joint="rail", **actuator)
-    scene.record_coordinate(joint="rail")
     return scene
 
 
@@ -89,7 +87,7 @@ def test_a_copy_may_be_changed_alone() -> None:
     other.actuators.clear()
     other.recorded.clear()
     held = [*scene.bodies], [*scene.actuators], [*scene.recorded], scene.notes, scene.name, scene.gravity
-    assert held == (["cart"], ["motor"], ["rail"], {"kind": "rail"}, "scene", 0.0)
+    assert held == (["cart"], ["motor"], ["rail"], {"kind": "rail"}, "cart", 0.0)
 
 
 def test_default_coordinates_and_names() -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import on_joint, pendulum
 from test_scene_file import every_kind
 
 from seacrane import Curve, Scene, SceneError, cases
@@ -20,13 +21,6 @@ def section(scene: Scene, name: str) -> dict[str, Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # redundant joints
         return dict(scene_report(scene)[name])
-
-
-def pendulum(**settings: Any) -> Scene:
-    scene, pin = Scene(name="pendulum", **settings), {"point": (0, 0, 0), "axis": (0, 1, 0)}
-    scene.add_body(name="bob", mass=2.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
-    scene.add_joint(kind="revolute", name="pin", first="ground", second="bob", **pin)
-    return scene
 
 
 def test_counts_and_elements_of_case_2() -> None:
@@ -108,9 +102,7 @@ def test_what_is_absent() -> None:
 
 @pytest.mark.parametrize("stiffness", [50.0, 5000.0])
 def test_fastest_mode_of_a_spring_and_a_mass(stiffness: float) -> None:
-    scene = Scene(gravity=0.0)
-    scene.add_body(name="mass", mass=2.0, inertia=[1, 1, 1])
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="mass", axis=(1, 0, 0))
+    scene = on_joint("mass", mass=2.0, gravity=0.0)
     scene.add_actuator(joint="rail", stiffness=stiffness)
     fastest = section(scene, "modes")["fastest_mode_per_s"]
     assert fastest == pytest.approx(math.sqrt(stiffness / 2.0), rel=1e-5)
