@@ -56,13 +56,15 @@ def answers() -> dict[str, list[str]]:
 ROWS = answers()
 
 
-def lift(*, mass: float = MASS, slew: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
+def lift(
+    *, slew: float = 0.0, ballast: bool = True, sea: float | None = None, mass: float = MASS, **load: float
+) -> Scene:
     """A lift on the shipped hull, its drives without gains."""
     scene = Scene(name="lift")
     scene.add_vessel(shipped_database())
     if sea is not None:
         scene.add_sea(hs=2.0, tp=8.0, direction_deg=sea, seed=1)
-    scene.add_crane(base="vessel", slew=slew, payload=Payload(mass=mass))
+    scene.add_crane(base="vessel", slew=slew, payload=Payload(mass=mass, **load))
     for name, joint in JOINTS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=name, joint=joint)
@@ -239,11 +241,7 @@ def above_the_table() -> None:
 
 
 def a_link_down_to_the_keel() -> None:
-    scene = Scene(name="lift")
-    scene.add_vessel(shipped_database())
-    scene.add_crane(payload=Payload(mass=MASS, link_length=20.0))
-    for name, joint in JOINTS.items():
-        scene.add_actuator(name=name, joint=joint)
+    scene = lift(ballast=False, link_length=20.0)
     scene.add_ballast()
     simulate(driven(scene), t_end=0.5)
 
@@ -320,35 +318,27 @@ def lift_off_too_slowly() -> None:
 STEP = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=2.0))
 RAMP = Curve.pieces(starts=[1.0, 2.0], coefficients=[[0, 0.2, 0, 0, 0, 0], [0.2, 0, 0, 0, 0, 0]])
 SCRIPTS: dict[str, list[Callable[[], Any]]] = {
-    "degrees where radians are meant": [
-        lambda: follow("slew", move(-90.0)), lambda: lift(slew=-90.0, ballast=False)
-    ],
-    "RAOs in degrees per metre": [
-        raos_in_degrees,
-        lambda: MotionRaos(omega=[0.3, 0.6], heading=[0.0, 180.0], values=np.zeros((2, 2, 6))),
-    ],
+    "degrees where radians are meant": [lambda: follow("slew", move(-90.0)),
+        lambda: lift(slew=-90.0, ballast=False)],
+    "RAOs in degrees per metre": [raos_in_degrees,
+        lambda: MotionRaos(omega=[0.3, 0.6], heading=[0.0, 180.0], values=np.zeros((2, 2, 6)))],
     "a record in degrees": [record_in_degrees],
     "radians where degrees are meant": [lambda: lift(sea=np.pi * 3 / 4, ballast=False)],
     "compass directions": [lambda: lift(sea=315.0, ballast=False), wind_where_it_comes_from],
     "tonnes for kilograms": [lambda: Payload(mass=20.0)],
     "depth with the wrong sign": [
         lambda: SeaState(systems=[waves()]).realise().waves.kinematics(time=0, x=0, y=0, z=[10.0, 30.0]),
-        lambda: SeaState(systems=[waves()], depth=-60.0),
-    ],
+        lambda: SeaState(systems=[waves()], depth=-60.0)],
     "ballast left out": [lambda: simulate(driven(lift(ballast=False)), t_end=1.0)],
     "a crane too heavy for its ship": [a_tower_too_heavy],
     "ballast beside the ship": [lambda: lift(ballast=False, mass=50e3).add_ballast(heel_deg=15.0)],
     "gains too soft": [lambda: simulate(controlled(0.5, feed_forward=False), t_end=20.0)],
-    "angles beyond half a turn": [
-        a_constant_beyond_half_a_turn, lambda: follow("slew", move(np.radians(270.0), until=40.0), t_end=41.0)
-    ],
-    "strokes beyond the cylinder": [
-        lambda: follow("main", move(-4.0)), lambda: let_go(3.0, s1=1.0, s2=1.0)
-    ],
+    "angles beyond half a turn": [a_constant_beyond_half_a_turn,
+        lambda: follow("slew", move(np.radians(270.0), until=40.0), t_end=41.0)],
+    "strokes beyond the cylinder": [lambda: follow("main", move(-4.0)), lambda: let_go(3.0, s1=1.0, s2=1.0)],
     "motions in no time": [lambda: follow("main", STEP, 2.0), lambda: follow("main", RAMP, 3.0)],
     "a start that joints do not allow": [
-        lambda: driven(lift(), references={"slew": Curve.constant(value=-0.5)}).compile()
-    ],
+        lambda: driven(lift(), references={"slew": Curve.constant(value=-0.5)}).compile()],
     "two masters of one input": [two_controllers],
     "a load that swings too far": [a_slew_that_flings_its_load],
     "more than the crane may lift": [above_the_table],
@@ -357,64 +347,50 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a crane that nothing holds": [lambda: let_go(0.1, payload=Payload(mass=MASS))],
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
     "a hydraulic cylinder that swings by itself": [
-        lambda: simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)
-    ],
+        lambda: simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)],
     "a hose that bursts, and nothing that lets oil in": [a_hose_that_bursts_and_no_makeup],
     "a roll amplitude in radians": [lambda: ikeda(np.radians(8.0))],
     "bilge keels in millimetres": [lambda: ikeda(8.0, bilge_keel_length=35.0, bilge_keel_breadth=400.0)],
     "a mooring counted twice": [lambda: moored(mooring=MOORING), moored],
-    "two ships that are not as computed": [
-        lambda: pair(20.0), lambda: pair(30.0).require(names=["feeder", "crane"]),
-        lambda: pair(30.0).require(positions={"feeder": (0.0, 28.0, 0.0)}),
-    ],
+    "two ships that are not as computed": [lambda: pair(20.0),
+        lambda: pair(30.0).require(names=["feeder", "crane"]),
+        lambda: pair(30.0).require(positions={"feeder": (0.0, 28.0, 0.0)})],
     "kilonewtons for newtons at a winch": [
-        lambda: hung(lag=0.1, drum_inertia=500.0, drum_radius=0.5, maximum_tension=300)
-    ],
+        lambda: hung(lag=0.1, drum_inertia=500.0, drum_radius=0.5, maximum_tension=300)],
     "a load that starts inside a guide": [a_guide_ten_centimetres_off],
     "a line too short for the pose": [lambda: hung({"length": 14.9, "tension_at_start": None})],
     "a load that carries itself under water": [
-        lambda: on_a_ship(height=-9.0, parts=[BoxPart(size=(6, 4, 4), fill=0.2)])
-    ],
-    "a load on no deck": [
-        lambda: on_a_ship(on="vessel", height=10.0), lambda: on_a_ship(slew=0.0, on="vessel", height=5.0)
-    ],
+        lambda: on_a_ship(height=-9.0, parts=[BoxPart(size=(6, 4, 4), fill=0.2)])],
+    "a load on no deck": [lambda: on_a_ship(on="vessel", height=10.0),
+        lambda: on_a_ship(slew=0.0, on="vessel", height=5.0)],
     "a sea without its height": [
-        lambda: Scene(name="settings").add_sea(vessel=None, hs=None, tp=8.0, direction_deg=90.0)
-    ],
+        lambda: Scene(name="settings").add_sea(vessel=None, hs=None, tp=8.0, direction_deg=90.0)],
     "a line connected too short": [a_tagline_connected_short],
     "a wire that resonates, as quasi-static": [a_resonant_wire_as_quasi_static],
-    "water shallower than the path": [
-        lambda: lowered(50.0, stages=True), lambda: lowered(15.0, stages=False)
-    ],
+    "water shallower than the path": [lambda: lowered(50.0, stages=True),
+        lambda: lowered(15.0, stages=False)],
     "drag along axes of the world": [drag_of_the_world],
     "added mass in tonnes": [
-        lambda: on_its_side(BoxPart(size=(6, 4, 3), added_mass=(30, 40, 90), source="a tank"))
-    ],
-    "sizes in water in another unit": [
-        lambda: on_its_side(PlatePart(size=(6, 4), thickness=20)),
-        lambda: on_its_side(BoxPart(size=(600, 400, 300))),
-    ],
+        lambda: on_its_side(BoxPart(size=(6, 4, 3), added_mass=(30, 40, 90), source="a tank"))],
+    "sizes in water in another unit": [lambda: on_its_side(PlatePart(size=(6, 4), thickness=20)),
+        lambda: on_its_side(BoxPart(size=(600, 400, 300)))],
     "a part far from its body": [lambda: on_its_side(BoxPart(size=(6, 4, 3), point=(0, 0, 1500)))],
     "texts for numbers": [
-        lambda: lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
-    ],
+        lambda: lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])],
     "EA in kilonewtons": [lambda: hung({"EA": 5e4})],
     "times in milliseconds": [lambda: hung(rate=-0.3, lag=200.0)],
-    "lengths and speeds in millimetres": [
-        lambda: hung(lag=0.2, drum_inertia=1e3, drum_radius=500.0), lambda: hung(rate=100.0, lag=0.2)
-    ],
+    "lengths and speeds in millimetres": [lambda: hung(lag=0.2, drum_inertia=1e3, drum_radius=500.0),
+        lambda: hung(rate=100.0, lag=0.2)],
     "pressures in bar": [lambda: on_gas(39.2, 0.1)],
     "volumes in litres": [lambda: on_gas(39.2e5, 100.0)],
     "percentages for shares": [lambda: hung({"damping_ratio": 2.0})],
     "a heave in centimetres": [lambda: record(150.0)],
     "a record with noise": [lambda: record(1.5, noise=5e-3)],
-    "phases of the other sign, or in degrees": [
-        lambda: raos(np.conj), lambda: raos(lambda v: np.abs(v) * np.exp(1j * np.degrees(np.angle(v))))
-    ],
+    "phases of the other sign, or in degrees": [lambda: raos(np.conj),
+        lambda: raos(lambda v: np.abs(v) * np.exp(1j * np.degrees(np.angle(v))))],
     "a load that comes back to its deck": [lift_off_too_slowly],
-    "a deck upside down, or above the feet": [
-        lambda: on_deck(axis=(0, 0, -1), place=(0, 0, 1.0)), lambda: on_deck(place=(0, 0, 2.8))
-    ],
+    "a deck upside down, or above the feet": [lambda: on_deck(axis=(0, 0, -1), place=(0, 0, 1.0)),
+        lambda: on_deck(place=(0, 0, 2.8))],
 }  # fmt: skip
 FILES = {__file__, mistaken_units.__file__, named.__file__}
 
