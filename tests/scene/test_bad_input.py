@@ -416,6 +416,7 @@ DATES = np.array(["2026-01-01"] * 3, dtype="M8[D]")
     (lambda: simulate(pendulum(), t_end=2.0, **at_one_second()), "period is 1e-20 s"),
     (force(np.array([1, b"2", 3], dtype=object)), "force.*give .*number"),
     (lambda: Scene().add_body(name="x", mass=1, inertia=DATES), "inertia.*give .*number"),
+    (lambda: Scene().add_body(name="x", mass=1), "body 'x'.*neither inertia nor size"),
     (lambda: Scene().add_crane(foot=("33", "10", "10")), "foot.*give .*number"),
     (lambda: Payload(mass="20e3"), "mass.*give .*number"),
     (lambda: inverse_dynamics(pendulum(), times=["0", "1"]), "times.*give .*number"),

@@ -197,6 +197,13 @@ def wind_where_it_comes_from() -> None:
     simulate(driven(scene), t_end=1.0)
 
 
+def body_in_tonnes() -> None:
+    scene = lift()
+    load = scene.bodies.pop("payload")
+    scene.add_body(name="payload", mass=20.0, inertia=[70.0, 70.0, 80.0], position=load.position)
+    simulate(driven(scene), t_end=1.0)
+
+
 def a_tower_too_heavy() -> None:
     scene = Scene(name="top-heavy")
     scene.add_vessel(shipped_database(), memory="none")
@@ -325,7 +332,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a record in degrees": [record_in_degrees],
     "radians where degrees are meant": [lambda: lift(sea=np.pi * 3 / 4, ballast=False)],
     "compass directions": [lambda: lift(sea=315.0, ballast=False), wind_where_it_comes_from],
-    "tonnes for kilograms": [lambda: Payload(mass=20.0)],
+    "tonnes for kilograms": [lambda: Payload(mass=20.0), body_in_tonnes],
     "depth with the wrong sign": [
         lambda: SeaState(systems=[waves()]).realise().waves.kinematics(time=0, x=0, y=0, z=[10.0, 30.0]),
         lambda: SeaState(systems=[waves()], depth=-60.0)],
