@@ -18,20 +18,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seacrane import (
-    Curve,
-    Frame,
-    Run,
-    SampledController,
-    Scene,
-    SceneError,
-    SimulationError,
-    State,
-    _core,
-    simulate,
-)
+from seacrane import Curve, Frame, Run, SampledController, Scene, State, _core, simulate
 from seacrane.analysis import Evaluator, inverse_dynamics
 from seacrane.crane import Payload
+from seacrane.errors import SceneError, SimulationError
 from seacrane.hydro import StateSpaceBlock
 from seacrane.scene import HullLoads, Waves, spline_curve
 
@@ -445,13 +435,8 @@ NEAR = st.lists(NUMBER, min_size=3, max_size=3)
 @st.composite
 def plausible_joint(draw: st.DrawFn) -> dict[str, Any]:
     first, second = draw(st.permutations(["a", "b", "ground"]))[:2]
-    joint = {
-        "kind": draw(st.sampled_from(KINDS)),
-        "first": first,
-        "second": second,
-        "point": draw(NEAR),
-        "axis": draw(NEAR),
-    }
+    joint = {"kind": draw(st.sampled_from(KINDS)), "first": first, "second": second}
+    joint |= {"point": draw(NEAR), "axis": draw(NEAR)}
     about = joint_examples.KINDS[joint["kind"]]
     if about.own_axis:
         joint["second_axis"] = draw(NEAR)

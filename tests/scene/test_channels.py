@@ -12,25 +12,13 @@ import numpy as np
 import pytest
 from test_restart import chain, crank
 
-from seacrane import (
-    Criterion,
-    Outputs,
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    Stage,
-    _core,
-    allowable_hs,
-    cases,
-    ensemble,
-    shipped_database,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Outputs, Run, Scene, Stage, _core, cases, ensemble, simulate, simulate_stages
 from seacrane.description import channels
 from seacrane.description.channels import DERIVED, FIXED, NAMED, OWN
-from seacrane.result import CHANNELS, result, result_file
+from seacrane.errors import SceneError
+from seacrane.hydro import shipped_database
+from seacrane.operability import Criterion, allowable_hs
+from seacrane.result import CHANNELS, Result, result, result_file
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")

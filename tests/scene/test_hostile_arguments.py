@@ -20,12 +20,9 @@ pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarni
 
 NAN, INF = float("nan"), float("inf")
 SETTINGS = settings(
-    max_examples=80,
-    deadline=None,
-    phases=(Phase.explicit, Phase.generate),
+    max_examples=80, deadline=None, phases=(Phase.explicit, Phase.generate), database=None,
     suppress_health_check=[HealthCheck.too_slow],
-    database=None,
-)
+)  # fmt: skip
 LONGEST_MESSAGE = 2000
 
 

@@ -19,27 +19,13 @@ from named import on_joint, on_wire
 from slipped_scenes import MASS, G, with_load
 
 import seacrane
-from seacrane import (
-    Curve,
-    MotionRaos,
-    SampledController,
-    Scene,
-    SeaState,
-    Stage,
-    Until,
-    WaveSystem,
-    balance,
-    equilibrium,
-    shipped_database,
-    simulate,
-    simulate_stages,
-)
-from seacrane.analysis import driven, reflected_inertia
+from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate, simulate_stages
+from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
 from seacrane.crane import Payload
-from seacrane.hydro import HydroGroup, ikeda_roll_damping
+from seacrane.hydro import HydroGroup, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.scene.wind_current import FlowCoefficients
-from seacrane.sea import jonswap
+from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.water import BoxPart, PlatePart, TablePart
 
 PAGE = (Path(__file__).parents[2] / "docs" / "mistakes.md").read_text()

@@ -7,17 +7,8 @@ from pathlib import Path
 
 CALLS = {"eval", "exec", "compile", "__import__", "execfile"}
 MODULES = {
-    "pickle",
-    "cPickle",
-    "_pickle",
-    "dill",
-    "cloudpickle",
-    "joblib",
-    "shelve",
-    "marshal",
-    "runpy",
-    "code",
-}
+    "pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "shelve", "marshal", "runpy", "code",
+}  # fmt: skip
 # A .py script named on the command line is run, as the command says; YAML is read by a safe loader; an
 # ensemble hands its study to workers as bytes, which are in no file.
 ALLOWED = {

@@ -12,24 +12,12 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from test_relative_motion import hoisting, tumbling
 
-from seacrane import (
-    Criterion,
-    FileFormatError,
-    Kept,
-    Lift,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    cases,
-    ensemble,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Kept, Lift, Result, Scene, Stage, Until, cases, ensemble, simulate, simulate_stages
 from seacrane.analysis import linear_model
 from seacrane.description.expression import DEEPEST, FUNCTIONS, LONGEST, parsed
 from seacrane.description.file import scene_digest
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.operability import Criterion
 from seacrane.operability.linear_channels import linear_channels
 
 

@@ -9,19 +9,10 @@ import numpy as np
 import pytest
 from named import pendulum
 
-from seacrane import (
-    Criterion,
-    Kept,
-    Result,
-    SceneError,
-    Until,
-    cases,
-    ensemble,
-    extremes,
-    simulate,
-)
+from seacrane import Criterion, Kept, Result, Until, cases, ensemble, extremes, simulate
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.pick import Pick, column_name, pick_of
+from seacrane.errors import SceneError
 
 
 @pytest.fixture(scope="module")

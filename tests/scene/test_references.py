@@ -11,17 +11,8 @@ import numpy as np
 import pytest
 from named import on_joint
 
-from seacrane import (
-    Curve,
-    Frame,
-    Result,
-    Run,
-    SampledController,
-    Scene,
-    SceneError,
-    SimulationError,
-    simulate,
-)
+from seacrane import Curve, Frame, Result, Run, SampledController, Scene, simulate
+from seacrane.errors import SceneError, SimulationError
 from seacrane.warnings import (
     DriverImpulseWarning,
     FreeCraneWarning,
