@@ -62,17 +62,12 @@ class View:
 
 AS_DRAWN = View()
 VIEWS = {
-    "mirrored": View(mirrored=True),
-    "turned": View(turn_deg=73.0),
-    "shifted": View(shift=(310.0, -140.0)),
-    "later": View(later=7.3),
-    "cut in two": View(cut=True),
-    "twice half": View(twice_half=True),
+    "mirrored": View(mirrored=True), "turned": View(turn_deg=73.0), "shifted": View(shift=(310.0, -140.0)),
+    "later": View(later=7.3), "cut in two": View(cut=True), "twice half": View(twice_half=True),
     "other": View(other=True),
-    "all": View(
-        mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True, other=True
-    ),
-}
+    "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True,
+                other=True),
+}  # fmt: skip
 
 
 @cache

@@ -40,18 +40,15 @@ class Shape:
 def shapes(draw: st.DrawFn, *, loops: int = 0, most: int = 6, **fixed: Any) -> Shape:
     """Trees of up to `most` bodies with up to `loops` joints more than a tree has."""
     count = draw(st.integers(1, most))
-    return Shape(
-        **{
-            "seed": draw(st.integers(0, 2**32 - 1)),
-            "parents": tuple(draw(st.integers(-1, i - 1)) for i in range(count)),
-            "kinds": tuple(draw(st.sampled_from(KINDS)) for _ in range(count)),
-            "swapped": tuple(draw(st.booleans()) for _ in range(count)),
-            "closing": tuple(draw(st.lists(st.sampled_from(CLOSING), max_size=loops))),
-            "base": draw(st.sampled_from(["ground", "floating", "vessel"])),
-            "driven": draw(st.booleans()),
-            **fixed,
-        }
-    )
+    drawn = {
+        "seed": draw(st.integers(0, 2**32 - 1)),
+        "parents": tuple(draw(st.integers(-1, i - 1)) for i in range(count)),
+        "kinds": tuple(draw(st.sampled_from(KINDS)) for _ in range(count)),
+        "swapped": tuple(draw(st.booleans()) for _ in range(count)),
+        "closing": tuple(draw(st.lists(st.sampled_from(CLOSING), max_size=loops))),
+        "base": draw(st.sampled_from(["ground", "floating", "vessel"])), "driven": draw(st.booleans()),
+    }  # fmt: skip
+    return Shape(**drawn | fixed)
 
 
 def unit(rng: np.random.Generator) -> Array:
