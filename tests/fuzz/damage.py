@@ -14,11 +14,9 @@ from typing import Any
 
 from fuzz.targets import CORPUS, TARGETS
 
-SOUND = {
-    "orcaflex": "model",
-    "orcaflex-text": "model",
-    "lift": "every-table",
-}  # where a target's sound file is not that of a set
+SOUND = {  # where a target's sound file is not that of a set
+    "orcaflex": "model", "orcaflex-text": "model", "lift": "every-table"
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -39,19 +37,18 @@ class Damage:
             assert old in sound, f"{self.target} does not hold {old!r}"
             return sound.replace(old, new, 1)
         if "line" in self.edit:
-            lines = sound.decode().splitlines(keepends=True)
-            text = self.edit["text"]
+            lines, text = sound.decode().splitlines(keepends=True), self.edit["text"]
             lines[self.edit["line"] - 1] = "" if text is None else f"{text}\n"
             return "".join(lines).encode()
         document = json.loads(sound)
-        keys, value = self.edit["set"]
+        (*path, last), value = self.edit["set"]
         entry = document
-        for key in keys[:-1]:
+        for key in path:
             entry = entry[key]
         if value is None:
-            del entry[keys[-1]]
+            del entry[last]
         else:
-            entry[keys[-1]] = value
+            entry[last] = value
         return json.dumps(document).encode()
 
 
@@ -65,8 +62,5 @@ def sound_case(name: str) -> bytes:
 def damages(name: str | None = None) -> list[Damage]:
     """All of the list, or those of one target."""
     lines = [json.loads(line) for line in Path(CORPUS / "damage.jsonl").read_text().splitlines()]
-    return [
-        Damage(line.pop("target"), line, line.pop("answer"))
-        for line in lines
-        if name in (None, line["target"])
-    ]
+    found = [Damage(line.pop("target"), line, line.pop("answer")) for line in lines]
+    return [damage for damage in found if name in (None, damage.target)]

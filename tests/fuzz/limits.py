@@ -32,17 +32,9 @@ class Hang(BaseException):
 
 @contextlib.contextmanager
 def bounded(size: int, announced: Callable[[], int] | None = None) -> Iterator[None]:
-    """Raise if the block takes more than a file of so many bytes may.
-
-    Parameters
-    ----------
-    size : int
-        Bytes of the file.
-    announced : callable, optional
-        Gives the bytes of the arrays that it announces, where these may be compressed.
-    """
+    """Raise if the block takes more than a file of so many bytes may. `announced` gives the bytes of arrays,
+    where these may be compressed."""
     seconds = (SECONDS if announced is None else UNFOLDING) + SECONDS_PER_BYTE * size
-    most = MEMORY + MEMORY_PER_BYTE * size
 
     def hang(*_: Any) -> None:
         raise Hang(f"{size} bytes took more than {seconds:.3g} s of processor time")
@@ -56,6 +48,7 @@ def bounded(size: int, announced: Callable[[], int] | None = None) -> Iterator[N
         signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
         signal.signal(signal.SIGVTALRM, handler)
     taken = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 - before
+    most = MEMORY + MEMORY_PER_BYTE * size
     if taken > most and announced is not None:
         most += ARRAYS * announced()
     if taken > most:

@@ -14,6 +14,7 @@ import json
 import os
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -33,7 +34,14 @@ SLICE = 50_000  # cases of one process
 
 def main() -> int:
     """All targets named, in slices, until each has had its cases."""
-    options = _options()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    parser.add_argument("--cases", type=int, default=1_000_000, help="of each target, earlier calls included")
+    parser.add_argument("--seconds", type=float, default=1e9, help="after which no slice is begun")
+    parser.add_argument("--slice-seconds", type=float, default=60.0, help="processor time of each in turn")
+    parser.add_argument("--out", type=Path, default=Path("out/fuzz"))
+    parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
+    options = parser.parse_args()
     if options.child:
         return _child(options.targets[0], options)
     from fuzz.targets import TARGETS
@@ -50,18 +58,7 @@ def main() -> int:
         for name in left:
             if time.monotonic() < end:
                 _slice(name, options)
-    return _report(names, options)
-
-
-def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("targets", nargs="*", metavar="TARGET")
-    parser.add_argument("--cases", type=int, default=1_000_000, help="of each target, earlier calls included")
-    parser.add_argument("--seconds", type=float, default=1e9, help="after which no slice is begun")
-    parser.add_argument("--slice-seconds", type=float, default=60.0, help="processor time of each in turn")
-    parser.add_argument("--out", type=Path, default=Path("out/fuzz"))
-    parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
-    return parser.parse_args()
+    return _report({name: _count(options.out, name) for name in names})
 
 
 def _count(out: Path, name: str) -> dict[str, Any]:
@@ -84,16 +81,13 @@ def _slice(name: str, options: argparse.Namespace) -> None:
         log.rename(log.with_name(f"log-{int(time.time())}.txt"))
 
 
-def _report(names: list[str], options: argparse.Namespace) -> int:
-    unsound = 0
+def _report(counts: dict[str, dict[str, Any]]) -> int:
     print(f"{'target':18} {'cases':>9} {'values':>9} {'refused':>9} {'per s':>7}  unsound")
-    for name in names:
-        found = _count(options.out, name)
-        unsound += len(found["unsound"])
+    for name, found in counts.items():
         rate = found["cases"] / max(found["seconds"], 1e-9)
         numbers = " ".join(f"{found[key]:9}" for key in ("cases", "value", "refused"))
         print(f"{name:18} {numbers} {rate:7.0f}  {found['unsound']}")
-    return 1 if unsound else 0
+    return int(any(found["unsound"] for found in counts.values()))
 
 
 def _child(name: str, options: argparse.Namespace) -> int:
@@ -122,15 +116,11 @@ def _child(name: str, options: argparse.Namespace) -> int:
         mutator["custom_mutator"] = harness.mutate
         arguments += ["-mutate_depth=1", "-cross_over=0"]  # the mutator decides how much changes at a time
     atheris.Setup(arguments, harness, **mutator)
-    soft = _address_space() + MEMORY
-    resource.setrlimit(resource.RLIMIT_AS, (soft, soft))
+    taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, taken + MEMORY))
     with quiet():
         atheris.Fuzz()
     return 0
-
-
-def _address_space() -> int:
-    return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
 
 
 class Harness:
@@ -156,17 +146,10 @@ class Harness:
         self.fresh += 1
         if self.fresh % 500 == 0 or self.fresh < 3:
             self._save()
-            if self.fresh >= SLICE or self.count["cases"] >= self.options.cases or self._over():
-                self._finish()
-
-    def _over(self) -> bool:
-        return time.process_time() - self.start > self.options.seconds
-
-    def _finish(self) -> None:
-        for file in self.folder.iterdir():
-            file.unlink()
-        self.folder.rmdir()
-        os._exit(0)
+            over = time.process_time() - self.start > self.options.seconds
+            if over or self.fresh >= SLICE or self.count["cases"] >= self.options.cases:
+                shutil.rmtree(self.folder)
+                os._exit(0)
 
     def _save(self) -> None:
         self.count["seconds"] = self.before + time.process_time() - self.start
@@ -174,13 +157,8 @@ class Harness:
         os.replace(self.home / "count.new", self.home / "count.json")
 
     def _keep(self, data: bytes, error: BaseException) -> None:
-        frames = traceback.extract_tb(error.__traceback__)
-        own = [
-            frame
-            for frame in frames
-            if "seacrane" in Path(frame.filename).parts[-3:-1] or "hydro" in frame.filename
-        ]
-        frame = (own or list(frames))[-1]
+        frames = list(traceback.extract_tb(error.__traceback__))
+        frame = ([one for one in frames if "/seacrane/" in one.filename] or frames)[-1]
         place = f"{type(error).__name__} {Path(frame.filename).name}:{frame.lineno}"
         if place not in self.count["unsound"]:
             (self.home / f"unsound-{place.replace(' ', '-').replace(':', '-')}").write_bytes(data)

@@ -136,52 +136,30 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def _veres(path: Path) -> Any:
-    return veres.read_veres(path.with_suffix(""))
+Reader = Callable[[Path], Any]
 
 
-def _wamit(path: Path) -> Any:
-    return wamit.read_wamit(path.with_suffix(""))
+def _of(read: Callable[..., Any], at: Callable[[Path], Path] = Path, *asked: Reader, **given: Any) -> Reader:
+    """Reads at a place that follows from that of a case, and asks first what `load_database` asks."""
+
+    def read_it(path: Path) -> Any:
+        for ask in asked:
+            ask(at(path))
+        return read(at(path), **given)
+
+    return read_it
 
 
-def _capytaine(path: Path) -> Any:
-    capytaine.is_capytaine(path)  # as `load_database` asks first
-    return capytaine.read_capytaine(path)
+def _folder(path: Path) -> Path:
+    return path.parent
 
 
-def _nemoh(path: Path) -> Any:
-    return nemoh.read_nemoh(path.parent)
+def _stem(path: Path) -> Path:
+    return path.with_suffix("")
 
 
-def _bemio(path: Path) -> Any:
-    bemio.is_bemio(path)
-    return bemio.read_bemio(path)
-
-
-def _wamit_group(path: Path) -> Any:
-    """As `load_database` asks first."""
-    for kind in OF_SEVERAL:
-        kind.can_open(path.with_suffix(".out"))
-    return wamit_group.read_wamit_group(path.with_suffix(".out"))
-
-
-def _nemoh_group(path: Path) -> Any:
-    nemoh_group.FORMAT.can_open(path.parent)
-    return nemoh_group.read_nemoh_group(path.parent)
-
-
-def _capytaine_group(path: Path) -> Any:
-    capytaine_group.FORMAT.can_open(path)
-    return capytaine_group.read_capytaine_group(path)
-
-
-def _bemio_group(path: Path) -> Any:
-    bemio_group.FORMAT.can_open(path)
-    return bemio_group.read_bemio_group(path)
-
-
-def _mafredo(path: Path) -> Any:
-    return orcaflex.read_orcaflex(path, mass_matrix=np.diag([1e7] * 3 + [1e9] * 3), restoring=np.eye(6) * 1e7)
+def _listing(path: Path) -> Path:
+    return path.with_suffix(".out")
 
 
 def _hull_of_offsets(path: Path) -> Any:
@@ -190,10 +168,6 @@ def _hull_of_offsets(path: Path) -> Any:
 
 def _hull_of_stl(path: Path) -> Any:
     return Hull.from_stl(path).panels
-
-
-def _gltf(path: Path) -> Any:
-    return read_gltf(path, most=1000)
 
 
 def _scene(path: Path) -> Any:
@@ -205,8 +179,7 @@ def _scene(path: Path) -> Any:
 
 def _crane(path: Path) -> Any:
     """A crane file that is read gives bodies with mass and inertia."""
-    crane = KnuckleBoomCrane.load(path)
-    return list(crane.mass_properties.values())
+    return list(KnuckleBoomCrane.load(path).mass_properties.values())
 
 
 def _jointed(path: Path) -> Any:
@@ -218,7 +191,6 @@ def _jointed(path: Path) -> Any:
 
 
 def _urdf(path: Path) -> Any:
-    """A URDF file that is read gives bodies with mass and inertia."""
     return [body.properties for body in read_urdf(path).bodies]
 
 
@@ -245,10 +217,8 @@ def _measured(path: Path) -> Any:
     except (ValueError, RecursionError):
         raise SceneError("no JSON") from None
     known = {entry.name for entry in fields(sea.MeasuredWaves)} - {"spreading"}
-    if (
-        not isinstance(arguments, dict)
-        or not {"time", "elevation", "direction_deg"} <= set(arguments) <= known
-    ):
+    needed = {"time", "elevation", "direction_deg"}
+    if not isinstance(arguments, dict) or not needed <= set(arguments) <= known:
         raise SceneError("other arguments")
     waves = sea.MeasuredWaves(**arguments)
     components = waves.waves(direction=np.radians(waves.direction_deg), depth=np.inf)
@@ -286,42 +256,35 @@ def _result(path: Path) -> Any:
     return [] if found.interrupted else list(found.channels.values())
 
 
-_NETCDF = ("inputs/netcdf_limits.py", "inputs/hdf5_structure.py")
+def _under(folder: str, names: str) -> tuple[str, ...]:
+    return tuple(f"{folder}/{name}.py" for name in names.split())
+
+
+_NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
 _SCENE = (
-    "description/file.py",
-    "inputs/node.py",
-    "description/file_waves.py",
-    "description/file_text.py",
-    "description/file_origin.py",
-    "inputs/plain_data.py",
-    "description/file_elements.py",
+    *_under("description", "file file_waves file_text file_origin file_elements"),
+    *_under("inputs", "node plain_data"),
 )
-_ORCAFLEX = ("hydro/readers/orcaflex.py", "hydro/readers/orcaflex_model.py")
-_VERES = tuple(
-    f"hydro/readers/{name}.py"
-    for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
-)
-_WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
-_WAMIT_GROUP = tuple(f"hydro/readers/{name}.py" for name in ("wamit_group", "wamit_listing"))
-_NEMOH = ("hydro/readers/nemoh.py",)
-_NEMOH_GROUP = ("hydro/readers/nemoh_group.py",)
-_NEMOH_FILES = (nemoh.RADIATION, nemoh.EXCITATION, nemoh.CONTROL, "Kh_1.dat", "Hydrostatics_1.dat")
-_LIFT = tuple(f"lift/{name}.py" for name in ("document", "text_lines", "check_keys", "curve_text"))
-_SERIES = tuple(f"series/{name}.py" for name in ("series_file", "headings", "reading", "rows", "clock"))
-_RECORDED = (*_SERIES, "series/mending.py", "scene/recorded_motion.py")
-_SHAPE = (FileFormatError, ValueError)
+_HYDRO = "hydro/readers"
+_ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
+_VERES = _under(_HYDRO, "veres veres_files veres_set veres_hydrostatics text_records")
+_WAMIT = _under(_HYDRO, "wamit wamit_control wamit_tables")
+_WAMIT_GROUP = _under(_HYDRO, "wamit_group wamit_listing")
+_RECORDED = (*_under("series", "series_file headings reading rows clock mending"), "scene/recorded_motion.py")
+_LIFT = _under("lift", "document text_lines check_keys curve_text")
+_JOINTED = _under("crane", "jointed_file jointed_check link_frames")
+_URDF = _under("crane", "urdf urdf_values urdf_visuals")
+_SHAPE, _SEEN = (FileFormatError, ValueError), (FileFormatError, SceneError)
+_MATRICES = {"mass_matrix": np.diag([1e7] * 3 + [1e9] * 3), "restoring": np.eye(6) * 1e7}
 
 
-def _set_targets(
-    name: str, kinds: str, read: Callable[[Path], Any], modules: tuple[str, ...]
-) -> list[Target]:
+def _set_targets(name: str, files: str, read: Reader, modules: tuple[str, ...]) -> list[Target]:
     """One target for each file of a set, the others being sound."""
-    return [
-        Target(f"{name}-{kind}", name, f"box.{kind}", read, modules, beside=name) for kind in kinds.split()
-    ]
+    kinds = {file: file.split(".")[file.startswith("box.")].lower() for file in files.split()}
+    return [Target(f"{name}-{kinds[file]}", name, file, read, modules, beside=name) for file in kinds]
 
 
-def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], *modules: str) -> list[Target]:
+def _netcdf_targets(name: str, file: str, read: Reader, *modules: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
     return [
         Target(name, name, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
@@ -329,53 +292,54 @@ def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], *modules:
     ]
 
 
-_JOINTED = ("crane/jointed_file.py", "crane/jointed_check.py", "crane/link_frames.py")
-_URDF = ("crane/urdf.py", "crane/urdf_values.py", "crane/urdf_visuals.py")
+def _asked_of_several(path: Path) -> None:
+    for kind in OF_SEVERAL:
+        kind.can_open(path)
+
+
+_VERES_FILES = "box.re7 box.re8 box.re1 box.re2 box.hyd"
+_WAMIT_FILES = "box.1 box.3 box.4 box.hst box.frc box.out box.cfg"
+_NEMOH = f"{nemoh.RADIATION} {nemoh.EXCITATION} "
+_NEMOH_FILES = _NEMOH + f"{nemoh.STIFFNESS} {nemoh.HYDROSTATICS} {nemoh.CONTROL}"
+_NEMOH_PAIR = _NEMOH + f"{nemoh.CONTROL} Kh_1.dat Hydrostatics_1.dat"
+_nemoh_pair = _of(nemoh_group.read_nemoh_group, _folder, nemoh_group.FORMAT.can_open)
+_wamit_pair = _of(wamit_group.read_wamit_group, _listing, _asked_of_several)
+_of_capytaine = _of(capytaine.read_capytaine, Path, capytaine.is_capytaine)
+_of_capytaine_pair = _of(capytaine_group.read_capytaine_group, Path, capytaine_group.FORMAT.can_open)
+_of_bemio = _of(bemio.read_bemio, Path, bemio.is_bemio)
+_of_mafredo = _of(orcaflex.read_orcaflex, **_MATRICES)
+_of_bemio_pair = _of(bemio_group.read_bemio_group, Path, bemio_group.FORMAT.can_open)
 _ALL = [
-    *_set_targets("veres", "re7 re8 re1 re2 hyd", _veres, _VERES),
-    *_set_targets("wamit", "1 3 4 hst frc out cfg", _wamit, _WAMIT),
-    *[
-        Target(f"nemoh-{name.split('.')[0].lower()}", "nemoh", name, _nemoh, _NEMOH, beside="nemoh")
-        for name in (nemoh.RADIATION, nemoh.EXCITATION, nemoh.STIFFNESS, nemoh.HYDROSTATICS, nemoh.CONTROL)
-    ],
+    *_set_targets("veres", _VERES_FILES, _of(veres.read_veres, _stem), _VERES),
+    *_set_targets("wamit", _WAMIT_FILES, _of(wamit.read_wamit, _stem), _WAMIT),
+    *_set_targets("nemoh", _NEMOH_FILES, _of(nemoh.read_nemoh, _folder), _under(_HYDRO, "nemoh")),
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
-    *_set_targets("wamit-group", "out 1 3 hst", _wamit_group, _WAMIT_GROUP),
-    Target("wamit-listing", "wamit-listing", "box.out", _wamit_group, _WAMIT_GROUP),
-    *[
-        Target(
-            f"nemoh-group-{name.split('.')[0].lower()}", "nemoh-group", name, _nemoh_group, _NEMOH_GROUP,
-            beside="nemoh-group",
-        )
-        for name in _NEMOH_FILES
-    ],
+    *_set_targets("wamit-group", "box.out box.1 box.3 box.hst", _wamit_pair, _WAMIT_GROUP),
+    Target("wamit-listing", "wamit-listing", "box.out", _wamit_pair, _WAMIT_GROUP),
+    *_set_targets("nemoh-group", _NEMOH_PAIR, _nemoh_pair, _under(_HYDRO, "nemoh_group")),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
     Target("stl", "stl", "hull.stl", _hull_of_stl, ("inputs/stl.py",), refusals=_SHAPE),
-    Target("gltf", "gltf", "box.gltf", _gltf, ("inputs/gltf.py",), mutate_json),
-    Target("gltf-bytes", "gltf", "box.glb", _gltf, ("inputs/gltf.py",), None),
+    Target("gltf", "gltf", "box.gltf", _of(read_gltf, most=1000), ("inputs/gltf.py",), mutate_json),
+    Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/gltf.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("study", "study", "study.toml", _study, ("lift/study_file.py",)),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
     Target("jointed", "jointed", "crane.toml", _jointed, _JOINTED),
     Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),
-    Target(
-        "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
-        refusals=(SceneError,),
-    ),
-    Target("series", "series", "mru.csv", _series, _RECORDED, refusals=(FileFormatError, SceneError)),
-    Target(
-        "motion-record", "series", "mru.csv", _motion_record, _RECORDED,
-        refusals=(FileFormatError, SceneError),
-    ),
+    Target("measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
+           refusals=(SceneError,)),
+    Target("series", "series", "mru.csv", _series, _RECORDED, refusals=_SEEN),
+    Target("motion-record", "series", "mru.csv", _motion_record, _RECORDED, refusals=_SEEN),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py",
                      "hydro/readers/seacrane_netcdf.py"),
-    *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
-    *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
-    *_netcdf_targets("bemio", "ship.h5", _bemio, "hydro/readers/bemio.py"),
-    *_netcdf_targets("capytaine-group", "pair.nc", _capytaine_group, "hydro/readers/capytaine_group.py"),
-    *_netcdf_targets("bemio-group", "pair.h5", _bemio_group, "hydro/readers/bemio_group.py"),
+    *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/mafredo_file.py"),
+    *_netcdf_targets("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
+    *_netcdf_targets("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
+    *_netcdf_targets("capytaine-group", "pair.nc", _of_capytaine_pair, f"{_HYDRO}/capytaine_group.py"),
+    *_netcdf_targets("bemio-group", "pair.h5", _of_bemio_pair, f"{_HYDRO}/bemio_group.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

@@ -1,8 +1,10 @@
-"""The core's table of channels is the only one: results, files and documents follow from it."""
+"""The core's table of channels is the only one: results, files and documents follow from it. One that a scene
+cannot have is refused by name, however it is asked for."""
 
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +12,13 @@ import numpy as np
 import pytest
 from test_restart import chain, crank
 
-from seacrane import Result, SceneError, _core, cases, simulate
+from seacrane import Outputs, Run, Scene, Stage, _core, cases, ensemble, simulate, simulate_stages
+from seacrane.description import channels
 from seacrane.description.channels import DERIVED, FIXED, NAMED, OWN
-from seacrane.result import CHANNELS
+from seacrane.errors import SceneError
+from seacrane.hydro import shipped_database
+from seacrane.operability import Criterion, allowable_hs
+from seacrane.result import CHANNELS, Result, result, result_file
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -20,66 +26,48 @@ pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarni
 TOOL = Path(__file__).parents[2] / "tools" / "channel_table.py"
 
 
-def tool() -> Any:
-    spec = importlib.util.spec_from_file_location("channel_table", TOOL)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def test_every_channel_has_a_name_of_its_own_dimensions_a_unit_and_a_text() -> None:
-    core = _core.channels()
-    assert len({channel.name for channel in core}) == len(core)
-    assert [*(channel.name for channel in core), *DERIVED] == list(CHANNELS)
+    """Not that of a dimension: a file has one name for either."""
+    core = [channel.name for channel in _core.channels()]
+    assert len(set(core)) == len(core) and [*core, *DERIVED] == list(CHANNELS)
+    assert not set(CHANNELS) & (NAMED | set(FIXED))
     for name, channel in CHANNELS.items():
         assert channel.dims[0] == channel.dims_of_several[0] == "time", name
         assert set(channel.dims_of_several[1:]) <= set(FIXED) | NAMED, name
         assert channel.unit and channel.long_name, name
-
-
-def test_no_channel_has_the_name_of_a_dimension() -> None:
-    """A file has one name for either."""
-    assert not set(CHANNELS) & (NAMED | set(FIXED))
-
-
-def test_what_a_scene_offers_by_default_is_what_the_table_says() -> None:
-    model = cases.case2().compile()
-    offered, default = model.channel_names(defaults_only=False), model.channel_names()
-    assert default == [name for name in offered if CHANNELS[name].by_default]
-    assert {"acceleration", "angular_acceleration"} <= set(offered) - set(default)
+    for name, derived in DERIVED.items():
+        assert set(derived.made_of) <= set(core) and bool(derived.made_of) == (name != OWN), name
 
 
 @pytest.mark.parametrize("make", [chain, crank, cases.case2])
 def test_every_channel_carries_the_names_of_the_scene(make: Any) -> None:
     scene = make()
     model = scene.compile()
-    result = simulate(scene, t_end=0.1, channels=model.channel_names(defaults_only=False))
-    for name, array in result.channels.items():
-        assert array.shape[1:] == tuple(len(result.coords[dim]) for dim in result.dims[name][1:]), name
+    offered, default = model.channel_names(defaults_only=False), model.channel_names()
+    assert default == [name for name in offered if CHANNELS[name].by_default]
+    assert {"acceleration", "angular_acceleration"} <= set(offered) - set(default)
+    run = simulate(scene, t_end=0.1, channels=offered)
+    for name, array in run.channels.items():
+        assert array.shape[1:] == tuple(len(run.coords[dim]) for dim in run.dims[name][1:]), name
     expected = {
         "body": scene.bodies, "joint": scene.joints, "joint_coordinate": scene.recorded,
         "actuator": scene.actuators, "driver": scene.drivers,
         "link": [name for name, joint in scene.joints.items() if joint.kind == "distance"],
     }  # fmt: skip
     for dim, names in expected.items():
-        assert result.coords.get(dim, ()) == tuple(names), dim
+        assert run.coords.get(dim, ()) == tuple(names), dim
 
 
 @pytest.mark.warns("UnitWarning")
 def test_several_vessels_are_told_apart_by_name() -> None:
     scene = cases.vessel(hs=0.0, memory="none")
-    there = next(iter(scene.vessels.values()))
+    there = scene.vessels["vessel"]
     scene.add_body(name="barge", mass=1e6, inertia=(1e8, 1e8, 1e8), position=(200.0, 0.0, 0.0))
-    scene.add_vessel(
-        body="barge",
-        added_mass=there.added_mass,
-        restoring=there.restoring,
-        linear_damping=there.linear_damping,
-    )
-    result = simulate(scene, t_end=0.1)
-    assert result.dims["vessel_motion"] == ("time", "vessel", "motion")
-    assert result.coords["vessel"] == tuple(scene.vessels)
+    same = {key: getattr(there, key) for key in ("added_mass", "restoring", "linear_damping")}
+    scene.add_vessel(body="barge", **same)
+    run = simulate(scene, t_end=0.1)
+    assert run.dims["vessel_motion"] == ("time", "vessel", "motion")
+    assert run.coords["vessel"] == tuple(scene.vessels)
 
 
 def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
@@ -94,36 +82,112 @@ def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
         assert alone.stats["evaluations"] == whole.stats["evaluations"], name
 
 
-def test_what_is_derived_says_what_it_is_made_of() -> None:
-    core = {channel.name for channel in _core.channels()}
-    for name, channel in DERIVED.items():
-        assert set(channel.made_of) <= core and bool(channel.made_of) == (name != OWN), name
-    with pytest.raises(SceneError, match="channel 'stroke' is unknown to this scene"):
-        simulate(chain(), t_end=0.1, channels=["stroke"])
-
-
 def test_an_axis_of_any_name_is_saved_and_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither results nor files know axes by name: a channel over a new one needs its entry alone."""
-    from seacrane.description import channels
-    from seacrane.result import result, result_file
-
     dims = ("time", "point", "axis")
     new = channels.Channel(dims=dims, dims_of_several=dims, unit="m", long_name="of named points")
-    table = {**CHANNELS, "point_position": new}
     for module in (channels, result):
-        monkeypatch.setattr(module, "CHANNELS", table)
+        monkeypatch.setattr(module, "CHANNELS", {**CHANNELS, "point_position": new})
     monkeypatch.setattr(result_file, "NAMED", NAMED | {"point"})
-    stats = simulate(chain(), t_end=0.1).stats
-    made = Result.from_arrays(
-        time=[0.0, 1.0], arrays={"point_position": np.arange(12.0).reshape(2, 2, 3)},
-        coords={"point": ["hook", "tip"]}, stats=stats,
-    )  # fmt: skip
+    arrays, stats = {"point_position": np.arange(12.0).reshape(2, 2, 3)}, simulate(chain(), t_end=0.1).stats
+    coords = {"point": ["hook", "tip"]}
+    made = Result.from_arrays(time=[0.0, 1.0], arrays=arrays, coords=coords, stats=stats)
     read = Result.load(made.save(tmp_path / "r.nc"))
     assert read.coords == made.coords == {"point": ("hook", "tip"), "axis": ("x", "y", "z")}
     assert np.array_equal(read.select("point_position", point="tip", axis="z"), [5.0, 11.0])
 
 
 def test_the_documented_table_is_current() -> None:
-    made = tool()
+    spec = importlib.util.spec_from_file_location("channel_table", TOOL)
+    assert spec is not None and spec.loader is not None
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
     text = made.DOCUMENT.read_text(encoding="utf-8")
     assert text == made.current(text), "run python tools/channel_table.py"
+
+
+def box() -> Scene:
+    scene = Scene(name="box")
+    scene.add_body("load", mass=1e3, size=(1, 1, 1), position=(0, 0, 5))
+    return scene
+
+
+def rod() -> Scene:
+    scene, ends = box(), {"point": (0, 0, 20), "second_point": (0, 0, 5)}
+    scene.add_joint(kind="distance", name="rod", first="ground", second="load", **ends)
+    scene.add_body("arm", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint(kind="prismatic", name="slide", first="ground", second="arm", axis=(1, 0, 0))
+    scene.add_driver(joint="slide", curve=0.0)
+    return scene
+
+
+def ship(*, crane: bool = False, hoist: bool = False) -> Scene:
+    scene = Scene(name="ship")
+    scene.add_vessel(shipped_database())
+    scene.add_sea(hs=1.0, tp=8.0, direction_deg=90.0)
+    if crane or hoist:
+        scene.add_crane()
+    if hoist:
+        scene.add_hoist(mass=1e4, size=(2, 2, 2), length=8.0, EA=1e7)
+    if crane or hoist:
+        scene.add_ballast()
+    return scene
+
+
+def ship_with_crane() -> Scene:
+    return ship(crane=True)
+
+
+def ship_with_hoist() -> Scene:
+    return ship(hoist=True)
+
+
+@pytest.mark.parametrize("make", [box, rod, ship, ship_with_crane, ship_with_hoist])
+def test_each_channel_is_recorded_or_refused_by_its_name(make: Callable[[], Scene]) -> None:
+    scene, refused = make(), set()
+    for channel in CHANNELS:
+        try:
+            run = Run(scene, 0.1, outputs=Outputs(channels=[channel]))
+        except SceneError as error:
+            assert f"channel {channel!r} is unknown to this scene" in str(error)
+            refused.add(channel)
+        else:
+            assert channel in run.measure(), channel
+    assert {"own", "clearance"} < refused < set(CHANNELS)
+
+
+def limited(scene: Scene, channel: str) -> Scene:
+    scene.add_limit_state(channel, maximum=1.0)
+    return scene
+
+
+def below_one(channel: str) -> Criterion:
+    return Criterion(channel=channel, maximum=1.0)
+
+
+ALL = [Stage(name="all", duration=0.1)]
+SEAS: dict[str, Any] = {"tp": [8.0], "direction_deg": [90.0], "hs": [1.0]}
+WAYS: dict[str, Callable[[Scene, str], Any]] = {
+    "outputs": lambda scene, name: simulate(scene, 0.1, channels=[name]),
+    "stages": lambda scene, name: simulate_stages(scene, ALL, channels=[name]),
+    "kept": lambda scene, name: ensemble(scene, over={"seed": [1]}, keep={"most": f"{name}.max"}),
+    "criterion": lambda scene, name: allowable_hs(scene, criteria=[below_one(name)], **SEAS),
+    "limit state": lambda scene, name: simulate(limited(scene, name), 0.1),
+    "limit state of stages": lambda scene, name: simulate_stages(limited(scene, name), ALL),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_it_is_refused_by_every_way_of_asking(way: str) -> None:
+    for channel in ("swing", "offlead", "utilisation", "tip_velocity", "line_tension"):
+        with pytest.raises(SceneError, match=f"channel '{channel}' is unknown to this scene; it"):
+            WAYS[way](ship(), channel)
+
+
+@pytest.mark.warns("LineLengthWarning")
+def test_what_a_later_stage_connects_is_recorded_there_and_its_limits_hold() -> None:
+    scene = limited(ship_with_hoist(), "swing")
+    stages = [Stage(name="before", duration=0.2), Stage(name="hooked", connect=["hoist"], duration=0.2)]
+    run = simulate_stages(scene, stages, channels=["swing", "position"], rtol=1e-3)
+    assert np.isnan(run["swing"][0]) and np.isfinite(run["swing"][-1])
+    assert np.isfinite(run.utilisation.largest)

@@ -18,7 +18,8 @@ from numpy.testing import assert_allclose
 from test_scene_file import every_kind
 
 from seacrane import Scene, SceneError, _core
-from seacrane.description.file import described, scene_from_bytes
+from seacrane.description.file import described as written
+from seacrane.description.file import scene_from_bytes
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 
@@ -27,6 +28,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarni
 
 LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
 FORCELESS = ("heave compensator",)  # only its states are for others
+OTHERS = ("body", "vessel", "point", "driver")
 SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" for field in type_.FIELDS)]
 
 
@@ -127,27 +129,56 @@ def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
     assert {name for name, row in zip(scene.bodies, load, strict=True) if np.any(row)} == set(concerned)
 
 
-@pytest.mark.parametrize("kind", LOADS)
-def test_every_entry_of_a_load_is_checked_and_named(kind: str) -> None:
-    type_, given = LOADS[kind], {}
+def described(kind: str) -> tuple[Scene, Any]:
+    """A scene with an element of a kind, and the element."""
+    scene = loaded_scene(kind) if kind in LOADS else three_bodies()
+    make = {
+        "vessel": lambda: scene.add_vessel(body="third", name="load"),
+        "point": lambda: scene.add_point(name="load", body="third"),
+        "driver": lambda: scene.add_driver(joint="joint", curve=0.0, name="load"),
+        "body": lambda: scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), size=(1, 1, 1)),
+    }
+    return scene, make[kind]() if kind in make else scene.all_loads()[0]
+
+
+@pytest.mark.parametrize("kind", [*SAVED, *OTHERS])
+def test_every_entry_of_an_element_is_checked_and_named(kind: str) -> None:
+    scene, element = described(kind)
+    type_, given = type(element), entries(element)
     for field in type_.FIELDS:
-        if field.type != "function":
-            given[field.name] = getattr(type_.example(), field.name)
-    given |= {field.name: 1 for field in type_.FIELDS if field.type == "function"}
-    type_(**given)
-    for field in type_.FIELDS:
-        with pytest.raises(SceneError, match=f"{kind}( 'load')?: {field.name} is .*; give "):
-            type_(**given | {field.name: {"a": 1}})
+        wrong: list[Any] = [{"a": 1}]
+        if field.type in ("number", "curve"):
+            wrong += ["1", None]
+        if field.type == "array":
+            wrong += [np.ones((2, 2, 2)), np.full(np.shape(given[field.name]), "1"), [[1.0], [1.0, 2.0]]]
+        for value in wrong:
+            told = f"(?s){kind}( 'load')?: {field.name} (is|has shape) .*; give "
+            with pytest.raises(SceneError, match=told):
+                type_(**given | {field.name: value})
         if field.required:
             with pytest.raises((SceneError, TypeError), match=f"{kind}( 'load')?: (has no )?{field.name}"):
                 type_(**{name: value for name, value in given.items() if name != field.name})
-        if field.type == "array":
-            with pytest.raises(SceneError, match=f"{field.name} has shape .*; give "):
-                type_(**given | {field.name: np.ones((2, 2, 2))})
+        if field.role in ("body", "joint"):
+            lost, name = scene.copy(), "lost" if field.type == "text" else ["lost", *given[field.name][1:]]
+            lost.replace("load", kind=None if kind in LOADS else kind, **{field.name: name})
+            with pytest.raises(SceneError, match=f"{kind} 'load'.*'lost'"):
+                lost.compile()
     with pytest.raises(TypeError, match="has no entry 'colour'; it takes "):
         type_(**given, colour="red")
+
+
+@pytest.mark.parametrize("kind", [kind for kind in LOADS if kind not in SAVED])
+def test_entries_that_no_file_holds_are_checked(kind: str) -> None:
+    type_, given = LOADS[kind], {"name": "load", "body": "first", "address": 1}
+    for field in (field for field in type_.FIELDS if field.type == "function"):
+        for wrong in ({"a": 1}, 0, -8, len):
+            with pytest.raises(SceneError, match=f"{kind} 'load': {field.name} is "):
+                type_(**given | {field.name: wrong})
+
+
+def test_a_kind_that_is_none_names_those_that_are() -> None:
     with pytest.raises(SceneError, match=r"load: kind 'string' is unknown; choose one of .*actuator, "):
-        Scene().add_load(kind="string", **given)
+        Scene().add_load(kind="string", name="load")
 
 
 def beyond(bounds: dict[str, float]) -> list[float]:
@@ -156,22 +187,25 @@ def beyond(bounds: dict[str, float]) -> list[float]:
     return [bound + below[word] for word, bound in bounds.items()] + [np.nan, np.inf]
 
 
-@pytest.mark.parametrize("kind", SAVED)
-def test_every_number_of_a_load_is_held_to_its_bound(kind: str) -> None:
-    for field in LOADS[kind].FIELDS:
-        given = getattr(LOADS[kind].example(), field.name)
-        single = field.type == "number" or field.type == "curve"
-        if not single and not (field.type == "array" and np.ndim(given) == 1 and np.size(given)):
+@pytest.mark.parametrize("kind", [*SAVED, *OTHERS])
+def test_every_number_of_an_element_is_held_to_its_bound(kind: str) -> None:
+    scene, element = described(kind)
+    for field in type(element).FIELDS:
+        given = getattr(element, field.name)
+        single = field.type in ("number", "curve")
+        if not single and not (field.type == "array" and np.size(given) > 1):
             continue
         place = "" if single else r"(\[1\]| holds)?"
         for wrong in beyond(field.bounds):
             if field.type == "curve" and not np.isfinite(wrong):
                 continue
-            scene = loaded_scene(kind)
-            value = wrong if single else np.where(np.arange(np.size(given)) == 1, wrong, given)
-            scene.replace("load", **{field.name: value})
+            value = wrong if single else np.array(given, dtype=float)
+            if not single:
+                value.flat[1] = wrong
+            other = scene.copy()
+            other.replace("load", kind=None if kind in LOADS else kind, **{field.name: value})
             with pytest.raises(SceneError, match=f"{kind} 'load': {field.name}{place}.* {to_six(wrong)}"):
-                scene.compile()
+                other.compile()
 
 
 def to_six(number: float) -> str:
@@ -208,7 +242,7 @@ def objects(data: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
 @pytest.mark.warns("MassUnitWarning")
 def test_a_file_without_one_of_its_entries_is_refused_by_its_name() -> None:
     """The first object of each kind, entry by entry."""
-    data = json.loads(json.dumps(described(every_load())))
+    data = json.loads(json.dumps(written(every_load())))
     seen = set()
     for path, one in objects(data):
         kind = (re.sub(r"\d+", "", path), one.get("kind"), *one)

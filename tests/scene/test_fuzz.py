@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 from fuzz.damage import Damage, damages, sound_case
+from fuzz.grow import grown
 from fuzz.limits import Hang
 from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
@@ -26,6 +27,7 @@ from seacrane.warnings import PartialSetWarning
 
 SHORT_RUN = 0.4  # s of processor time for each target
 MOST_CASES = 400
+LARGE = 100_000  # bytes
 TABLES = "re7 re8 re1 re2", "1 3 4 hst frc out"  # files of VERES and WAMIT that have to be whole
 WHOLE = [
     f"{name}-{kind}" for name, kinds in zip(("veres", "wamit"), TABLES, strict=True) for kind in kinds.split()
@@ -33,18 +35,19 @@ WHOLE = [
 OTHER_DAMPING = 3  # last lines of the OrcaFlex model, which it may lack
 
 
-def needs(target: Target) -> None:
+def placed(name: str, folder: Path) -> Target:
+    """A target among the files that stand beside its cases."""
+    target = TARGETS[name]
     if target.reader == "orcaflex":
         pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
+    target.place(folder)
+    return target
 
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_corpus(name: str, tmp_path: Path) -> None:
     """Each case is read or refused by name; the seeds are read."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
-    found: Counter[str] = Counter()
+    target, found = placed(name, tmp_path), Counter[str]()
     with quiet():
         for path in cases(target):
             found[target.run(path.read_bytes(), tmp_path)] += 1
@@ -54,9 +57,7 @@ def test_corpus(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("damage", damages(), ids=lambda damage: damage.target)
 def test_damage_is_answered(damage: Damage, tmp_path: Path) -> None:
-    target = TARGETS[damage.target]
-    needs(target)
-    target.place(tmp_path)
+    target = placed(damage.target, tmp_path)
     (tmp_path / target.file).write_bytes(damage.case())
     with quiet(), pytest.raises(FileFormatError, match=damage.answer) as caught:
         target.read(tmp_path / target.file)
@@ -66,9 +67,7 @@ def test_damage_is_answered(damage: Damage, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", [*WHOLE, "orcaflex-text"])
 def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
     """Refused with the file and the line, or, where only whole frequencies are gone, read with a warning."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
+    target = placed(name, tmp_path)
     lines = sound_case(name).splitlines(keepends=True)
     place = re.escape(target.file) + (r", line \d+" if name in WHOLE else "")
     for kept in range(len(lines) - (0 if name in WHOLE else OTHER_DAMPING)):
@@ -85,14 +84,10 @@ def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_short_run(name: str, tmp_path: Path) -> None:
-    """Seeded mutations of the corpus: the same cases each time, as many as the time allows."""
-    target = TARGETS[name]
-    needs(target)
-    target.place(tmp_path)
+    """Seeded mutations of the corpus, the same each time, as many as the time allows."""
+    target, generator = placed(name, tmp_path), random.Random(name)
     pool = [path.read_bytes() for path in cases(target)] + [damage.case() for damage in damages(name)]
-    generator = random.Random(name)
-    mutate = target.mutate or mutate_text
-    start = time.process_time()
+    mutate, start = target.mutate or mutate_text, time.process_time()
     with quiet():
         for _ in range(MOST_CASES):
             case = mutate(generator.choice(pool), generator)
@@ -104,6 +99,16 @@ def test_short_run(name: str, tmp_path: Path) -> None:
                 raise
             if time.process_time() - start > SHORT_RUN:
                 break
+
+
+@pytest.mark.parametrize("name", [name for name, target in TARGETS.items() if not target.unfolds])
+def test_cost_of_files_made_large(name: str, tmp_path: Path) -> None:
+    """One line, word or run of blanks repeated: no more time and memory per byte than the limits."""
+    target, generator = placed(name, tmp_path), random.Random(name)
+    pool = [path.read_bytes() for path in cases(target)]
+    with quiet():
+        for _ in range(6):
+            target.run(grown(generator.choice(pool), LARGE, generator), tmp_path)
 
 
 @pytest.mark.slow("counts lines of readers")

@@ -12,24 +12,12 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from test_relative_motion import hoisting, tumbling
 
-from seacrane import (
-    Criterion,
-    FileFormatError,
-    Kept,
-    Lift,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    cases,
-    ensemble,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Kept, Lift, Result, Scene, Stage, Until, cases, ensemble, simulate, simulate_stages
 from seacrane.analysis import linear_model
 from seacrane.description.expression import DEEPEST, FUNCTIONS, LONGEST, parsed
 from seacrane.description.file import scene_digest
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.operability import Criterion
 from seacrane.operability.linear_channels import linear_channels
 
 
@@ -37,8 +25,8 @@ def z(result: Result, body: str) -> Any:
     return result.select("position", body=body, axis="z")
 
 
-def speed(result: Result, axis: str) -> Any:
-    return result.select("velocity", body="load", axis=axis)
+def of_load(result: Result, axis: str, channel: str = "velocity") -> Any:
+    return result.select(channel, body="load", axis=axis)
 
 
 def corner(result: Result, axis: str) -> Any:
@@ -50,39 +38,20 @@ EXPRESSIONS: dict[str, tuple[str, str, Callable[[Result], Any]]] = {
     "signs": ("-load.z - -hull.z", "m", lambda r: -z(r, "load") + z(r, "hull")),
     "order": ("load.z - 2 * hull.z / 4 - 1 m", "m", lambda r: z(r, "load") - 2 * z(r, "hull") / 4 - 1),
     "left": ("load.z / 2 / 3 * 4", "m", lambda r: z(r, "load") / 2 / 3 * 4),
-    "nested": (
-        "(load.z - (hull.z - 2 m)) * 0.5",
-        "m",
-        lambda r: (z(r, "load") - (z(r, "hull") - 2.0)) * 0.5,
-    ),
-    "speed": (
-        "hypot(velocity[load, x], velocity[load, axis=y])",
-        "m/s",
-        lambda r: np.hypot(speed(r, "x"), speed(r, "y")),
-    ),
-    "root": (
-        "sqrt(load.x * load.x + load.y * load.y)",
-        "m",
-        lambda r: np.sqrt(
-            r.select("position", body="load", axis="x") ** 2
-            + r.select("position", body="load", axis="y") ** 2
-        ),
-    ),
+    "nested": ("(load.z - (hull.z - 2 m)) * 0.5", "m", lambda r: (z(r, "load") - (z(r, "hull") - 2.0)) * 0.5),
+    "speed": ("hypot(velocity[load, x], velocity[load, axis=y])", "m/s",
+              lambda r: np.hypot(of_load(r, "x"), of_load(r, "y"))),
+    "root": ("sqrt(load.x * load.x + load.y * load.y)", "m",
+             lambda r: np.sqrt(of_load(r, "x", "position") ** 2 + of_load(r, "y", "position") ** 2)),
     "angle": ("atan2(corner.y, corner.x)", "rad", lambda r: np.arctan2(corner(r, "y"), corner(r, "x"))),
-    "most": (
-        "max(abs(hull.z), load.z, 200 mm)",
-        "m",
-        lambda r: np.maximum(np.maximum(np.abs(z(r, "hull")), z(r, "load")), 0.2),
-    ),
+    "most": ("max(abs(hull.z), load.z, 200 mm)", "m",
+             lambda r: np.maximum(np.maximum(np.abs(z(r, "hull")), z(r, "load")), 0.2)),
     "least": ("min(load.z, hull.z)", "m", lambda r: np.minimum(z(r, "load"), z(r, "hull"))),
     "heel": ("heel[hull] - 10 deg", "rad", lambda r: r.select("heel", body="hull") - np.radians(10.0)),
-    "power": (
-        "1e3 kg * acceleration[load, z] * velocity[load, z]",
-        "W",
-        lambda r: 1e3 * r.select("acceleration", body="load", axis="z") * speed(r, "z"),
-    ),
+    "power": ("1e3 kg * acceleration[load, z] * velocity[load, z]", "W",
+              lambda r: 1e3 * of_load(r, "z", "acceleration") * of_load(r, "z")),
     "constant": ("2.5e1 kN", "N", lambda r: np.full(r.time.size, 25e3)),
-}
+}  # fmt: skip
 
 
 def described(scene: Scene) -> Scene:
@@ -101,13 +70,9 @@ def test_expressions_are_those_of_numpy_on_what_was_recorded() -> None:
         assert values.shape == result.time.shape
         assert_allclose(values, expected(result), rtol=4e-16, atol=1e-15, err_msg=name)
     assert np.ptp(result.curve("own[speed]")) > 0.0 or np.ptp(result.curve("own[angle]")) > 0.1
-
-
-def test_only_what_is_asked_for_is_kept() -> None:
-    result = simulate(described(tumbling()), 1.0, channels=["own"])
-    assert list(result) == ["own"] and result.coords["expression"] == tuple(EXPRESSIONS)
-    whole = simulate(described(tumbling()), 1.0)
-    assert_array_equal(result["own"], whole["own"])
+    alone = simulate(scene, 3.0, channels=["own"])
+    assert list(alone) == ["own"] and alone.coords["expression"] == tuple(EXPRESSIONS)
+    assert_array_equal(alone["own"], result["own"])
     assert "own" not in simulate(tumbling(), 0.1)
 
 
@@ -128,10 +93,8 @@ def test_a_stage_ends_where_it_says(tmp_path: Path) -> None:
     scene = hoisting()
     scene.add_channel("raised", expression="load.z + 10 m")
     scene.add_channel("slack", expression="line_unstretched_length[wire] - 2 m")
-    stages = [
-        Stage(name="up", until=Until.channel("own[raised]", minimum=1.0), maximum_duration=20.0),
-        Stage(name="on", duration=1.0),
-    ]
+    up = {"until": Until.channel("own[raised]", minimum=1.0), "maximum_duration": 20.0}
+    stages = [Stage(name="up", **up), Stage(name="on", duration=1.0)]
     for asked in (None, ["own", "position", "hook_speed"]):
         result = simulate_stages(scene, stages, dt_out=0.05, channels=asked)
         end = result.stages[0].end
@@ -139,9 +102,7 @@ def test_a_stage_ends_where_it_says(tmp_path: Path) -> None:
         assert np.interp(end, result.time, result.curve("own[raised]")) == pytest.approx(1.0, abs=1e-3)
         assert_allclose(result.curve("own[raised]"), result.curve("position[load, z]") + 10.0, atol=1e-12)
     assert "hook_speed" in result
-    path = tmp_path / "run.nc"
-    result.save(path)
-    assert_array_equal(Result.load(path)["own"], result["own"])
+    assert_array_equal(Result.load(result.save(tmp_path / "run.nc"))["own"], result["own"])
 
 
 def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
@@ -161,10 +122,9 @@ def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
 def test_what_it_needs_is_not_removed() -> None:
     scene = tumbling()
     scene.add_channel("over", expression="corner.z - hull.z")
-    with pytest.raises(SceneError, match="point 'corner': channel 'over' refer to it"):
-        scene.remove("corner")
-    with pytest.raises(SceneError, match="channel 'over' refer to it"):
-        scene.remove("hull")
+    for name in ("corner", "hull"):
+        with pytest.raises(SceneError, match=f"'{name}': .*channel 'over' refer to it"):
+            scene.remove(name)
     scene.remove("over")
     with pytest.raises(SceneError, match="channel 'own' is unknown to this scene; it needs an expression"):
         simulate(scene, 0.1, channels=["own"])
@@ -197,70 +157,50 @@ def test_a_lift_file_has_it_with_the_unit_of_its_limit(tmp_path: Path) -> None:
         Lift.load(path).scene()
 
 
+NEEDED, DEEP = "number or a curve was expected at", f"more than {DEEPEST} parentheses"
 REFUSED = [
-    ("load.z + heel[hull]", "'\\+' is of m and rad, which do not fit"),
-    ("load.z - 3", "'-' is of m and 1, which do not fit; give a number its unit, such as '3 m'"),
-    ("hypot(load.z, velocity[load, z])", "'hypot' is of m and m/s"),
-    ("lod.z", "no point or body 'lod'; did you mean 'load'"),
-    ("hok_load", "channel 'hok_load' does not exist; did you mean 'hook_load'"),
-    ("sqr(load.z)", "no function 'sqr'; did you mean 'sqrt'"),
-    ("atan2(load.z)", "atan2 has 1 arguments; it takes 2"),
-    ("max(load.z)", "max has 1 arguments; it takes two or more"),
-    ("load.z +", "a number or a curve was expected at its end"),
-    ("load.z load.x", "an operator or the end was expected at 'load.x'"),
-    ("(load.z", r"'\)' was expected at its end"),
-    ("load.z)", r"an operator or the end was expected at '\)'"),
-    ("load.w", "is no part of an expression"),
-    ("", "channel 'a' is '': a number or a curve was expected at its end"),
-    ("   ", "a number or a curve was expected at its end"),
-    ("1e999 m", "'1e999' is no finite number"),
-    ("own[a]", "is a channel of your own too"),
-    ("slew_angle", "slew_angle counts on over a whole run"),
-    ("load_state", "load_state is in SI, which says not what it is"),
-    ("vessel_motion", "name a curve of one unit"),
-    ("position[load, z, after=3]", "leave after out"),
-    ("__import__('os').system('true')", "is no part of an expression; it has numbers"),
-    ("eval(load.z)", "no function 'eval'; choose from sqrt"),
-    ("load.__class__", "is no part of an expression"),
-    ("[1 for x in load]", "is no part of an expression"),
-    ("load.z ** 2", "a number or a curve was expected at '\\*'"),
-    ("lambda: 0", "is no part of an expression"),
-    ("(" * 100 + "load.z" + ")" * 100, f"more than {DEEPEST} parentheses and signs are within each other"),
-    ("-" * 900 + "load.z", f"more than {DEEPEST} parentheses and signs"),
-    ("load.z+" * 500 + "load.z", f"has 3506 characters, above {LONGEST}"),
-]
+    ("load.z + heel[hull]", r"'\+' is of m and rad"), ("load.z - 3", "'-' is of m and 1.*'3 m'"),
+    ("hypot(load.z, velocity[load, z])", "'hypot' is of m and m/s"), ("lod.z", "'lod'; did you mean 'load'"),
+    ("hok_load", "'hok_load'.*did you mean 'hook_load'"),
+    ("sqr(load.z)", "function 'sqr'; did you mean 'sqrt'"), ("atan2(load.z)", "atan2 has 1 arguments.*2"),
+    ("max(load.z)", "max has 1 arguments.*two or more"), ("load.z +", f"{NEEDED} its end"),
+    ("load.z load.x", "operator or the end .* at 'load.x'"), ("(load.z", r"'\)' was expected at its end"),
+    ("load.z)", r"operator or the end .* at '\)'"), ("load.w", "is no part"),
+    ("", f"channel 'a' is '': a {NEEDED}"), ("   ", NEEDED), ("1e999 m", "'1e999' is no finite number"),
+    ("own[a]", "is a channel of your own too"), ("slew_angle", "slew_angle counts on over a whole run"),
+    ("load_state", "load_state is in SI"), ("vessel_motion", "one unit"),
+    ("position[load, z, after=3]", "leave after out"), ("__import__('os').system('true')", "is no part"),
+    ("eval(load.z)", "no function 'eval'.*sqrt"), ("load.__class__", "is no part"),
+    ("[1 for x in load]", "is no part"), ("load.z ** 2", rf"{NEEDED} '\*'"), ("lambda: 0", "is no part"),
+    ("(" * 100 + "load.z" + ")" * 100, DEEP), ("-" * 900 + "load.z", DEEP),
+    ("load.z+" * 500 + "load.z", f"3506 characters, above {LONGEST}"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "message"), REFUSED)
-def test_what_makes_no_sense_is_refused_by_name(text: str, message: str) -> None:
+@pytest.mark.parametrize(("text", "told"), REFUSED, ids=[row[0][:30] for row in REFUSED])
+def test_what_makes_no_sense_is_refused_by_name(text: str, told: str) -> None:
     scene = tumbling()
-    with pytest.raises(SceneError, match=message) as caught:
+    with pytest.raises(SceneError, match=told) as caught:
         scene.add_channel("a", expression=text)
     assert str(caught.value).startswith("channel 'a'") and len(str(caught.value)) < 500
     assert not scene.channels
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("line_tension[wier]", "channel 'a': line_tension.*there is no line 'wier'; did you mean 'wire'"),
-        ("position[load]", r"says not which axis; name one of x, y, z"),
-        ("roll", "says not which vessel; name one of none"),
-    ],
-)
-def test_names_that_the_scene_does_not_have_end_before_a_run(text: str, message: str) -> None:
-    scene = hoisting()
-    scene.add_channel("a", expression=text)
-    with pytest.raises(SceneError, match=message):
-        simulate(scene, 0.1)
+def test_names_that_the_scene_does_not_have_end_before_a_run() -> None:
+    for text, told in {
+        "line_tension[wier]": "channel 'a': line_tension.*'wier'; did you mean 'wire'",
+        "position[load]": "which axis; name one of x, y, z", "roll": "which vessel; name one of none",
+    }.items():  # fmt: skip
+        scene = hoisting()
+        scene.add_channel("a", expression=text)
+        with pytest.raises(SceneError, match=told):
+            simulate(scene, 0.1)
 
 
 def test_a_name_of_a_point_and_a_body_is_told_apart() -> None:
     scene = tumbling()
     scene.add_point(name="load", body="hull", point=(0, 0, 0))
-    with pytest.raises(
-        SceneError, match=r"is a point and a body; write point_position\[load, z\] or position"
-    ):
+    with pytest.raises(SceneError, match=r"point and a body; write point_position\[load, z\] or position"):
         scene.add_channel("a", expression="load.z")
     scene.add_point(name="corner 0", body="hull", point=(0, 0, 0))
     scene.add_channel("a", expression="'corner 0'.z - \"corner 0\".x")

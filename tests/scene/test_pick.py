@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from named import pendulum
 
-from seacrane import (
-    Criterion,
-    Kept,
-    Result,
-    Scene,
-    SceneError,
-    Until,
-    cases,
-    ensemble,
-    extremes,
-    simulate,
-)
+from seacrane import Criterion, Kept, Result, Until, cases, ensemble, extremes, simulate
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.pick import Pick, column_name, pick_of
+from seacrane.errors import SceneError
 
 
 @pytest.fixture(scope="module")
@@ -28,84 +20,74 @@ def lift() -> Result:
     return simulate(cases.case2(), t_end=3.0, dt_out=0.5)
 
 
-@pytest.mark.parametrize(
-    ("text", "channel", "names", "after"),
-    [
-        ("hook_load", "hook_load", {}, None),
-        ("roll", "vessel_motion", {"motion": "roll"}, None),
-        ("vessel_motion[barge, roll]", "vessel_motion", {"vessel": "barge", "motion": "roll"}, None),
-        ("vessel_motion[ roll ,after=60]", "vessel_motion", {"motion": "roll"}, 60.0),
-        ("position[z, load]", "position", {"body": "load", "axis": "z"}, None),
-        ("position[axis=x, body=z]", "position", {"body": "z", "axis": "x"}, None),
-        ('hook_load["a, b"]', "hook_load", {"suspension": "a, b"}, None),
-        ("load_state[hoist.length]", "load_state", {"state_name": "hoist.length"}, None),
-        ("reaction_force[main foot, y]", "reaction_force", {"joint": "main foot", "axis": "y"}, None),
-    ],
-)
-def test_a_text_names_channel_dimensions_and_time(
-    text: str, channel: str, names: dict[str, str], after: float | None
-) -> None:
+PICKS: dict[str, tuple[Any, ...]] = {  # channel, names along its dimensions, and the time after which
+    "hook_load": ("hook_load", {}, None), "roll": ("vessel_motion", {"motion": "roll"}, None),
+    "vessel_motion[barge, roll]": ("vessel_motion", {"vessel": "barge", "motion": "roll"}, None),
+    "vessel_motion[ roll ,after=60]": ("vessel_motion", {"motion": "roll"}, 60.0),
+    "position[z, load]": ("position", {"body": "load", "axis": "z"}, None),
+    "position[axis=x, body=z]": ("position", {"body": "z", "axis": "x"}, None),
+    'hook_load["a, b"]': ("hook_load", {"suspension": "a, b"}, None),
+    "load_state[hoist.length]": ("load_state", {"state_name": "hoist.length"}, None),
+    "reaction_force[main foot, y]": ("reaction_force", {"joint": "main foot", "axis": "y"}, None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", PICKS)
+def test_a_text_names_channel_dimensions_and_time(text: str) -> None:
+    channel, names, after = PICKS[text]
     assert pick_of("test", text) == Pick(channel=channel, names=names, after=after)
 
 
-@pytest.mark.parametrize("channel", CHANNELS)
-def test_every_curve_of_every_channel_has_a_text_that_finds_it(channel: str) -> None:
-    dims = CHANNELS[channel].dims_of_several[1:]
-    names = {dim: FIXED[dim][-1] if dim in FIXED else f"the {dim}, 1" for dim in dims}
-    assert pick_of("test", column_name(channel, list(names.values()))).names == names
-    whole = Pick(channel=channel, names=names)
-    assert pick_of("test", whole) == whole
+def test_every_curve_of_every_channel_has_a_text_that_finds_it() -> None:
+    for channel, about in CHANNELS.items():
+        dims = about.dims_of_several[1:]
+        names = {dim: FIXED[dim][-1] if dim in FIXED else f"the {dim}, 1" for dim in dims}
+        assert pick_of("test", column_name(channel, list(names.values()))).names == names
+        whole = Pick(channel=channel, names=names)
+        assert pick_of("test", whole) == whole
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "told"),
     [
-        ("hok_load", "did you mean 'hook_load'"),
-        ("position[load, z, y]", "has no 'y'"),
-        ("position[load, axis=w]", "axis is 'w'; choose from x, y, z"),
-        ("position[load, hook=z]", "has no dimension 'hook'"),
-        ("position[axis=z, axis=y]", "two names along axis"),
-        ("position[load,, z]", "names with commas between"),
-        ("position[load", "give a channel"),
-        ("hook_load[after=soon]", "after is 'soon'; give a time in s"),
+        ("hok_load", "did you mean 'hook_load'"), ("position[load, z, y]", "has no 'y'"),
+        ("position[load, axis=w]", "axis is 'w'.*x, y, z"), ("position[load, hook=z]", "no dimension 'hook'"),
+        ("position[axis=z, axis=y]", "two names along axis"), ("position[load,, z]", "commas between"),
+        ("position[load", "give a channel"), ("hook_load[after=soon]", "after is 'soon'.*time"),
         ("energy_balance[x]", "dimensions are none but time"),
     ],
-)
-def test_a_text_that_says_nothing_is_refused_by_what_is_wrong(text: str, said: str) -> None:
-    with pytest.raises(SceneError, match=said.replace("[", r"\[")):
+)  # fmt: skip
+def test_a_text_that_says_nothing_is_refused_by_what_is_wrong(text: str, told: str) -> None:
+    with pytest.raises(SceneError, match=told):
         pick_of("test", text)
 
 
-def test_select_and_curve_take_the_text(lift: Result) -> None:
+def test_select_curve_and_plot_take_the_text(lift: Result) -> None:
     roll = lift.select("vessel_motion", motion="roll")
-    assert np.array_equal(lift.select("roll"), roll)
-    assert np.array_equal(lift.select("vessel_motion[roll]"), roll)
-    assert np.array_equal(lift.curve("roll"), roll)
+    for found in (lift.select("roll"), lift.select("vessel_motion[roll]"), lift.curve("roll")):
+        assert np.array_equal(found, roll)
+    figures = lift.plot("roll"), lift.plot("vessel_motion", motion="roll")
+    assert np.array_equal(*(figure.axes[0].lines[0].get_ydata() for figure in figures))
     assert lift.select("position[payload]").shape == (lift.time.size, 3)
-    with pytest.raises(SceneError, match="holds several curves; give axis: one of x, y, z"):
+    with pytest.raises(SceneError, match="several curves; give axis: one of x, y, z"):
         lift.curve("position[payload]")
     with pytest.raises(KeyError, match="no channel 'hok'"):
         lift.select("hok")
-    with pytest.raises(ValueError, match="all outputs"):
-        lift.select("roll[after=1]")  # no such dimension without a channel
-    with pytest.raises(ValueError, match="all outputs"):
-        lift.select("vessel_motion[roll, after=1]")
+    for late in ("roll[after=1]", "vessel_motion[roll, after=1]"):  # the first has no such dimension
+        with pytest.raises(ValueError, match="all outputs"):
+            lift.select(late)
 
 
 def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_path: Path) -> None:
     table = lift.to_dataframe("roll", "position[payload]")
-    assert list(table) == [
-        "vessel_motion[roll]",
-        *(f"position[payload, {axis}]" for axis in "xyz"),
-    ]
+    assert list(table) == ["vessel_motion[roll]", *(f"position[payload, {axis}]" for axis in "xyz")]
     assert table.index.name == "time"
     assert table.attrs["units"]["vessel_motion[roll]"] == "rad"
     for name in table:
         assert np.array_equal(table[name], lift.select(name))
     whole = lift.to_dataframe()
     assert len(whole.columns) == sum(array[0].size for array in lift.channels.values())
-    late = lift.to_dataframe("vessel_motion[roll, after=1]")
-    assert late.index[0] == 1.0
+    assert lift.to_dataframe("vessel_motion[roll, after=1]").index[0] == 1.0
     with pytest.raises(SceneError, match="of one part of the run"):
         lift.to_dataframe("vessel_motion[roll, after=1]", "link_tension")
 
@@ -117,15 +99,16 @@ def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_pa
 
 
 def test_what_is_kept_is_said_by_a_text() -> None:
-    roll = {"motion": "roll"}
-    assert Kept.of_text("roll.std") == Kept(channel="vessel_motion", what="standard_deviation", names=roll)
-    assert Kept.of_text("hook_load.max") == Kept(channel="hook_load", what="maximum")
-    assert Kept.of_text("load_state[hoist.length]") == Kept(
-        channel="load_state", names={"state_name": "hoist.length"}
-    )
-    late = Kept(channel="position", what="minimum", names={"body": "load", "axis": "z"}, after=60.0)
-    assert Kept.of_text("position[load, z, after=60].min") == late
-    assert Kept(channel="position[load, z, after=60]", what="minimum") == late
+    late = {"channel": "position", "what": "minimum", "names": {"body": "load", "axis": "z"}, "after": 60.0}
+    kept: dict[str, dict[str, Any]] = {
+        "roll.std": {"channel": "vessel_motion", "what": "standard_deviation", "names": {"motion": "roll"}},
+        "hook_load.max": {"channel": "hook_load", "what": "maximum"},
+        "load_state[hoist.length]": {"channel": "load_state", "names": {"state_name": "hoist.length"}},
+        "position[load, z, after=60].min": late,
+    }
+    for text, given in kept.items():
+        assert Kept.of_text(text) == Kept(**given), text
+    assert Kept(channel="position[load, z, after=60]", what="minimum") == Kept(**late)
     with pytest.raises(SceneError, match="give each name once"):
         Kept(channel="position[load, z]", names={"axis": "x"})
     with pytest.raises(SceneError, match="did you mean 'hook_load'"):
@@ -133,33 +116,23 @@ def test_what_is_kept_is_said_by_a_text() -> None:
 
 
 def test_an_ensemble_keeps_by_text_what_it_keeps_by_value() -> None:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1, 0, 0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
     value = Kept(channel="position", what="minimum", names={"body": "bob", "axis": "z"})
-    found = ensemble(
-        scene, over={"gravity": [9.0, 9.8]}, keep={"low": "position[bob, z].min", "same": value}, t_end=1.0
-    )
+    keep: dict[str, Any] = {"low": "position[bob, z].min", "same": value}
+    found = ensemble(pendulum(), over={"gravity": [9.0, 9.8]}, keep=keep, t_end=1.0)
     assert np.array_equal(found.dataset.low, found.dataset.same)
     with pytest.raises(SceneError, match=r"give a text such as 'hook_load.max'"):
-        ensemble(scene, over={"gravity": [9.0]}, keep={"low": 3}, t_end=1.0)  # type: ignore[dict-item]
+        ensemble(pendulum(), over={"gravity": [9.0]}, keep={"low": 3}, t_end=1.0)  # type: ignore[dict-item]
 
 
-def test_criteria_conditions_extremes_and_plots_take_the_text(lift: Result) -> None:
-    given = {"names": {"body": "load", "axis": "z"}, "maximum": 1.0}
-    assert Criterion(channel="position[load, z]", maximum=1.0) == Criterion(channel="position", **given)
-    assert Until.channel("position[load, z]", minimum=1.0) == Until.channel(
-        "position", minimum=1.0, body="load", axis="z"
-    )
-    figures = lift.plot("roll"), lift.plot("vessel_motion", motion="roll")
-    drawn = [figure.axes[0].lines[0].get_ydata() for figure in figures]
-    assert np.array_equal(*drawn)
+def test_criteria_conditions_and_extremes_take_the_text(lift: Result) -> None:
+    load = {"body": "load", "axis": "z"}
+    by_names = Criterion(channel="position", names=load, maximum=1.0)
+    assert Criterion(channel="position[load, z]", maximum=1.0) == by_names
+    until = Until.channel("position", minimum=1.0, **load)
+    assert Until.channel("position[load, z]", minimum=1.0) == until
     several = simulate(cases.vessel(), t_end=200.0, dt_out=0.5)
     by_text = extremes(several, channel="roll", after=20.0)
-    by_names = extremes(several, channel="vessel_motion", motion="roll", after=20.0)
-    assert str(by_text) == str(by_names)
+    assert str(by_text) == str(extremes(several, channel="vessel_motion", motion="roll", after=20.0))
     for ask in (
         lambda: Criterion(channel="roll[after=3]", maximum=1.0),
         lambda: Until.channel("vessel_motion[roll, after=3]", minimum=1.0),

@@ -14,14 +14,11 @@ from seacrane.description.description import KINDS
 
 def hung() -> Scene:
     """A load on a wire, on a trolley."""
-    scene = Scene(name="trolley")
+    scene, ends = Scene(name="trolley"), {"point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, -4.0)}
     scene.add_body(name="trolley", mass=100.0, inertia=(10.0, 10.0, 10.0))
     scene.add_body(name="load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(0.0, 0.0, -4.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="trolley", axis=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="distance", name="wire", first="trolley", second="load", point=(0.0, 0.0, 0.0),
-        second_point=(0.0, 0.0, -4.0),
-    )  # fmt: skip
+    scene.add_joint(kind="distance", name="wire", first="trolley", second="load", **ends)
     scene.add_line(joint="wire", rung="rigid")
     scene.add_actuator(joint="rail", name="drive", stiffness=10.0)
     scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
@@ -29,12 +26,12 @@ def hung() -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("table", KINDS)
-def test_a_name_that_is_not_there_says_what_is(table: str) -> None:
+def test_a_name_that_is_not_there_says_what_is() -> None:
     scene = hung()
-    with pytest.raises(KeyError, match=f"there is no {KINDS[table]} 'lost'; the scene has"):
-        getattr(scene, table)["lost"]
-    assert getattr(scene, table).get("lost") is None and "lost" not in getattr(scene, table)
+    for table, kind in KINDS.items():
+        with pytest.raises(KeyError, match=f"no {kind} 'lost'; the scene has"):
+            getattr(scene, table)["lost"]
+        assert getattr(scene, table).get("lost") is None and "lost" not in getattr(scene, table)
 
 
 def test_a_replaced_element_takes_the_place_of_the_old_one() -> None:
@@ -46,48 +43,34 @@ def test_a_replaced_element_takes_the_place_of_the_old_one() -> None:
     np.testing.assert_array_equal(heavier.position, (0.0, 0.0, -4.0))
     tension = simulate(scene, t_end=0.1, channels=["tension"])["tension"]
     np.testing.assert_allclose(tension, 70.0 * scene.gravity, rtol=1e-9)
-
-
-def test_a_number_becomes_a_constant_curve() -> None:
-    scene = hung()
     scene.replace("drive", feed_forward=3.0)
     assert scene.actuators["drive"].feed_forward == Curve.constant(value=3.0)
     assert scene.actuators["drive"].stiffness == 10.0
-    held = scene.add_driver(joint="rail", curve=0.0)
-    assert held.curve == Curve.constant(value=0.0)
+    assert scene.add_driver(joint="rail", curve=0.0).curve == Curve.constant(value=0.0)
 
 
-WRONG: dict[str, tuple[Callable[[Scene], Any], str]] = {
-    "lost": (lambda s: s.replace("lost", mass=1.0), "scene 'trolley': there is no element 'lost'"),
-    "lost, of a kind": (lambda s: s.remove("load", kind="joint"), "there is no joint 'load'"),
-    "ambiguous": (
-        lambda s: s.replace("wire", length=3.0),
-        "'wire' is the name of several elements; pass kind='joint' or 'load'",
-    ),
-    "unknown kind": (lambda s: s.remove("load", kind="bodies"), "kind 'bodies' is unknown; choose body"),
-    "unknown argument": (lambda s: s.replace("load", weight=3.0), "body 'load': cannot change 'weight'"),
-    "a new name": (lambda s: s.replace("load", name="cargo"), "cannot change 'name'"),
-    "a wrong value": (
-        lambda s: s.replace("load", mass="heavy"), "body 'load': mass is 'heavy'; give a number"
-    ),
-    "a recorded one": (
-        lambda s: s.replace("rail", kind="recorded coordinate", joint="wire"), "is not replaced; remove it"
-    ),
-    "a body in use": (
-        lambda s: s.remove("load"), "body 'load': joint 'wire' refer to it; remove these first"
-    ),
-    "a joint in use": (
+WRONG: tuple[tuple[Callable[[Scene], Any], str], ...] = (
+    (lambda s: s.replace("lost", mass=1.0), "scene 'trolley'.*no element 'lost'"),
+    (lambda s: s.remove("load", kind="joint"), "no joint 'load'"),
+    (lambda s: s.replace("wire", length=3.0), "'wire'.*several elements; pass kind='joint' or 'load'"),
+    (lambda s: s.remove("load", kind="bodies"), "kind 'bodies' is unknown; choose body"),
+    (lambda s: s.replace("load", weight=3.0), "body 'load': cannot change 'weight'"),
+    (lambda s: s.replace("load", name="cargo"), "cannot change 'name'"),
+    (lambda s: s.replace("load", mass="heavy"), "body 'load': mass is 'heavy'"),
+    (lambda s: s.replace("rail", kind="recorded coordinate", joint="wire"), "not replaced; remove it"),
+    (lambda s: s.remove("load"), "body 'load': joint 'wire' refer to it"),
+    (
         lambda s: s.remove("rail", kind="joint"),
-        "joint 'rail': actuator 'drive', range 'rail', recorded coordinate 'rail' refer to it",
+        "joint 'rail': .*'drive', range 'rail', recorded",
     ),
-    "a wire's joint": (lambda s: s.remove("wire", kind="joint"), "joint 'wire': load 'wire' refer to it"),
-}  # fmt: skip
+    (lambda s: s.remove("wire", kind="joint"), "joint 'wire': load 'wire' refer to it"),
+)
 
 
-@pytest.mark.parametrize("case", WRONG)
-def test_what_cannot_be_done_is_refused_and_changes_nothing(case: str) -> None:
-    scene, (do, words) = hung(), WRONG[case]
-    with pytest.raises((SceneError, TypeError), match=words):
+@pytest.mark.parametrize(("do", "told"), WRONG, ids=[row[1] for row in WRONG])
+def test_what_cannot_be_done_is_refused_and_changes_nothing(do: Callable[[Scene], Any], told: str) -> None:
+    scene = hung()
+    with pytest.raises((SceneError, TypeError), match=told):
         do(scene)
     assert scene == hung()
 
@@ -95,19 +78,18 @@ def test_what_cannot_be_done_is_refused_and_changes_nothing(case: str) -> None:
 def test_elements_are_removed_from_the_outside_in() -> None:
     scene = hung()
     scene.remove("wire", kind="load")
-    scene.remove("wire")
-    scene.remove("load")
-    scene.remove("drive")
-    scene.remove("rail", kind="range")
-    scene.remove("rail", kind="recorded coordinate")
-    scene.remove("rail")
-    scene.remove("trolley")
+    for name in ("wire", "load", "drive"):
+        scene.remove(name)
+    for kind in ("range", "recorded coordinate"):
+        scene.remove("rail", kind=kind)
+    for name in ("rail", "trolley"):
+        scene.remove(name)
     assert scene == Scene(name="trolley")
 
 
 def test_a_vessel_in_a_sea_is_kept() -> None:
     scene = cases.vessel()
-    with pytest.raises(SceneError, match=r"vessel 'vessel': the waves on it \(scene.waves\) refer to it"):
+    with pytest.raises(SceneError, match=r"vessel 'vessel': the waves on it .*refer to it"):
         scene.remove("vessel", kind="vessel")
     scene.waves = None
     scene.remove("vessel", kind="vessel")
@@ -116,24 +98,15 @@ def test_a_vessel_in_a_sea_is_kept() -> None:
     assert not scene.bodies
 
 
-def test_a_scene_prints_as_a_table_of_what_it_holds() -> None:
-    text = str(hung())
-    assert text.splitlines()[0] == "Scene 'trolley', gravity 9.80665 m/s2"
-    assert "    2  bodies" in text and "trolley, load" in text and "drive (rail displacement)" in text
-    assert "limits and friction" in text and "rail (-3 to 3)" in text
-    assert str(Scene(name="none")).endswith("  empty")
-    case2 = str(cases.case2())
-    assert "knuckle (knuckle_cylinder)" in case2 and max(map(len, case2.splitlines())) <= 100
-
-
-def test_a_scene_shows_as_a_table_in_notebooks() -> None:
+def test_a_scene_prints_and_shows_what_it_holds() -> None:
     scene = hung()
+    text = str(scene)
+    for words in ("Scene 'trolley'", "trolley, load", "drive (rail displacement)", "rail (-3 to 3)"):
+        assert words in text
+    assert "empty" in str(Scene(name="none")) and max(map(len, str(cases.case2()).splitlines())) <= 100
     scene.add_body(name="<b>", mass=1.0, inertia=(1.0, 1.0, 1.0))
     page = scene._repr_html_()
     assert "<table>" in page and "&lt;b&gt;" in page and "<b>" not in page
-
-
-def test_methods_carry_the_documentation_of_what_they_do() -> None:
     for name in dir(Scene):
         if not name.startswith("_") and callable(getattr(Scene, name)):
             assert getattr(Scene, name).__doc__, name

@@ -62,17 +62,12 @@ class View:
 
 AS_DRAWN = View()
 VIEWS = {
-    "mirrored": View(mirrored=True),
-    "turned": View(turn_deg=73.0),
-    "shifted": View(shift=(310.0, -140.0)),
-    "later": View(later=7.3),
-    "cut in two": View(cut=True),
-    "twice half": View(twice_half=True),
+    "mirrored": View(mirrored=True), "turned": View(turn_deg=73.0), "shifted": View(shift=(310.0, -140.0)),
+    "later": View(later=7.3), "cut in two": View(cut=True), "twice half": View(twice_half=True),
     "other": View(other=True),
-    "all": View(
-        mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True, other=True
-    ),
-}
+    "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True,
+                other=True),
+}  # fmt: skip
 
 
 @cache
@@ -107,11 +102,8 @@ class Drawn:
 
 
 def fits(lift: Drawn, view: View) -> bool:
-    """Whether the lift is the same in that view.
-
-    Given motions have a clock. A second ship lies to port, damping is that of one body, and what holds by
-    friction is as stiff as the load's weight asks, whatever presses.
-    """
+    """Whether the lift is the same in that view: given motions have a clock, a second ship lies to port,
+    damping is that of one body, and friction holds as stiffly as the load's weight asks, whatever presses."""
     return not (
         (view.later and lift.base == "given")
         or (view.mirrored and lift.base == "pair")
@@ -210,8 +202,7 @@ class Lift:
         self.start = view.back(np.array(load.position))
         scene.add_point("middle", body="load")  # of the whole load, also where it is cut
         if view.cut:
-            share, offset = 0.4, np.array([0.1 * lift.size[0], 0.05 * lift.size[1], 0.1 * lift.size[2]])
-            self.cut(share, offset)
+            self.cut(0.4, np.array([0.1, 0.05, 0.1]) * lift.size)
         if lift.tugger:
             post, eye = view.at(self.start + SIDE), view.own((HALF * lift.size[0], 0.0, 0.0))
             for name, part in self.halves("tugger"):
@@ -220,22 +211,15 @@ class Lift:
 
     def cut(self, share: float, offset: Array) -> None:
         """Part of the load's mass becomes a body of its own; both together have its mass and inertia."""
-        scene = self.scene
-        whole = scene.bodies["load"]
-        small = share * whole.mass
-        rest = whole.mass - small
-        offset = self.view.own(offset)
-        other = -small / rest * offset
-        inertia = np.asarray(whole.inertia)
+        scene, whole, offset = self.scene, self.scene.bodies["load"], self.view.own(offset)
+        small, rest = share * whole.mass, whole.mass - share * whole.mass
+        other, inertia = -small / rest * offset, np.asarray(whole.inertia)
         part = 0.5 * share * inertia
         turned = sum(m * (r @ r * np.eye(3) - np.outer(r, r)) for m, r in ((small, offset), (rest, other)))
-        rotation = np.array(whole.quaternion)
+        place = {"position": np.array(whole.position), "quaternion": np.array(whole.quaternion)}
         scene.replace("load", mass=rest, inertia=inertia - part - turned, center_of_mass=other)
-        place = np.array(whole.position)
-        scene.add_body(
-            "other part", mass=small, inertia=part, position=place, quaternion=rotation, center_of_mass=offset
-        )
-        scene.add_joint(kind="weld", name="cut", first="load", second="other part", point=place)
+        scene.add_body("other part", mass=small, inertia=part, center_of_mass=offset, **place)
+        scene.add_joint(kind="weld", name="cut", first="load", second="other part", point=place["position"])
 
     def halves(self, name: str) -> list[tuple[str, float]]:
         return [(f"{name} 1", HALF), (f"{name} 2", HALF)] if self.view.twice_half else [(name, 1.0)]
@@ -267,53 +251,41 @@ class Lift:
         if lift.surface == "box":
             surface["size"] = (4.0 * lift.size[0], 4.0 * lift.size[1], 1.0)
             place = place - (0.0, 0.0, 0.5)
-        on_ship = lift.base in ("ship", "given", "pair")
-        at = view.own(place) if on_ship else view.at(place)
-        weight = lift.mass * G
+        at = view.at(place) if lift.base == "ground" else view.own(place)
         for name, part in self.halves("feet"):
             scene.add_contact("load", points=feet, on=self.base, place=at, name=name, friction=lift.friction,
-                              stiffness=25.0 * part * weight, **surface)  # fmt: skip
+                              stiffness=25.0 * part * (lift.mass * G), **surface)  # fmt: skip
 
     def stages(self) -> list[Stage]:
         out, rate, gone = [], 0.0, False
         feet = [name for name, _ in self.halves("feet")] if self.lift.deck is not None else []
         for i, (kind, speed) in enumerate(self.lift.stages):
-            name = f"{i} {kind}"
+            what: dict[str, Any] = {"duration": 1.0 + 0.5 * speed}
             if kind == "let go" and self.lift.tugger and not gone:
-                gone = True
-                out.append(Stage(name=name, duration=0.7, release=[one for one, _ in self.halves("tugger")]))
+                gone, what = True, {"duration": 0.7, "release": [one for one, _ in self.halves("tugger")]}
             elif kind == "meet" and feet:
-                until = [
-                    Until.contact(feet[0]),
-                    Until.channel("point_position", point="middle", axis="z", maximum=-3.0),
-                ]
-                out.append(
-                    Stage(name=name, until=until, maximum_duration=60.0, commands={"hoist.rate": speed})
-                )
-                rate = speed
+                deep = Until.channel("point_position", point="middle", axis="z", maximum=-3.0)
+                what, rate = {"until": [Until.contact(feet[0]), deep], "maximum_duration": 60.0}, speed
+                what["commands"] = {"hoist.rate": rate}
             elif kind in ("lower", "raise") and speed != rate:
                 rate = speed if kind == "lower" else -speed
-                out.append(Stage(name=name, duration=1.5, commands={"hoist.rate": rate}))
-            else:
-                out.append(Stage(name=name, duration=1.0 + 0.5 * speed))
+                what = {"duration": 1.5, "commands": {"hoist.rate": rate}}
+            out.append(Stage(name=f"{i} {kind}", **what))
         return out
 
     def run(self) -> Result:
         both = {"recursive": "redundant", "redundant": "recursive"}
         formulation = both[self.lift.formulation] if self.view.other else self.lift.formulation
-        return simulate_stages(
-            self.scene, self.stages(), start=self.begun(), formulation=formulation,
-            integrator=self.lift.integrator, rtol=1e-9, dt_out=0.05,
-        )  # fmt: skip
+        how: dict[str, Any] = {"formulation": formulation, "integrator": self.lift.integrator, "rtol": 1e-9}
+        return simulate_stages(self.scene, self.stages(), start=self.begun(), dt_out=0.05, **how)
 
     def begun(self) -> State | None:
         """As described, at the time of the view: a load that turns freely rests at any angle."""
         if not self.view.later:
             return None
         now = Run(self.scene, t_end=1.0).state
-        return State(
-            time=self.view.later, values=now.values, inputs=now.inputs, closed=now.closed, parts=now.parts
-        )
+        same = {key: getattr(now, key) for key in ("values", "inputs", "closed", "parts")}
+        return State(time=self.view.later, **same)
 
 
 def center(result: Result) -> Array:
@@ -321,10 +293,8 @@ def center(result: Result) -> Array:
     assert result.scene is not None
     bodies = result.scene.bodies
     parts = [name for name in ("load", "other part") if name in bodies]
-    masses = [bodies[name].mass for name in parts]
-    return np.asarray(
-        np.average([result.select("position", body=name) for name in parts], axis=0, weights=masses)
-    )
+    places, masses = [result.select("position", body=name) for name in parts], [bodies[n].mass for n in parts]
+    return np.asarray(np.average(places, axis=0, weights=masses))
 
 
 def difference(lift: Drawn, view: View, as_drawn: Result) -> dict[str, float]:
@@ -339,9 +309,8 @@ def difference(lift: Drawn, view: View, as_drawn: Result) -> dict[str, float]:
 
     mine, its = picked(told, view.later), picked(as_drawn, 0.0)
     out["place"] = float(np.abs(view.back(center(told)[mine]) - center(as_drawn)[its]).max())
-    pull, pulled = (
-        one.select("hook_load", suspension="hoist")[of] for one, of in ((told, mine), (as_drawn, its))
-    )
+    pull = told.select("hook_load", suspension="hoist")[mine]
+    pulled = as_drawn.select("hook_load", suspension="hoist")[its]
     return out | {"hook_load": float(np.abs(pull - pulled).max() / np.abs(pulled).max())}
 
 

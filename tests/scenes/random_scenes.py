@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import Curve, Model, Scene
 from seacrane.analysis import Evaluator
 from seacrane.hydro import StateSpaceBlock
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 # All kinds, those first that hold something and let something go.
@@ -72,12 +73,9 @@ class Builder:
     def place(self, body: str) -> Array:
         return np.zeros(3) if body == "ground" else np.array(self.scene.bodies[body].position)
 
-    def mass(self) -> float:
-        half = 0.5 * self.shape.decades
-        return float(10.0 ** self.rng.uniform(-half, half))
-
     def add_body(self, name: str, position: Array, *, mass: float | None = None) -> None:
-        mass = self.mass() if mass is None else mass
+        half = 0.5 * self.shape.decades
+        mass = float(10.0 ** self.rng.uniform(-half, half)) if mass is None else mass
         a, b, c = self.rng.uniform(0.05, 0.3, 3)  # of three pairs of points: such a body exists
         quaternion = self.rng.normal(size=4)
         self.scene.add_body(
@@ -87,14 +85,8 @@ class Builder:
 
     def add_vessel(self) -> None:
         root = self.rng.normal(size=(6, 6))
-        memory = StateSpaceBlock(
-            inputs=[2],
-            outputs=[2],
-            a=[[0.0, 1.0], [-4.0, -1.5]],
-            b=[[1.0], [0.5]],
-            c=[[30.0, 60.0]],
-            d=[[0.0]],
-        )
+        memory = StateSpaceBlock(inputs=[2], outputs=[2], a=[[0.0, 1.0], [-4.0, -1.5]], b=[[1.0], [0.5]],
+                                 c=[[30.0, 60.0]], d=[[0.0]])  # fmt: skip
         self.scene.add_vessel(
             body="base", added_mass=20.0 * root @ root.T, linear_damping=5.0 * np.eye(6),
             quadratic_damping=np.full(6, 2.0), restoring=np.diag([0.0, 0.0, 900.0, 700.0, 700.0, 0.0]),
@@ -105,8 +97,7 @@ class Builder:
         if swapped:
             first, second = second, first
         axis = unit(self.rng)
-        about, extra = joint_examples.KINDS[kind], joint_examples.own_numbers(kind)
-        other: dict[str, Any] = {}
+        about, other = joint_examples.KINDS[kind], dict[str, Any](joint_examples.own_numbers(kind))
         if about.own_axis:
             other["second_axis"] = across(axis, self.rng)
         point = 0.5 * (self.place(first) + self.place(second)) + self.rng.uniform(-0.5, 0.5, 3)
@@ -115,7 +106,7 @@ class Builder:
         if about.rows == 0:
             axis = np.array([0.0, 0.0, 1.0])
         self.scene.add_joint(
-            kind=kind, name=name, first=first, second=second, point=point, axis=axis, **other, **extra
+            kind=kind, name=name, first=first, second=second, point=point, axis=axis, **other
         )
 
     def add_struts(self) -> None:
@@ -127,8 +118,8 @@ class Builder:
                 return
             left -= 1
             tag, (base, arm) = joint.name, map(str, rng.permutation([joint.first, joint.second]))
-            hinge = self.hinge_point(joint)
-            axis = self.hinge_axis(joint)
+            hinge, axes = self.frame(joint)
+            axis = axes[:, 2]
             radial = np.cross(axis, unit(rng))
             radial /= np.linalg.norm(radial)
             lower = hinge - rng.uniform(0.5, 1.0) * radial + rng.uniform(-0.2, 0.2) * axis
@@ -141,13 +132,11 @@ class Builder:
             self.add_body(rod, lower + 0.7 * (upper - lower) + rng.uniform(-0.1, 0.1, 3))
             slide = line + 0.1 * rng.normal(size=3)
             self.pair(f"{tag} slide", "prismatic", barrel, rod, 0.5 * (lower + upper), axis=slide)
-            at_base = bool(rng.integers(2))
             ends = [(base, barrel, lower), (arm, rod, upper)]
-            held, free = ends if at_base else ends[::-1]
+            held, free = ends if rng.integers(2) else ends[::-1]
             fixed = across(line, rng) + 0.1 * line
-            self.pair(
-                f"{tag} cross", "universal", *held, axis=fixed, second_axis=np.cross(fixed, unit(rng) + line)
-            )
+            second = np.cross(fixed, unit(rng) + line)
+            self.pair(f"{tag} cross", "universal", *held, axis=fixed, second_axis=second)
             self.pair(f"{tag} ball", "spherical", *free)
 
     def pair(self, name: str, kind: str, first: str, second: str, point: Array, **axes: Any) -> None:
@@ -159,20 +148,12 @@ class Builder:
 
     def frame(self, joint: Any) -> tuple[Array, Array]:
         """Joint point and axes in the inertial frame."""
-        from seacrane.inputs.frames import rotation_matrix
-
         if joint.first == "ground":
             return np.array(joint.first_frame.point), np.array(joint.first_frame.axes)
         body = self.scene.bodies[joint.first]
         rotation = rotation_matrix(np.array(body.quaternion))
         point = np.array(body.position) + rotation @ np.array(joint.first_frame.point)
         return point, rotation @ np.array(joint.first_frame.axes)
-
-    def hinge_point(self, joint: Any) -> Array:
-        return self.frame(joint)[0]
-
-    def hinge_axis(self, joint: Any) -> Array:
-        return self.frame(joint)[1][:, 2]
 
     def add_loads(self) -> None:
         rng, scene = self.rng, self.scene
