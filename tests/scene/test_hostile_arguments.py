@@ -245,6 +245,7 @@ WAVES: dict[str, Any] = {
 @seed(23)
 @settings(SETTINGS, max_examples=160)
 @given(key=st.sampled_from(sorted(WAVES | HULL)), value=HOSTILE)
+@example(key="evaluation", value=np.eye(3))
 def test_waves(key: str, value: Any) -> None:
     """Of the sea, and of the loads on a hull in it."""
     scene = base()

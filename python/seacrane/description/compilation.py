@@ -24,7 +24,6 @@ from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
 from seacrane.warnings import RedundantJointsWarning
 
-EVALUATIONS = ("table", "exact", "fft")
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
@@ -154,8 +153,6 @@ def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
 
 
 def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
-    if waves.evaluation not in EVALUATIONS:
-        raise ValueError(f"evaluation is {waves.evaluation!r}; choose {', '.join(EVALUATIONS)}")
     sea, position = waves.components(), hull.position
     loads: dict[str, Any] = {
         "exact": _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)

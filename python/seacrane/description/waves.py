@@ -23,7 +23,7 @@ from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
 STRETCHING = ("wheeler", "none")
-CHOICE = " or ".join(map(repr, STRETCHING))
+EVALUATIONS = ("table", "exact", "fft")
 
 
 class _ReadOnly:
@@ -167,8 +167,10 @@ class Waves(_ReadOnly):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
         if not (self.current is None or isinstance(self.current, Current)):
             raise SceneError(f"waves: current is {shown(self.current)}; give a seacrane.sea.Current")
-        if self.stretching not in STRETCHING:
-            raise SceneError(f"waves: stretching is {shown(self.stretching)}; choose {CHOICE}")
+        for name, known in (("evaluation", EVALUATIONS), ("stretching", STRETCHING)):
+            value = getattr(self, name)
+            if not (isinstance(value, str) and value in known):
+                raise SceneError(f"waves: {name} is {shown(value)}; choose {' or '.join(map(repr, known))}")
         if not isinstance(self.provenance, SeaProvenance):
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
