@@ -37,12 +37,7 @@ def solved(bodies: tuple[Any, Any], omega: list[float], heading: list[float]) ->
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     both = bodies[0] + bodies[1]
     wanted = xarray.Dataset(
-        coords={
-            "omega": omega,
-            "wave_direction": heading,
-            "radiating_dof": list(both.dofs),
-            "rho": [1025.0],
-        }
+        coords={"omega": omega, "wave_direction": heading, "radiating_dof": list(both.dofs), "rho": [1025.0]}
     )
     return capytaine.BEMSolver().fill_dataset(wanted, both, progress_bar=False)
 

@@ -22,11 +22,7 @@ DAMAGE: list[tuple[str, Callable[[str], str] | None, str]] = [
     ("mesh/KH.dat", lambda text: text[:200], "is no matrix of six rows"),
     ("mesh/KH.dat", lambda text: text.replace("E", "x", 1), "are no numbers"),
     ("mesh/Hydrostatics.dat", lambda text: text[:40], "no centre of gravity"),
-    (
-        "mesh/Hydrostatics.dat",
-        lambda text: text.replace("Displacement = ", "Displacement = -"),
-        "positive",
-    ),
+    ("mesh/Hydrostatics.dat", lambda text: text.replace("Displacement = ", "Displacement = -"), "positive"),
     ("results/RadiationCoefficients.tec", lambda text: "", "no numbers"),
     ("results/RadiationCoefficients.tec", lambda text: text[:-30], "omega and two for each of six"),
     (

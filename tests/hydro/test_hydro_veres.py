@@ -123,8 +123,7 @@ def test_linearised_roll_damping_belongs_to_its_amplitude(database: HydroDatabas
 
 
 @pytest.mark.parametrize(
-    ("reference", "attribute"),
-    [("force_rao_file_axes", "force"), ("motion_rao_file_axes", "motion_rao")],
+    ("reference", "attribute"), [("force_rao_file_axes", "force"), ("motion_rao_file_axes", "motion_rao")]
 )
 def test_transfer_functions(
     database: HydroDatabase, expected: dict[str, Any], reference: str, attribute: str

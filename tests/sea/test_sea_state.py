@@ -15,15 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.run.stats import origin_settings
-from seacrane.sea import (
-    MeasuredWaves,
-    SeaState,
-    WaveSystem,
-    cos_2s,
-    jonswap,
-    realise_waves,
-    torsethaugen,
-)
+from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, realise_waves, torsethaugen
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning
 

@@ -61,8 +61,7 @@ def test_loads_over_the_heading_and_drift_count_too() -> None:
     assert list(kept_components(by_heading)) == [True, True, True, False]
     drift = np.array([[0.0] * 6, [1.0] * 6, [1.0] * 6, [1e24] * 6])
     slow = by_heading.changed(
-        drift=drift,
-        drift_by_heading=ByHeading(heading=headings, values=np.tile(drift, (3, 1, 1))),
+        drift=drift, drift_by_heading=ByHeading(heading=headings, values=np.tile(drift, (3, 1, 1)))
     )
     assert list(kept_components(slow)) == [True, True, True, True]
     fewer = without_negligible(by_heading)

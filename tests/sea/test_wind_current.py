@@ -63,12 +63,7 @@ def test_the_load_is_what_the_formula_says(yaw: float, direction_deg: float) -> 
     scene = block(**yawed(yaw), velocity=(1.5, -0.7, 0.4))
     point = np.array([10.0, -4.0, 12.0])
     scene.add_wind(
-        coefficients=smooth(),
-        speed=20.0,
-        direction_deg=direction_deg,
-        body="block",
-        point=point,
-        **AREAS,
+        coefficients=smooth(), speed=20.0, direction_deg=direction_deg, body="block", point=point, **AREAS
     )
     b = np.radians(direction_deg)
     relative = 20.0 * np.array([np.cos(b), np.sin(b)]) - [1.5, -0.7]
@@ -125,12 +120,7 @@ def test_a_drifting_body_takes_up_the_current_as_the_closed_form_says() -> None:
     """m dw/dt = - k w^2 for the speed w through the water: w = w0 / (1 + k w0 t / m)."""
     scene = block(velocity=(-1.0, 0.0, 0.0))
     scene.add_current(
-        coefficients=smooth(),
-        speed=1.5,
-        direction_deg=0.0,
-        body="block",
-        point=(1.0, 2.0, 3.0),
-        **AREAS,
+        coefficients=smooth(), speed=1.5, direction_deg=0.0, body="block", point=(1.0, 2.0, 3.0), **AREAS
     )
     result = simulate(scene, t_end=200.0, dt_out=5.0, rtol=1e-10)
     k, start = 0.5 * 1025.0 * 400.0 * 0.8, 2.5
@@ -148,12 +138,7 @@ def test_the_load_always_opposes_motion_through_the_medium() -> None:
         velocity, yaw = rng.normal(size=3), rng.uniform(-3.0, 3.0)
         scene = block(**yawed(yaw), velocity=velocity)
         scene.add_current(
-            coefficients=smooth(),
-            speed=0.8,
-            direction_deg=30.0,
-            body="block",
-            point=(1.0, 2.0, 3.0),
-            **AREAS,
+            coefficients=smooth(), speed=0.8, direction_deg=30.0, body="block", point=(1.0, 2.0, 3.0), **AREAS
         )
         through = velocity[:2] - 0.8 * np.array([np.cos(np.pi / 6.0), np.sin(np.pi / 6.0)])
         assert wrench(scene)[:2] @ through < 0.0
@@ -169,12 +154,7 @@ def test_gusts_follow_their_curve_and_a_jump_restarts_the_integration() -> None:
     scene = block()
     speed = Curve.constant(value=10.0).then(time=5.0, curve=Curve.constant(value=20.0))
     scene.add_wind(
-        coefficients=smooth(),
-        speed=speed,
-        direction_deg=0.0,
-        body="block",
-        point=(1.0, 2.0, 3.0),
-        **AREAS,
+        coefficients=smooth(), speed=speed, direction_deg=0.0, body="block", point=(1.0, 2.0, 3.0), **AREAS
     )
     assert scene.compile().breakpoints == [5.0]
     assert wrench(scene, t=6.0)[0] == pytest.approx(4.0 * wrench(scene, t=1.0)[0], rel=1e-12)
