@@ -21,52 +21,37 @@ def test_slices_of_mesh_and_offsets_have_the_area_of_the_closed_form() -> None:
     x = np.linspace(-0.47, 0.47, 13) * length
     exact = breadth * draught / 3.0 * (1.0 - (2.0 * x / length) ** 2)
     vertices, faces = wigley_mesh(*SHIP, 40)
-    for hull in (
-        Hull.from_mesh(vertices=vertices, faces=faces),
-        Hull.from_offsets(wigley_offsets(*SHIP, 40)),
-    ):
+    mesh, table = Hull.from_mesh(vertices=vertices, faces=faces), Hull.from_offsets(wigley_offsets(*SHIP, 40))
+    for hull in (mesh, table):
         cut = hull.sections(x)
         assert [half_area(s.section) for s in cut] == pytest.approx(exact, abs=1e-3 * exact.max())
         for s in cut:
-            assert s.apart == 0.0
-            assert s.section[0, 1] == 0.0
-            assert s.section[-1, 0] == 0.0
+            assert s.apart == s.section[0, 1] == s.section[-1, 0] == 0.0
             assert np.all(np.diff(s.section[:, 1]) <= 1e-9)
-
-
-def test_the_ends_themselves_are_sections() -> None:
-    barge = Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 2.0], [5.0, -4.0]],) * 2))
-    for s in barge.sections([-20.0, -19.9, 0.0, 20.0]):
-        assert half_area(s.section) == pytest.approx(20.0)
-        assert s.section[:, 0].max() == pytest.approx(5.0)
-    stem = Hull.from_offsets(wigley_offsets(*SHIP, 8)).sections([50.0])[0].section
-    assert np.all(stem[:, 0] == 0.0)
-    assert stem[-1, 1] == pytest.approx(-6.0)
+    hull = Hull.from_offsets(wigley_offsets(*SHIP, 8))
+    x = np.linspace(-50.0, 50.0, 33)  # the table's stations, straight between them, and the middles
+    areas = np.array([2.0 * half_area(s.section) for s in hull.sections(x)])
+    # Between stations the area of a straight loft is quadratic: Simpson's rule gives the surface's volume.
+    simpson = np.sum(areas[:-1:2] + 4.0 * areas[1::2] + areas[2::2]) * 100.0 / 16.0 / 6.0
+    assert simpson == pytest.approx(hull.hydrostatics.volume, rel=1e-9)
+    stem = hull.sections([50.0])[0].section
+    assert np.all(stem[:, 0] == 0.0) and stem[-1, 1] == pytest.approx(-6.0)
 
 
 def test_a_bottom_that_rises_to_the_waterline_ends_in_an_empty_section() -> None:
     """The bottom of a barge rises straight from 4 m depth at x = 0 to 1 m above the waterline at x = 25 m."""
-    points = [[[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, 1.0]]]
-    hull = Hull.from_offsets(OffsetTable(x=[-20.0, 0.0, 25.0], sections=tuple(points)))
+    deep = [[5.0, 2.0], [5.0, -4.0]]
+    table = OffsetTable(x=[-20.0, 0.0, 25.0], sections=(deep, deep, [[5.0, 2.0], [5.0, 1.0]]))
+    hull = Hull.from_offsets(table)
     assert hull.extent[:, 0] == pytest.approx([-20.0, 20.0])
     assert hull.hydrostatics.volume == pytest.approx(20.0 * 40.0 + 0.5 * 20.0 * 40.0)
-    middle, end = hull.sections([10.0, 20.0])
-    assert half_area(middle.section) == pytest.approx(10.0)
-    assert np.all(end.section == 0.0)
-
-
-def test_sections_integrate_to_the_volume_of_the_surface() -> None:
-    hull = Hull.from_offsets(wigley_offsets(*SHIP, 8))
-    x = np.linspace(-50.0, 50.0, 17)  # the table's stations: straight between them
-    areas = [2.0 * half_area(s.section) for s in hull.sections(x)]
-    # Between stations the area of a straight loft is quadratic, so that the mid-stations are needed too.
-    middle = [2.0 * half_area(s.section) for s in hull.sections(0.5 * (x[1:] + x[:-1]))]
-    simpson = np.sum(np.diff(x) * (np.array(areas[:-1]) + 4.0 * np.array(middle) + np.array(areas[1:])) / 6.0)
-    assert simpson == pytest.approx(hull.hydrostatics.volume, rel=1e-9)
+    cut = hull.sections([-20.0, -19.9, 10.0, 20.0])
+    assert [half_area(s.section) for s in cut] == pytest.approx([20.0, 20.0, 10.0, 0.0])
+    assert np.all(cut[-1].section == 0.0)
 
 
 def test_a_bulb_ahead_of_the_stem_hangs_apart() -> None:
-    """A sphere of radius 1.5 m wholly under water, 4 m ahead of a box."""
+    """A sphere of radius 1.5 m wholly under water, 4 m ahead of a box; two hulls beside each other."""
     bulb = moved(sphere(1.5, 48), 24.0, 0.0, -2.5)
     vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
     hull = Hull.from_mesh(vertices=vertices, faces=faces)
@@ -76,18 +61,15 @@ def test_a_bulb_ahead_of_the_stem_hangs_apart() -> None:
     assert inside.apart == 0.0
     with pytest.raises(ValueError, match="hangs apart"):
         hull.remeshed(stations=40, girth=6)
-
-
-def test_a_catamaran_is_not_a_section() -> None:
     one = box(length=40.0, breadth=3.0, bottom=-4.0, top=3.0)
     vertices, faces = joined(moved(one, 0.0, 5.0, 0.0), moved(one, 0.0, -5.0, 0.0))
-    hull = Hull.from_mesh(vertices=vertices, faces=faces)
-    assert hull.hydrostatics.volume == pytest.approx(2 * 480.0)
+    catamaran = Hull.from_mesh(vertices=vertices, faces=faces)
+    assert catamaran.hydrostatics.volume == pytest.approx(2 * 480.0)
     with pytest.raises(ValueError, match="more than once"):
-        hull.sections([0.0])
+        catamaran.sections([0.0])
 
 
-@pytest.mark.parametrize("away", [0.0, 1e-9, -1e-8, 1e-6, -1e-6, 1e-5])
+@pytest.mark.parametrize("away", [0.0, 1e-9, -1e-6])
 def test_slices_next_to_the_vertices_of_a_fan(away: float) -> None:
     """Planes through and beside the pole of a sphere, where 48 panels meet, and all its other vertices."""
     vertices, faces = sphere(5.0, 48)
@@ -95,7 +77,6 @@ def test_slices_next_to_the_vertices_of_a_fan(away: float) -> None:
     x = np.unique(np.round(hull.panels[..., 0], 9))[1:-1] + away
     exact = [abs(25.0 - v**2) for v in x]
     for s, square in zip(hull.sections(x), exact, strict=True):
-        radius = np.sqrt(square)
-        above = 1.0  # height of the centre
+        radius, above = np.sqrt(square), 1.0  # height of the centre
         area = square * np.arccos(above / radius) - above * np.sqrt(square - above**2)
         assert 2.0 * half_area(s.section) == pytest.approx(area, abs=0.25)
