@@ -47,28 +47,6 @@ def test_box_of_a_mesh_and_of_two_stations() -> None:
         assert np.diag(stiff)[2:5] == pytest.approx(RHO * G * np.array(levers))
 
 
-def test_wedge_from_keel_first_offsets() -> None:
-    """Triangular sections of half angle 45 deg: V = L T^2, KB = 2 T / 3, I = L (2 T)^3 / 12."""
-    table = OffsetTable(x=[0.0, 30.0], sections=([[0.0, -5.0], [7.0, 2.0]],) * 2)
-    statics = Hull.from_offsets(table).hydrostatics
-    assert statics.volume == pytest.approx(30.0 * 25.0, rel=1e-12)
-    assert statics.center_of_buoyancy == pytest.approx([15.0, 0.0, -5.0 / 3.0], rel=1e-12)
-    assert statics.waterplane_inertia_roll == pytest.approx(30.0 * 1000.0 / 12.0, rel=1e-12)
-    assert statics.center_of_flotation == pytest.approx(15.0)
-    ends, sides = 2.0 * 25.0, 2.0 * 30.0 * np.sqrt(50.0)
-    assert statics.wetted_surface == pytest.approx(ends + sides, rel=1e-12)
-
-
-def test_a_rolling_horizontal_cylinder_keeps_its_metacentre_on_the_axis() -> None:
-    """Every section's buoyancy passes through the axis: M is at the axis, 1.5 m below the waterline here."""
-    angle = np.linspace(0.5 * np.pi, -0.5 * np.pi, 401)
-    section = np.column_stack([4.0 * np.cos(angle), 4.0 * np.sin(angle) - 1.5])
-    statics = Hull.from_offsets(OffsetTable(x=[-10.0, 10.0], sections=(section,) * 2)).hydrostatics
-    assert statics.metacentre_transverse == pytest.approx(-1.5, abs=1e-4)
-    segment = 16.0 * (np.pi - np.arccos(1.5 / 4.0)) + 1.5 * np.sqrt(16.0 - 2.25)
-    assert statics.volume == pytest.approx(20.0 * segment, rel=1e-4)
-
-
 @pytest.mark.parametrize("draught", [3.0, 7.5])
 def test_sphere_cap(draught: float) -> None:
     """A floating sphere of radius 5 m: cap volume and area, metacentre at the centre whatever the draught."""

@@ -85,7 +85,9 @@ def test_realisation_keeps_the_transfer_function_and_scales_the_states() -> None
     omega = np.geomspace(0.01, 100.0, 3000)  # the largest harmonic amplitude
     resolvent = 1j * omega[:, None, None] * np.eye(4) - block.A
     states = np.abs(np.linalg.solve(resolvent, np.broadcast_to(block.B.astype(complex), (3000, 4, 1))))
-    assert block.state_scale == pytest.approx(0.01 * states.max(axis=0)[:, 0], rel=1e-2)
+    assert block.state_scale == pytest.approx(0.1 * states.max(axis=0)[:, 0], rel=1e-2)  # of 0.1 m/s
+    turning = realise(NUMERATOR * 1e8, DENOMINATOR, output=3, input=3, cause=RADIATION)
+    assert turning.state_scale == pytest.approx(0.1 * block.state_scale)
     with pytest.raises(ValueError, match="unstable pole"):
         realise(np.array([1.0, 0.0]), np.array([1.0, -0.2, 1.0]), output=0, input=0, cause=RADIATION)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import json
 import warnings
 from pathlib import Path
@@ -57,11 +58,6 @@ def full(**changes: Any) -> HydroDatabase:
         "port_starboard_symmetric": False,
     }
     return dataclasses.replace(coarse, **(values | changes))
-
-
-def lever(point: Any) -> np.ndarray:
-    """The matrix of ``point x``."""
-    return np.array([np.cross(point, axis) for axis in np.eye(3)]).T
 
 
 def assert_same(found: HydroDatabase, base: HydroDatabase, tolerance: float) -> None:
@@ -123,16 +119,12 @@ def test_motions_at_the_new_point_are_those_the_rigid_body_has_there(point: Any)
 
 def test_moments_and_power_do_not_depend_on_the_point() -> None:
     """Loads do the same work, kinetic energy and dissipation stay, at any point."""
-    base, point = full(), np.array([-9.0, 3.0, 4.0])
+    base, point, old = full(), np.array([-9.0, 3.0, 4.0]), np.random.default_rng(1).normal(size=6)
     there = base.at(point, phase_origin=False)
-    rng = np.random.default_rng(1)
-    old = rng.normal(size=6)
-    new = old.copy()
-    new[:3] += np.cross(old[3:], point)
+    new = np.concatenate([old[:3] + np.cross(old[3:], point), old[3:]])
     assert np.einsum("mni,i->mn", there.force, new) == pytest.approx(np.einsum("mni,i->mn", base.force, old))
     for name in MATRICES[:-1]:
         assert new @ getattr(there, name) @ new == pytest.approx(old @ getattr(base, name) @ old), name
-    assert base.drift is not None and there.drift is not None
     assert there.drift.coefficient @ new == pytest.approx(base.drift.coefficient @ old)
 
 
@@ -143,45 +135,36 @@ def test_the_free_vessel_with_memory_has_the_same_eigenvalues(kind: str) -> None
         base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
     there = base.at((12.0, -5.0, 3.0))
     before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, there))
-    assert len(before) == len(after)
     distance = np.abs(before[:, None] - after)
+    assert len(before) == len(after)
     assert distance.min(axis=1).max() < 1e-10 and distance.min(axis=0).max() < 1e-10
-    assert there.memory is not None
     if kind == "passive":
         assert all(is_energy_form(block) for block in there.memory.blocks)
         assert passivity_certificate(there.memory).passive
+        return
+    row = next(row for row in there.memory.rows if (row.output, row.input) == (2, 4))  # judged there
+    inside = (there.omega >= 0.3) & (there.omega <= 2.5)
+    data, fitted = there.damping[inside, 2, 4], there.memory.frequency_response(there.omega)[1][inside, 2, 4]
+    assert row.r2_damping == pytest.approx(
+        1.0 - np.sum((data - fitted) ** 2) / np.sum((data - data.mean()) ** 2)
+    )
 
 
 def test_a_run_about_the_new_point_is_the_same_voyage(tmp_path: Path) -> None:
     """The time domain about two points in the same sea: they differ by products of small motions only."""
-    point = (10.0, 4.0, -3.0)
-    base = shipped_database()
+    point, base, errors = (10.0, 4.0, -3.0), shipped_database(), []
     base.at(point, phase_origin=False).save(tmp_path / "moved.nc")
-    errors = []
     for hs in (0.1, 1.0):
         runs = []
         for database in (base, load_database(tmp_path / "moved.nc")):
             scene = cases.vessel(database=database, hs=hs, mooring_period=None)
-            run = simulate(scene, t_end=20.0, dt_out=0.5, channels=["vessel_motion"])
-            runs.append(np.asarray(run["vessel_motion"]))
-        old, new = runs
-        carried = old.copy()
-        carried[:, :3] += np.cross(old[:, 3:], point)
+            runs.append(simulate(scene, t_end=20.0, dt_out=0.5, channels=["vessel_motion"])["vessel_motion"])
+        old, new = map(np.asarray, runs)
+        carried = np.concatenate([old[:, :3] + np.cross(old[:, 3:], point), old[:, 3:]], axis=1)
         assert np.abs(new - old).max() > 0.1 * np.abs(old).max()
         errors.append((np.abs(new - carried).max(axis=0) / np.abs(old).max(axis=0)).max())
     assert errors[0] < 5e-3
     assert 5.0 < errors[1] / errors[0] < 20.0  # grows with the waves: of second order
-
-
-def test_fits_are_judged_about_the_new_point() -> None:
-    there = shipped_database().at((10.0, 0.0, 0.0))
-    assert there.memory is not None
-    row = next(row for row in there.memory.rows if (row.output, row.input) == (2, 4))
-    fitted = there.memory.frequency_response(there.omega)[1][:, 2, 4]
-    inside = (there.omega >= 0.3) & (there.omega <= 2.5)
-    data = there.damping[inside, 2, 4]
-    expected = 1.0 - np.sum((data - fitted[inside]) ** 2) / np.sum((data - data.mean()) ** 2)
-    assert row.r2_damping == pytest.approx(expected)
 
 
 def test_off_the_centreline_both_sides_are_written_out() -> None:
@@ -200,88 +183,60 @@ def test_midship_of_the_supply_vessel(shared: Path) -> None:
     """Against MSS, which moved the same files to midship with code of its own."""
     folder = shared / "veres" / "supply"
     expected = json.loads((folder / "expected.json").read_text())
-    lcg = expected["header"]["LCG_aft_of_midship"]
-    there = load_database(folder).at((lcg, 0.0, 0.0), phase_origin=False)
-    ours = expected["xfwd_yport_zup"]["at_midship_waterline"]
+    there = load_database(folder).at((expected["header"]["LCG_aft_of_midship"], 0, 0), phase_origin=False)
+    ours, mss = expected["xfwd_yport_zup"]["at_midship_waterline"], expected["mss_fossen_axes"]
+    turn = np.diag([1.0, -1.0, -1.0, 1.0, -1.0, -1.0])  # x forward, y starboard, z down
     for name, symbol in (("added_mass", "A"), ("damping", "B")):
         for key, matrix in ours[symbol].items():
             assert getattr(there, name)[int(key)] == pytest.approx(np.array(matrix), rel=1e-12, abs=1e-3)
+        for key, matrix in mss[symbol].items():
+            found = (turn @ getattr(there, name)[int(key)] @ turn)[1:, 1:]  # without surge
+            assert found == pytest.approx(np.array(matrix)[1:, 1:], rel=1e-9, abs=1e-3)
     for key, pairs in ours["force_rao"].items():
         frequency, direction = key.split(",mu=")
         at = int(np.argmin(np.abs(np.angle(np.exp(1j * (there.heading - np.radians(float(direction))))))))
-        values = np.array(pairs)
-        found = there.force[at, int(frequency)]
-        size = np.abs(values).max()
-        assert np.abs(found - (values[:, 0] + 1j * values[:, 1])).max() < 1e-9 * size
-    mss = expected["mss_fossen_axes"]
-    turn = np.diag([1.0, -1.0, -1.0, 1.0, -1.0, -1.0])  # x forward, y starboard, z down
-    without_surge = np.ix_(range(1, 6), range(1, 6))
-    for key in mss["A"]:
-        for name, symbol in (("added_mass", "A"), ("damping", "B")):
-            found = turn @ getattr(there, name)[int(key)] @ turn
-            wanted = np.array(mss[symbol][key])[without_surge]
-            assert found[without_surge] == pytest.approx(wanted, rel=1e-9, abs=1e-3)
+        wanted = np.array(pairs) @ [1.0, 1j]
+        assert np.abs(there.force[at, int(frequency)] - wanted).max() < 1e-9 * np.abs(pairs).max()
     assert turn @ there.mass_matrix @ turn == pytest.approx(np.array(mss["MRB"]), rel=1e-9, abs=1e-2)
     assert turn @ there.restoring @ turn == pytest.approx(np.array(mss["C"]), rel=1e-9, abs=1e-2)
 
 
-BOX = np.array([30.0, 8.0, 2.5])  # length, breadth, draught
+@pytest.mark.parametrize("point", POINTS)
+def test_restoring_about_another_point_is_that_of_the_same_loads(point: Any) -> None:
+    """Of a box, by moments about the point that turns with it; a net lift has a lever about the new point.
 
-
-def box_load(
-    pose: np.ndarray, about: np.ndarray, centre: np.ndarray, weight: float, rho_g: float
-) -> np.ndarray:
-    """Force and moment of buoyancy and weight about the body point ``about``, displaced by ``pose``.
-
-    The box lies with its midship section at x = 0, wall-sided; columns of water under the tilted surface are
-    integrated exactly (polynomials of third degree, Gauss points).
+    Wall-sided at small angles: buoyancy by the waterplane of the displaced box, weight at its centre.
     """
-    shift, angle = pose[:3], float(np.linalg.norm(pose[3:]))
-    axis = lever(pose[3:] / angle) if angle > 0.0 else np.zeros((3, 3))
-    rotation = np.eye(3) + np.sin(angle) * axis + (1.0 - np.cos(angle)) * axis @ axis
-    nodes, weights = np.polynomial.legendre.leggauss(4)
-    force, moment = np.zeros(3), np.zeros(3)
-    place = about + shift
-    for x, wx in zip(nodes * BOX[0] / 2, weights * BOX[0] / 2, strict=True):
-        for y, wy in zip(nodes * BOX[1] / 2, weights * BOX[1] / 2, strict=True):
-            at = np.array([x, y, 0.0]) - about
-            surface = -(place[2] + rotation[2] @ at) / rotation[2, 2]  # z in the body where the water ends
-            wet = surface + BOX[2]
-            middle = place + rotation @ (at + np.array([0.0, 0.0, 0.5 * (surface - BOX[2])]))
-            lift = np.array([0.0, 0.0, rho_g * wx * wy * wet])
-            force += lift
-            moment += np.cross(middle - place, lift)
-    pull = np.array([0.0, 0.0, -weight])
-    return np.concatenate([force + pull, moment + np.cross(rotation @ (centre - about), pull)])
+    rho_g, (length, breadth, draught) = 1025.0 * 9.81, (30.0, 8.0, 2.5)
+    centre, buoyancy = np.array([0.0, 0.0, 0.7]), rho_g * length * breadth * draught
 
+    def restoring(about: Any, weight: float) -> np.ndarray:
+        nodes = np.sqrt(1.0 / 12.0) * np.array([-1.0, 1.0])  # Gauss points of two, exact for squares
+        total = np.zeros((6, 6))
+        for x, y in itertools.product(length * nodes, breadth * nodes):
+            arm, column = np.array([x, y, -draught / 2]) - about, rho_g * length * breadth / 4
+            for j, unit in enumerate(np.eye(6)):  # a motion of the point, small angles
+                rise = unit[2] + np.cross(unit[3:], (x, y, 0.0) - np.array(about))[2]
+                turned = np.cross(unit[3:], arm)
+                lost = np.array([0.0, 0.0, column * rise])
+                surface = np.array([x, y, 0.0]) - about
+                total[:, j] += np.concatenate([lost, np.cross(surface, lost)])
+                total[3:, j] -= np.cross(turned, (0.0, 0.0, column * draught))
+        for j, turn in enumerate(np.eye(3)):
+            total[3:, 3 + j] += np.cross(np.cross(turn, centre - about), (0.0, 0.0, weight))
+        return total
 
-def box_restoring(about: np.ndarray, centre: np.ndarray, weight: float, rho_g: float) -> np.ndarray:
-    """Restoring about a point by central differences."""
-    step = 1e-4
-    columns = [
-        box_load(-step * unit, about, centre, weight, rho_g)
-        - box_load(step * unit, about, centre, weight, rho_g)
-        for unit in np.eye(6)
-    ]
-    return np.array(columns).T / (2.0 * step)
-
-
-@pytest.mark.parametrize("lift", [0.0, 0.15], ids=["floating by itself", "lighter than its displacement"])
-def test_restoring_of_a_box_about_another_point(lift: float) -> None:
-    rho_g = 1025.0 * 9.81
-    buoyancy = rho_g * float(np.prod(BOX))
-    centre = np.array([0.0, 0.0, 0.7])
-    weight = (1.0 - lift) * buoyancy
-    origin, *about = (box_restoring(np.array(p), centre, weight, rho_g) for p in [(0.0, 0.0, 0.0), *POINTS])
-    closed = rho_g * BOX[0] * BOX[1] * np.array([1.0, BOX[1] ** 2 / 12, BOX[0] ** 2 / 12])
-    closed[1:] += -buoyancy * BOX[2] / 2 - weight * centre[2]
-    assert np.diag(origin)[2:5] == pytest.approx(closed, rel=1e-6)
-    base = full(restoring=origin, additional=(), roll_damping=None)
-    for point, wanted in zip(POINTS, about, strict=True):
-        found = base.at(point, net_lift=lift * buoyancy).restoring
-        assert found == pytest.approx(wanted, rel=1e-6, abs=1e-6 * closed[2])
-        if lift:
-            assert np.abs(base.at(point).restoring - wanted).max() > 1e-3 * closed[1]
+    for share in (0.0, 0.15):
+        weight = (1.0 - share) * buoyancy
+        base = full(restoring=restoring(np.zeros(3), weight), additional=(), roll_damping=None)
+        c33 = rho_g * length * breadth
+        metacentre = c33 * breadth**2 / 12 - buoyancy * draught / 2 - weight * centre[2]
+        assert base.restoring[[2, 3], [2, 3]] == pytest.approx([c33, metacentre])
+        wanted = restoring(point, weight)
+        found = base.at(point, net_lift=share * buoyancy).restoring
+        assert found == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+        if share:
+            assert np.abs(base.at(point).restoring - wanted).max() > 1e-3 * metacentre
 
 
 def test_what_cannot_be_moved_is_named() -> None:

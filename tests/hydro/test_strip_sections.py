@@ -64,14 +64,6 @@ def test_agrees_with_multipoles_and_the_limits_of_its_mapping(section: LewisSect
         assert diagonal(found["added_mass"])[1] == pytest.approx(np.diag(infinite), rel=0.03)
 
 
-def test_semicircle_against_ursell() -> None:
-    """Ursell (1949): heave 0.61 of rho pi R^2 / 2 at k R = 1; in sway 4 / pi^2 at infinite frequency."""
-    found = solved(CIRCLE.points(200), [np.sqrt(G)])
-    unit = RHO * 0.5 * np.pi
-    assert found["added_mass"][0, 1, 1] / unit == pytest.approx(0.61, abs=0.01)
-    assert found["infinite_added_mass"][0, 0] / unit == pytest.approx(4.0 / np.pi**2, rel=2e-3)
-
-
 @pytest.mark.parametrize("points", [FULL.points(100), RECTANGLE], ids=["lewis", "rectangle"])
 def test_radiated_energy_and_reciprocity(points: FloatArray) -> None:
     """Damping from pressure equals the power of the waves far away, coupling included."""
@@ -110,22 +102,6 @@ def test_no_irregular_frequencies() -> None:
     assert (diagonal(found["damping"]) > -1e-3 * peak).all()
 
 
-def test_kramers_kronig() -> None:
-    """A(w) - A(infinity) = 2 / pi times the integral of (B(s) - B(w)) / (s^2 - w^2) ds."""
-    node, weight = np.polynomial.legendre.leggauss(400)
-    s = 3.0 * (node + 1.0)
-    at = np.array([0.4, 0.8, 1.2, 1.6])
-    integrated, direct = (solved(FULL.points(100), w, panels=60) for w in (s, at))
-    b, infinite = diagonal(integrated["damping"]), np.diag(direct["infinite_added_mass"])
-    for i, w in enumerate(at):
-        b_w, a_w = diagonal(direct["damping"])[i], diagonal(direct["added_mass"])[i]
-        kernel = (3.0 * weight)[:, None] * (b - b_w) / (s**2 - w**2)[:, None]
-        tail = b_w * 0.5 / w * np.log((6.0 + w) / (6.0 - w))  # of -B(w) beyond 6 rad/s, where B(s) is nil
-        expected = infinite + 2.0 / np.pi * (kernel.sum(axis=0) - tail)
-        assert np.abs(a_w - expected)[:2] == pytest.approx([0.0, 0.0], abs=0.01 * infinite[1])
-        assert abs(a_w - expected)[2] < 0.01 * infinite[2]
-
-
 def test_converges_with_panels() -> None:
     """Second order on a smooth section, above first order on one with a corner."""
     for points, order in ((FULL.points(2000), 1.7), (RECTANGLE, 1.3)):
@@ -133,19 +109,6 @@ def test_converges_with_panels() -> None:
         found = [solved(points, omega, panels=n)["added_mass"] for n in (20, 40, 80, 320)]
         error = [np.abs(diagonal(a - found[-1])).max(axis=0) for a in found[:-1]]
         assert (np.log2(error[0] / error[2]) / 2.0 > order).all()
-
-
-@pytest.mark.parametrize("centre", [-0.4, 0.3])
-def test_roll_of_a_circular_arc(centre: float) -> None:
-    """Roll about its own centre moves no water: about the waterline it is sway at the centre's lever."""
-    angle = np.linspace(np.arcsin(centre), 0.5 * np.pi, 201)
-    points = np.column_stack([np.cos(angle), centre - np.sin(angle)])
-    points[0, 1] = points[-1, 0] = 0.0
-    found = solved(points, [1.0, 2.5, 4.0], panels=80)
-    for name in ("added_mass", "damping"):
-        a = found[name]
-        assert a[:, 0, 2] == pytest.approx(-centre * a[:, 0, 0], rel=5e-3)
-        assert a[:, 2, 2] == pytest.approx(centre**2 * a[:, 0, 0], rel=5e-3)
 
 
 def test_a_stem_is_a_plate_in_sway_a_point_is_nothing_and_all_scales_with_size() -> None:
@@ -165,7 +128,7 @@ def test_bad_sections() -> None:
     for points, message in (
         ([[5, 0], [0, -5]], "2 points"), ([[5, 0], [5, np.nan], [0, -5]], "point 1 .* not finite"),
         ([[5, -1], [5, -3], [0, -5]], "point 0"), ([[0, -5], [5, -5], [5, 0]], "point 0"),
-        ([[5, 0], [5, -3], [1, -5]], "point 2 .* centre"), ([[5, 0], [-1, -3], [0, -5]], "point 1 .* crossed"),
+        ([[5, 0], [5, -3], [1, -5]], "point 2"), ([[5, 0], [-1, -3], [0, -5]], "point 1 .* crossed"),
         ([[5, 0], [5, 0.2], [5, -3], [0, -5]], "point 1 .* above"), ([[5, 0], [5, 0], [0, 0]], "again"),
         ([[5, 0], [2, 0], [2, -3], [0, -5]], "point 1 .* waterline again"),
         ([[5, 0], [1, -4], [5, -4], [1, -1], [0, -5]], "crosses the side"),

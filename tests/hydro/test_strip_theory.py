@@ -86,18 +86,6 @@ def test_froude_krylov_of_a_box() -> None:
     assert found == pytest.approx(RHO * G * expected, rel=2e-4, abs=1e-7 * np.abs(expected).max() * RHO * G)
 
 
-def test_long_waves_lift_as_still_water_does() -> None:
-    """In long waves the loads are the restoring for the wave's height and slope, with buoyancy's lever."""
-    heading, k = 2.4, 0.01**2 / G
-    found = box(omega=[0.01], heading=[heading])
-    volume, area = LENGTH * 2.0 * HALF * DRAUGHT, 2.0 * HALF * LENGTH
-    c44, c55 = (area * size - 0.5 * volume * DRAUGHT for size in (HALF**2 / 3.0, LENGTH**2 / 12.0))
-    c, s = 1j * k * np.cos(heading), 1j * k * np.sin(heading)
-    expected = RHO * G * np.array([c * volume, s * volume, area, -s * c44, c * c55])
-    assert found["froude_krylov"][0, 0, :5] == pytest.approx(expected, rel=2e-3)
-    assert found["force"][0, 0, 2] == pytest.approx(expected[2], rel=0.01)
-
-
 def test_haskind_in_beam_seas() -> None:
     """b = |X|^2 omega / (rho g^2) per metre, X with its diffraction part from near the hull."""
     omega = np.array([0.4, 0.7, 1.0, 1.3])

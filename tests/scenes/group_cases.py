@@ -63,6 +63,7 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
     waves = ("complex", "omega", "wave_direction", "influenced_dof")
     bodies = group.names[::-1]
     by_name = {body.name: body for body in group.bodies}
+    centres = (("body", "space_coordinate"), np.array([by_name[name].position for name in bodies]))
     return xarray.Dataset(
         {
             "added_mass": (("omega", *matrix), added_mass[square]),
@@ -73,24 +74,13 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
             "draught": ("body", [by_name[name].draught for name in bodies]),
         },
         {
-            "omega": omega,
-            "wave_direction": group.heading,
-            "influenced_dof": labels[order],
-            "radiating_dof": labels[order],
-            "complex": ["re", "im"],
-            "body": list(bodies),
-            "space_coordinate": ["x", "y", "z"],
-            "rotation_center": (
-                ("body", "space_coordinate"),
-                np.array([by_name[name].position for name in bodies]),
-            ),
-            "rho": group.rho,
-            "g": group.g,
-            "water_depth": np.inf,
+            "omega": omega, "wave_direction": group.heading, "complex": ["re", "im"], "body": list(bodies),
+            "influenced_dof": labels[order], "radiating_dof": labels[order], "rho": group.rho, "g": group.g,
+            "space_coordinate": ["x", "y", "z"], "rotation_center": centres, "water_depth": np.inf,
             "forward_speed": 0.0,
         },
         {"capytaine_version": "3.0.0"},
-    )
+    )  # fmt: skip
 
 
 def capytaine_file(group: HydroGroup, folder: Path) -> Path:

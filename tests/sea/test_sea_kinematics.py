@@ -88,20 +88,6 @@ def test_free_surface_sea_floor_and_wheeler_stretching(depth: float) -> None:
     np.testing.assert_array_equal(air.elevation, level)
 
 
-def test_very_deep_and_very_shallow_water() -> None:
-    omega = [0.3, 3.0]
-    deep = WaveComponents(omega=omega, amplitude=0.5)
-    finite = WaveComponents(omega=omega, amplitude=0.5, depth=5000.0)
-    z = np.array([0.0, -3.0, -100.0, -4999.0])
-    with np.errstate(all="raise"):
-        one, other = (w.kinematics(time=1.0, x=4.0, y=0.0, z=z, stretching="none") for w in (deep, finite))
-    np.testing.assert_allclose(one.velocity, other.velocity, atol=1e-15)
-    assert np.all(np.isfinite(other.acceleration))
-    shallow = WaveComponents(omega=[0.01], amplitude=[0.1], depth=5.0)
-    flow = shallow.kinematics(time=0.0, x=0.0, y=0.0, z=np.array([-0.5, -4.5]))
-    np.testing.assert_allclose(flow.velocity[:, 0], 0.1 * np.sqrt(G / 5.0), rtol=1e-3)
-
-
 def test_times_and_points_broadcast_and_bad_ones_are_named() -> None:
     waves = sea(12.0)
     x, y = np.linspace(-50.0, 50.0, 5), np.linspace(0.0, 30.0, 3)

@@ -52,17 +52,6 @@ def short_crested(spreading: Spreading, **options: object) -> WaveComponents:
     return SeaState(systems=[system], **options).realise().waves
 
 
-def test_energy_does_not_depend_on_the_place() -> None:
-    # One direction per frequency: over its common period the variance is m0 at every point, to rounding.
-    waves = short_crested(cos_2s(3.0), seed=5, placement="uniform", count=300)
-    step = float(np.min(np.diff(waves.omega)))
-    period = 2.0 * np.pi / step
-    t = np.arange(4096) * period / 4096
-    for x, y in [(0.0, 0.0), (33.0, -12.0), (400.0, 250.0)]:
-        record = waves.elevation(t, x=x, y=y)
-        assert np.mean(record**2) == pytest.approx(waves.m0, rel=1e-10)
-
-
 def test_cross_spectrum_of_two_points_is_that_of_the_spreading() -> None:
     spreading, mean = cos_2s(6.0), np.radians(140.0)
     waves = short_crested(spreading, seed=2, placement="uniform", count=4000)
