@@ -69,7 +69,7 @@ def test_a_spike_of_an_irregular_frequency_is_found_and_named() -> None:
 
 
 def test_the_tanker_without_its_panels_comes_near_their_band(shared: Path, tmp_path: Path) -> None:
-    """Eight panels a wave are 2.47 rad/s; its added mass in heave jumps from there on. A band given is taken."""
+    """Eight panels a wave are 2.47 rad/s; its added mass in heave jumps from there on."""
     counted = load_database(shared / "wamit").trusted_band
     for file in (shared / "wamit").glob("tanker.*"):
         lines = file.read_bytes().split(b"\n")

@@ -92,26 +92,6 @@ def test_offsets_and_mesh_of_a_wigley_hull_converge_at_second_order_to_the_close
         assert np.all(np.log2(errors[1] / errors[2]) > 1.9)
 
 
-def test_parametric_hull_its_offsets_and_its_mesh_agree_at_second_order() -> None:
-    shape = ParametricHull(
-        length=115.0, breadth=25.0, draught=6.4, entrance_length=46.0, run_length=34.5,
-        origin_from_transom=50.0, transom_breadth_fraction=0.75, transom_draught_fraction=0.2,
-        section_exponent=4.0,
-    )  # fmt: skip
-    differences = []
-    for factor in (1, 2, 4):
-        parametric = Hull.from_parametric(shape, stations=14 * factor, girth=6 * factor)
-        x = np.linspace(-50.0, 65.0, 11 * factor + 1)
-        table = OffsetTable(x=x, sections=tuple(shape.section(float(v), 7 * factor) for v in x))
-        panels = parametric.panels
-        mesh = Hull.from_mesh(vertices=panels.reshape(-1, 3), faces=np.arange(4 * len(panels)).reshape(-1, 4))
-        one, other = values(parametric.hydrostatics), values(Hull.from_offsets(table).hydrostatics)
-        assert values(mesh.hydrostatics) == pytest.approx(one, rel=1e-9)
-        differences.append(np.abs(other / one - 1.0).max())
-    assert differences[2] < 3e-3
-    assert differences[0] / differences[2] > 8.0
-
-
 def test_moving_the_origin_moves_the_moments() -> None:
     hull = Hull.from_offsets(wigley_offsets(*SHIP, 6))
     away = hull.moved(7.0)
