@@ -109,7 +109,7 @@ def test_panels_given_directly_are_checked() -> None:
     good = Hull.from_mesh(vertices=BOX[0], faces=BOX[1])
     for panels, message in (
         (good.panels[1:], "not closed"), (good.panels[:, ::-1], "inwards"), (good.panels[0], "shape"),
-        (good.panels + np.array([0.0, 0.0, 1.0]), "reaches z = 1"), (0.0 * good.panels + np.inf, "not finite"),
+        (good.panels + np.array([0.0, 0.0, 1.0]), "reaches z = 1"), (0.0 * good.panels + np.inf, "finite"),
         (good.panels * np.array([1.0, 1.0, 1e-300]), "not closed"),
     ):  # fmt: skip
         with np.errstate(invalid="ignore"), pytest.raises(ValueError, match=message):
