@@ -17,10 +17,9 @@ import netCDF4
 import numpy as np
 import pytest
 from orcaflex_writer import EVENTS, UNITS, G, assert_same, hull_part, model, write
-from test_hydro_capytaine import layout
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, available_speeds, load_database, read_capytaine, read_orcaflex
+from seacrane.hydro import HydroDatabase, available_speeds, load_database, read_orcaflex
 from seacrane.warnings import AssumedDensityWarning, AssumedSymmetryWarning
 
 
@@ -93,23 +92,6 @@ def test_dhyd_round_trip(hull: HydroDatabase, tmp_path: Path) -> None:
     along = np.outer(x * np.cos(hull.heading) + y * np.sin(hull.heading), hull.omega**2 / G)
     there = dataclasses.replace(hull, force=hull.force * np.exp(1j * along)[:, :, None])
     assert_same(read_dhyd(dhyd(there, tmp_path, phase_origin=(x, y)), hull), hull)
-
-
-@needs_mafredo
-def test_mafredo_carries_a_capytaine_dataset_to_us(tmp_path: Path) -> None:
-    """Two ways for one file: our reader of Capytaine, and MaFreDo's with our reader of MaFreDo."""
-    dataset = layout().isel(omega=slice(1, -1))
-    dataset.to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
-    direct = read_capytaine(tmp_path / "hull.nc")
-    data = library().Hyddb1.create_from_capytaine(str(tmp_path / "hull.nc"))
-    data.save_as(str(tmp_path / "ship.dhyd"), engine="netcdf4")
-    found = read_dhyd(tmp_path / "ship.dhyd", direct)
-    scale = np.abs(direct.force).max(axis=(0, 1))
-    for name in ("added_mass", "damping"):
-        exact = getattr(direct, name)
-        assert np.abs(getattr(found, name) - exact).max() <= 1e-9 * np.abs(exact).max()
-    assert found.heading == pytest.approx(direct.heading, abs=1e-8)
-    assert np.all(np.abs(found.force - direct.force) <= 1e-9 * scale)
 
 
 def test_what_a_dhyd_file_does_not_hold(hull: HydroDatabase, tmp_path: Path) -> None:

@@ -231,7 +231,6 @@ def test_mutations_are_refused(copy: Path) -> None:
 
 def test_frequencies_in_any_order_and_version_1(copy: Path, database: HydroDatabase) -> None:
     """Falling frequencies are read into rising ones; version 1 has no version line, no additional blocks."""
-    sound = (copy / "input.re7").read_text().splitlines()
     (copy / "input.re2").unlink()
     for suffix, head, block in ((".re8", 11, 7), (".re1", 11, 7), (".re7", 18, 38)):
         path = copy / f"input{suffix}"
@@ -243,7 +242,7 @@ def test_frequencies_in_any_order_and_version_1(copy: Path, database: HydroDatab
             out += [line for part in reversed(blocks) for line in part]
             position += 1 + 36 * block
         path.write_text("\n".join(out) + "\n")
-    turned = read_veres(copy)
+    turned, sound = read_veres(copy), (copy / "input.re7").read_text().splitlines()
     out, position = sound[:9] + sound[10:18], 18
     for _ in range(19):
         out.append(sound[position])
