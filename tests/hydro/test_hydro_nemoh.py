@@ -22,6 +22,8 @@ DAMAGE: list[tuple[str, Callable[[str], str] | None, str]] = [
     ("mesh/KH.dat", None, "KH.dat: no such file"), ("mesh/KH.dat", lambda text: text[:200], "six rows"),
     ("mesh/KH.dat", lambda text: text.replace("E", "x", 1), "are no numbers"),
     ("mesh/Hydrostatics.dat", lambda text: text[:40], "no centre of gravity"),
+    ("mesh/Hydrostatics.dat", lambda text: text.replace("Displacement = ", "Displacement = -"), "positive"),
+    (RADIATION, lambda text: "", "no numbers"),
     (RADIATION, lambda text: text[:-30], "omega and two for each of six"),
     (RADIATION, lambda text: text[: text.rindex("Zone")], "5 degrees of freedom"),
     (RADIATION, lambda text: text.rstrip().rpartition("\n")[0] + "\n", "other frequencies"),
