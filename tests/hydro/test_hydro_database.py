@@ -207,7 +207,6 @@ def test_selected_values_are_the_stored_ones() -> None:
     for name in ("force", "motion_rao"):
         assert np.array_equal(getattr(part, name), getattr(base, name)[headings][:, rows])
     one, other = part.roll_damping, base.roll_damping
-    assert one is not None and other is not None
     assert np.array_equal(one.linearised, other.linearised[headings][:, rows])
     assert np.array_equal(one.linear, other.linear[rows])
     assert np.array_equal(part.additional[0].damping, base.additional[0].damping[rows])

@@ -97,7 +97,6 @@ def test_two_heaving_points_couple_by_j0(distance: float) -> None:
     point = axisymmetric(1e6)
     group = beside(point, place=(0.6 * distance, 0.8 * distance, 0.0))
     radiated = damping_from_forces(group)
-    assert radiated is not None
     k = group.omega**2 / group.g
     assert radiated[:, 2, 2] == pytest.approx(point.damping[:, 2, 2], rel=1e-9)
     assert radiated[:, 2, 8] / radiated[:, 2, 2] == pytest.approx(j0(k * distance), abs=2e-4)

@@ -26,7 +26,6 @@ def with_gap(rate: float) -> HydroGroup:
     kernel = water.transfer(omega) + gap.transfer(omega)
     added_mass, damping = np.zeros((2, len(omega), 12, 12))
     at = np.ix_(range(len(omega)), MOVING, MOVING)
-    assert base.infinite_frequency_added_mass is not None
     added_mass[at] = kernel.imag / omega[:, None, None]
     damping[at] = kernel.real
     pole = 1.0 / (place**2 - omega**2 + 1j * omega * rate)

@@ -94,7 +94,6 @@ def test_it_is_passive_over_all_motions_and_couples_the_hulls(group: HydroGroup,
 
 def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model: MemoryModel) -> None:
     moved = replace(group, memory=model).ordered(["two", "one"])
-    assert moved.memory is not None
     place = np.r_[6:12, 0:6]
     square = np.ix_(range(len(group.omega)), place, place)
     assert moved.memory.transfer(group.omega) == pytest.approx(model.transfer(group.omega)[square], rel=1e-12)

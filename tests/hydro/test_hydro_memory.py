@@ -11,7 +11,6 @@ import pytest
 
 from seacrane.hydro import (
     HydroDatabase,
-    MemoryModel,
     fit_memory,
     load_database,
     memory_rows,
@@ -41,12 +40,6 @@ def supply(shared: Path) -> HydroDatabase:
     """The supply vessel with its memory fitted per pair."""
     database = load_database(shared / "veres" / "supply")
     return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
-
-
-def memory_of(database: HydroDatabase) -> MemoryModel:
-    """The database's memory, which has to be there."""
-    assert database.memory is not None
-    return database.memory
 
 
 def test_a_known_system_is_recovered_and_the_lowest_sufficient_order_taken() -> None:
@@ -96,7 +89,7 @@ def test_realisation_keeps_the_transfer_function_and_scales_the_states() -> None
 @pytest.mark.parametrize("which", ["shipped", "supply"])
 def test_every_entry_follows_the_data(which: str, request: pytest.FixtureRequest) -> None:
     database = shipped_database() if which == "shipped" else request.getfixturevalue("supply")
-    model = memory_of(database)
+    model = database.memory
     inside = (database.omega >= model.band[0] - 1e-9) & (database.omega <= model.band[1] + 1e-9)
     added_mass, damping = model.frequency_response(database.omega)
     entries = [(row.output, row.input) for row in model.rows if row.cause == RADIATION]
@@ -123,7 +116,7 @@ def test_every_entry_follows_the_data(which: str, request: pytest.FixtureRequest
 
 def test_roll_tanks_have_a_static_stiffness_and_a_model_of_their_own(supply: HydroDatabase) -> None:
     """Beside 13 entries of order 3 to 4 of radiation, as the paper's 46 states."""
-    model = memory_of(supply)
+    model = supply.memory
     radiation = [block for block in model.blocks if block.cause == RADIATION]
     assert len(radiation) == 13 and sum(len(block.A) for block in radiation) <= 50
     (extra,) = supply.additional
@@ -139,7 +132,7 @@ def test_known_infinite_added_mass_is_used_when_asked() -> None:
     database = shipped_database()
     known = database.infinite_frequency_added_mass
     span = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
-    assert np.all(np.abs(np.diag(memory_of(database).added_mass - known)) < 0.04 * span)  # estimated
+    assert np.all(np.abs(np.diag(database.memory.added_mass - known)) < 0.04 * span)  # estimated
     given: dict[str, Any] = {"database": database, "r2": 0.97, "infinite_frequency": "known"}
     per_pair, passive = (fit_memory(kind=kind, **given) for kind in ("per-pair", "passive"))
     assert np.diag(per_pair.added_mass) == pytest.approx(np.diag(known))
@@ -149,7 +142,7 @@ def test_known_infinite_added_mass_is_used_when_asked() -> None:
 
 def test_refit_gives_the_shipped_model_and_its_passivity() -> None:
     database = shipped_database()
-    shipped, again = memory_of(database), fit_memory(database=database, kind="per-pair")
+    shipped, again = database.memory, fit_memory(database=database, kind="per-pair")
     old, new = ([(row.output, row.input, row.order) for row in model.rows] for model in (shipped, again))
     assert old == new
     old, new = shipped.transfer(database.omega), again.transfer(database.omega)

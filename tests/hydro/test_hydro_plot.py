@@ -91,7 +91,6 @@ def test_retardation_of_a_closed_form_converges() -> None:
 def test_retardation_of_the_memory_is_its_impulse_response() -> None:
     """exp(A t) against the inverse transform of the model's own damping, on a fine and long grid."""
     memory = shipped_database().memory
-    assert memory is not None
     omega = np.linspace(0.0, 400.0, 80001)
     time = np.array([0.5, 3.0, 8.0])
     damping = memory.frequency_response(np.maximum(omega, 1e-9))[1]

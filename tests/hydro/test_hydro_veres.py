@@ -91,7 +91,6 @@ def test_header_and_matrices_are_the_reference_values(
     others[3, 3] = False
     assert not np.any(extra.added_mass[:, others]) and not np.any(extra.restoring)
     roll = database.roll_damping
-    assert roll is not None
     for key, values in raw["roll_linear_quadratic_linearised"].items():
         k, h = (int(part) for part in key.split(","))
         at = of_heading(database, expected["heading_deg"][h])
@@ -127,7 +126,6 @@ def test_drift_against_the_reference_values(
     database: HydroDatabase, expected: dict[str, Any], tmp_path: Path
 ) -> None:
     factors, drift = expected["drift_dimensional_factor"], database.drift
-    assert drift is not None
     for key, coefficients in expected["drift_file_coeff"].items():
         k, h = (int(part) for part in key.split(","))
         load = np.array(coefficients) * TO_OURS[[0, 1, 5]] * [factors["Fx"], factors["Fy"], factors["Mz"]]

@@ -75,9 +75,7 @@ def test_taking_out_a_part_undoes_adding_it() -> None:
 
 def test_roll_damping_of_the_supply_vessel(supply: HydroDatabase) -> None:
     vessel = vessel_parameters(supply)
-    assert supply.roll_damping is not None
     resonance = natural_frequency(supply, 3)
-    assert resonance is not None
     linear = np.interp(resonance, supply.omega, supply.roll_damping.linear)
     assert vessel.linear_damping[3, 3] == pytest.approx(linear)
     assert vessel.quadratic_damping[3] > 0.0

@@ -301,7 +301,6 @@ def test_mean_drift(copy: Path, database: HydroDatabase, kind: str) -> None:
     text, wanted = drift_rows(database, kind)
     (copy / f"tanker{kind}").write_text(text)
     drift = load_database(copy).drift
-    assert drift is not None
     assert drift.omega == pytest.approx([2.0 * np.pi / 12.0, 2.0 * np.pi / 8.0])
     assert np.degrees(drift.heading) == pytest.approx([0.0, 90.0, 180.0])
     assert np.abs(drift.coefficient - wanted).max() <= 1e-8 * np.abs(wanted).max()

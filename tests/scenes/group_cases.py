@@ -33,7 +33,6 @@ def written_pair(*, heading: float = 0.0, hull: HydroDatabase | None = None) -> 
     coupling = np.kron(1.0 - np.eye(2), np.ones((6, 6))) * np.outer(size, size)
     shape = pair.added_mass.shape
     infinite = pair.infinite_frequency_added_mass
-    assert infinite is not None
     return replace(
         pair,
         added_mass=pair.added_mass + 0.1 * coupling * draw.standard_normal(shape),
@@ -53,7 +52,6 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
     order = np.concatenate([first, [i for i in order if i not in first]])  # bodies are named by first place
     omega = np.append(group.omega, np.inf)
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     square = np.ix_(range(len(omega)), order, order)
     added_mass = np.concatenate([group.added_mass, infinite[None]])
     damping = np.concatenate([group.damping, np.zeros((1, *group.damping.shape[1:]))])
@@ -133,7 +131,6 @@ def wamit_files(group: HydroGroup, folder: Path, *, numbers: bool = True) -> Pat
     turns = np.tile([0, 0, 0, 1, 1, 1], len(group))
     rho, g = group.rho, group.g
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     periods = 2.0 * np.pi / group.omega
     listing = ["WAMIT  Version 7.2", "Input from Geometric Data Files:"]
     listing += [f"   N=  {i}     {name}.gdf" for i, name in enumerate(group.names, start=1)]
@@ -188,7 +185,6 @@ def bemio_file(group: HydroGroup, folder: Path) -> Path:
     path = folder / "pair.h5"
     rho, g = group.rho, group.g
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     with h5py.File(path, "w") as file:
         told = {"rho": rho, "g": g, "scaled": 0.0, "water_depth": b"infinite", "w": group.omega}
         for name, value in (told | {"wave_dir": np.degrees(group.heading)}).items():

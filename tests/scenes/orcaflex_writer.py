@@ -74,13 +74,11 @@ def model(
         ]
 
     forces, motions = hull.force.copy(), hull.motion_rao
-    assert motions is not None
     motions = motions.copy()
     forces[:, :, 3:] += np.cross(-origin, forces[:, :, :3])
     motions[:, :, :3] += np.cross(motions[:, :, 3:], origin)
     angle = np.pi / 180.0 if turn == "degrees" else 1.0
     infinite = hull.infinite_frequency_added_mass
-    assert infinite is not None
     omega = np.concatenate([[np.inf], hull.omega])
     tables = (
         np.concatenate([infinite[None], hull.added_mass]),
