@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,14 +18,10 @@ from seacrane.warnings import PoorFitWarning
 
 START = datetime(2020, 1, 1, tzinfo=UTC)
 HOURS = [START + timedelta(hours=i) for i in range(48)]
-STAMPS = {
-    "s": [f"{one.timestamp():.0f}" for one in HOURS],
-    "ms": [f"{one.timestamp() * 1e3:.0f}" for one in HOURS],
-    "us": [f"{one.timestamp() * 1e6:.0f}" for one in HOURS],
-    "ns": [f"{one.timestamp() * 1e9:.0f}" for one in HOURS],
-    "digits": [f"{one:%Y%m%d%H}" for one in HOURS],
-    "more digits": [f"{one:%Y%m%d%H%M}" for one in HOURS],
-    "dates": [f"{one:%Y-%m-%dT%H:%M:%S}" for one in HOURS],
+STAMPS = {unit: [f"{one.timestamp() * factor:.0f}" for one in HOURS]
+          for unit, factor in (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9))}  # fmt: skip
+STAMPS |= {
+    form: [f"{one:{form}}" for one in HOURS] for form in ("%Y%m%d%H", "%Y%m%d%H%M", "%Y-%m-%dT%H:%M:%S")
 }
 
 
@@ -37,62 +34,56 @@ def hindcast(stamps: list[str], path: Path, *, delimiter: str = ",", comma: bool
     return path
 
 
-@pytest.mark.parametrize("kind", STAMPS)
-def test_a_hindcast_by_any_clock(kind: str, tmp_path: Path) -> None:
-    found = WaveHindcast.load(hindcast(STAMPS[kind], tmp_path / "site.csv"))
-    assert found.time[0] == np.datetime64("2020-01-01T00:00:00") and found.step_hours == 1.0
-    if kind in ("s", "ms", "us", "ns"):
-        again = WaveHindcast(time=np.array(STAMPS[kind], dtype=np.int64), hs=found.hs, tp=found.tp)
-        assert np.array_equal(again.time, found.time)
+def test_a_hindcast_by_any_clock(tmp_path: Path) -> None:
+    path = tmp_path / "site.csv"
+    for kind, stamps in STAMPS.items():
+        found = WaveHindcast.load(hindcast(stamps, path))
+        assert found.time[0] == np.datetime64("2020-01-01T00:00:00") and found.step_hours == 1.0
+        if "%" not in kind:
+            again = WaveHindcast(time=np.array(stamps, dtype=np.int64), hs=found.hs, tp=found.tp)
+            assert np.array_equal(again.time, found.time)
+    # Numbers that count from nothing known are asked for.
+    for stamps in ([f"{i}" for i in range(48)], [f"{43831 + i / 24:.5f}" for i in range(48)]):
+        with pytest.raises(FileFormatError, match=r"site\.csv: time begins with .*give dates"):
+            WaveHindcast.load(hindcast(stamps, path))
+        with pytest.raises(SceneError, match="time begins with"):
+            WaveHindcast(time=[float(one) for one in stamps], hs=np.ones(48), tp=np.ones(48))
 
 
-@pytest.mark.parametrize(
-    "stamps", [[f"{i}" for i in range(48)], [f"{43831 + i / 24:.5f}" for i in range(48)]]
-)
-def test_numbers_that_count_from_nothing_known_are_asked_for(stamps: list[str], tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=r"site\.csv: time begins with .*give dates"):
-        WaveHindcast.load(hindcast(stamps, tmp_path / "site.csv"))
-    with pytest.raises(SceneError, match="time begins with"):
-        WaveHindcast(time=[float(one) for one in stamps], hs=np.ones(48), tp=np.ones(48))
+def test_a_hindcast_of_any_spreadsheet(tmp_path: Path) -> None:
+    dates = STAMPS["%Y-%m-%dT%H:%M:%S"]
+    for delimiter, comma in ((";", True), (";", False), ("\t", True), (",", False)):
+        path = hindcast(dates, tmp_path / "site.csv", delimiter=delimiter, comma=comma)
+        assert WaveHindcast.load(path).hs[3] == pytest.approx(1.3)
+        path.write_bytes(path.read_bytes().replace(b"time", "Zeit f\xfcr S\xfcd".encode("latin-1"), 1))
+        assert WaveHindcast.load(path, names={"time": "Zeit für Süd"}).hs[3] == pytest.approx(1.3)
+    hs = np.ma.masked_equal([1.0, -99.0, 1.2], -99.0)
+    assert WaveHindcast(time=dates[:3], hs=hs, tp=np.full(3, 8.0)).known.tolist() == [True, False, True]
 
 
-@pytest.mark.parametrize(("delimiter", "comma"), [(";", True), (";", False), ("\t", True), (",", False)])
-def test_a_hindcast_of_any_spreadsheet(delimiter: str, comma: bool, tmp_path: Path) -> None:
-    path = hindcast(STAMPS["dates"], tmp_path / "site.csv", delimiter=delimiter, comma=comma)
-    assert WaveHindcast.load(path).hs[3] == pytest.approx(1.3)
-    path.write_bytes(path.read_bytes().replace(b"time", "Zeit f\xfcr S\xfcd".encode("latin-1"), 1))
-    assert WaveHindcast.load(path, names={"time": "Zeit für Süd"}).hs[3] == pytest.approx(1.3)
-
-
-def logger(times: np.ndarray, path: Path, header: str = "time") -> Path:
-    rows = [f"{header},heave [m]"] + [f"{t:.10g},{0.1 * np.cos(0.05 * i):.6f}" for i, t in enumerate(times)]
-    path.write_text("\n".join(rows) + "\n")
-    return path
-
-
-@pytest.mark.parametrize(("unit", "one"), [("s", 1.0), ("ms", 1e3), ("us", 1e6)])
-def test_a_logger_that_counts_since_1970(unit: str, one: float, tmp_path: Path) -> None:
-    times = np.round((START.timestamp() + 0.5 * np.arange(200)) * one, 1)
+def test_the_clock_of_a_logger(tmp_path: Path) -> None:
+    """That counts since 1970, or whole numbers far apart, which are asked for."""
     path = tmp_path / "log.csv"
-    rows = ["time,heave [m]"] + [f"{t:.1f},{0.1 * np.cos(0.05 * i):.6f}" for i, t in enumerate(times)]
-    path.write_text("\n".join(rows) + "\n")
-    assert MeasuredSeries.load(path).interval == pytest.approx(0.5, rel=1e-6)
-    if unit == "ms":
-        path.write_text("\n".join(["time [s],heave [m]", *rows[1:]]) + "\n")
-        with pytest.raises(FileFormatError, match=r"has the unit 's', and its numbers, .* are ms since 1970"):
-            MeasuredSeries.load(path)
+
+    def load(times: np.ndarray, header: str = "time", **given: Any) -> float:
+        rows = [f"{t:.1f},{0.1 * np.cos(0.05 * i):.6f}" for i, t in enumerate(times)]
+        path.write_text("\n".join([f"{header},heave [m]", *rows]) + "\n")
+        return MeasuredSeries.load(path, **given).interval
+
+    for one in (1.0, 1e3, 1e6):
+        times = np.round((START.timestamp() + 0.5 * np.arange(200)) * one, 1)
+        assert load(times) == pytest.approx(0.5, rel=1e-6)
+        if one == 1e3:
+            with pytest.raises(FileFormatError, match=r"unit 's', .* are ms since 1970"):
+                load(times, "time [s]")
+    with pytest.raises(FileFormatError, match="50 apart: s, or ms"):
+        load(50.0 * np.arange(100))
+    assert load(50.0 * np.arange(100), units={"time": "ms"}) == pytest.approx(0.05)
+    assert load(np.arange(100.0)) == 1.0
+    assert load(50.0 * np.arange(100), "time [s]") == 50.0
 
 
-def test_whole_numbers_far_apart_are_asked_for(tmp_path: Path) -> None:
-    path = logger(50.0 * np.arange(100), tmp_path / "log.csv")
-    with pytest.raises(FileFormatError, match="has no unit, and its whole numbers are 50 apart: s, or ms"):
-        MeasuredSeries.load(path)
-    assert MeasuredSeries.load(path, units={"time": "ms"}).interval == pytest.approx(0.05)
-    assert MeasuredSeries.load(logger(np.arange(100.0), path)).interval == 1.0
-    assert MeasuredSeries.load(logger(50.0 * np.arange(100), path, "time [s]")).interval == 50.0
-
-
-def test_masked_values_are_refused_and_may_be_interpolated() -> None:
+def test_masked_values_are_refused_and_may_be_interpolated_and_few_extremes_told() -> None:
     time = np.arange(0.0, 600.0, 0.5)
     wave = np.cos(0.7 * time)
     hidden = np.where((time > 99.0) & (time < 101.0), -99.0, wave)
@@ -109,17 +100,7 @@ def test_masked_values_are_refused_and_may_be_interpolated() -> None:
     assert MeasuredSeries(time=time, columns={"wave": filled}, units={"wave": "m"})["wave"].min() > -2.0
     with pytest.raises(SceneError, match="the first or the last is not"):
         interpolated(time, np.ma.masked_less(time, 10.0))
-
-
-def test_masked_sea_states_are_not_known() -> None:
-    hs = np.ma.masked_equal([1.0, -99.0, 1.2], -99.0)
-    found = WaveHindcast(time=STAMPS["dates"][:3], hs=hs, tp=np.full(3, 8.0))
-    assert found.known.tolist() == [True, False, True]
-
-
-def test_a_dozen_snaps_are_too_few_and_some_dozens_are_told() -> None:
-    draw = np.random.default_rng(3)
-    tension = np.zeros(21_600)
+    draw, tension = np.random.default_rng(3), np.zeros(21_600)
     tension[draw.integers(0, tension.size, 12)] = 8e5
     with pytest.raises(SceneError, match="too few for a largest value"):
         record_extremes(tension, interval=0.5)

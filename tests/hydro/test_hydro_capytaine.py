@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +14,7 @@ import xarray
 from seacrane import Scene
 from seacrane.cli import main
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hydro import HydroDatabase, load_database, read_capytaine, read_wamit, shipped_database
+from seacrane.hydro import HydroDatabase, load_database, read_capytaine, shipped_database
 from seacrane.hydro.data.relations import damping_from_forces
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.sea.dispersion import wavenumber
@@ -35,49 +34,41 @@ def in_file(matrices: np.ndarray) -> np.ndarray:
 def layout(centre: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
     """Part of the shipped hull as Capytaine writes it; ``centre``: the reference point in the mesh."""
     base = shipped_database()
-    omega, direction = base.omega[OMEGA], base.heading[HEADING]
-    zero, infinite = base.zero_frequency_added_mass, base.infinite_frequency_added_mass
-    assert zero is not None and infinite is not None
-    added_mass = np.concatenate([infinite[None], base.added_mass[OMEGA][::-1], zero[None]])
-    nothing = np.zeros((1, 6, 6))
-    damping = np.concatenate([nothing, base.damping[OMEGA][::-1], nothing])
+    omega, direction, zero = base.omega[OMEGA], base.heading[HEADING], np.zeros((1, 6, 6))
+    limits = base.infinite_frequency_added_mass[None], base.zero_frequency_added_mass[None]
+    added_mass = np.concatenate([limits[0], base.added_mass[OMEGA][::-1], limits[1]])
+    damping = np.concatenate([zero, base.damping[OMEGA][::-1], zero])
     along = centre[0] * np.cos(direction) + centre[1] * np.sin(direction)
     at_mesh_origin = np.exp(-1j * np.outer(along, omega**2 / base.g))[:, :, None]
     force = np.conj(base.force[HEADING, OMEGA] * at_mesh_origin)[:, ::-1, ORDER].swapaxes(0, 1)
     undefined = np.full((1, len(direction), 6), np.nan + 1j * np.nan)
     excitation = np.concatenate([undefined, force, undefined])
     part = 0.3 * excitation + 1e3
-
-    def waves(values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
-        dimensions = ("complex", "omega", "wave_direction", "influenced_dof")
-        return dimensions, np.stack([values.real, values.imag])
-
-    matrix = ("influenced_dof", "radiating_dof")
+    matrix, waves = (
+        ("influenced_dof", "radiating_dof"),
+        ("complex", "omega", "wave_direction", "influenced_dof"),
+    )
+    parts = {
+        "Froude_Krylov_force": part,
+        "diffraction_force": excitation - part,
+        "excitation_force": excitation,
+    }
     return xarray.Dataset(
         {
             "added_mass": (("omega", *matrix), in_file(added_mass)),
             "radiation_damping": (("omega", *matrix), in_file(damping)),
-            "Froude_Krylov_force": waves(part),
-            "diffraction_force": waves(excitation - part),
-            "excitation_force": waves(excitation),
             "inertia_matrix": (matrix, in_file(base.mass_matrix)),
             "hydrostatic_stiffness": (matrix, in_file(base.restoring)),
+            **{name: (waves, np.stack([one.real, one.imag])) for name, one in parts.items()},
         },
         {
-            "omega": np.concatenate([[np.inf], omega[::-1], [0.0]]),
-            "wave_direction": direction,
-            "influenced_dof": NAMES[ORDER],
-            "radiating_dof": NAMES[ORDER],
-            "rho": base.rho,
-            "g": base.g,
-            "water_depth": np.inf,
-            "forward_speed": 0.0,
-            "body": "hull",
+            "omega": np.concatenate([[np.inf], omega[::-1], [0.0]]), "wave_direction": direction,
+            "influenced_dof": NAMES[ORDER], "radiating_dof": NAMES[ORDER], "complex": ["re", "im"],
+            "rho": base.rho, "g": base.g, "water_depth": np.inf, "forward_speed": 0.0, "body": "hull",
             "rotation_center": ("space_coordinate", np.array(centre)),
-            "complex": ["re", "im"],
         },
         {"capytaine_version": "3.0.0"},
-    )
+    )  # fmt: skip
 
 
 def read(dataset: xarray.Dataset, folder: Path, **given: Any) -> HydroDatabase:
@@ -101,32 +92,28 @@ def test_the_shipped_hull_comes_back(centre: tuple[float, float, float], tmp_pat
     assert found.port_starboard_symmetric == (centre[1] == 0.0)
     assert "Capytaine 3.0.0" in found.source and "hull" in found.source
     assert found.motion_rao is None
+    if found.port_starboard_symmetric:  # told apart from our own files
+        found.save(tmp_path / "ours.nc")
+        assert np.array_equal(load_database(tmp_path / "ours.nc").force, found.force)
     assert 0.8 * base.length < found.length < base.length
     assert found.length * found.breadth * found.draught == pytest.approx(base.mass_matrix[0, 0] / base.rho)
 
 
-def test_excitation_alone_will_do(tmp_path: Path) -> None:
-    dataset = layout().drop_vars(["Froude_Krylov_force", "diffraction_force"])
-    found = read(dataset, tmp_path)
-    assert found.force == pytest.approx(shipped_database().force[HEADING, OMEGA], rel=1e-12)
-
-
-def test_full_circle_of_directions(tmp_path: Path) -> None:
-    """Directions between -pi and pi, and 2 pi beside 0."""
-    dataset = layout()
-    twice = xarray.concat(
-        [
-            dataset,
-            dataset.isel(wave_direction=[3]).assign_coords(wave_direction=[-0.5]),
-            dataset.isel(wave_direction=[0]).assign_coords(wave_direction=[2.0 * np.pi]),
-        ],
-        dim="wave_direction",
-        data_vars="minimal",
-        coords="minimal",
-        compat="override",
-        join="outer",
-    )
-    found = read(twice, tmp_path)
+def test_layouts_of_other_runs(tmp_path: Path) -> None:
+    """Excitation alone, parameters of one value, dofs with a body, directions between -pi and 2 pi."""
+    base, dataset = shipped_database(), layout()
+    found = read(dataset.drop_vars(["Froude_Krylov_force", "diffraction_force"]), tmp_path)
+    assert found.force == pytest.approx(base.force[HEADING, OMEGA], rel=1e-12)
+    study = dataset.drop_vars(["water_depth", "rho"]).expand_dims({"water_depth": [np.inf], "rho": [1025.0]})
+    names = [f"hull__{name}" for name in study["radiating_dof"].values]
+    found = read(study.assign_coords(radiating_dof=names, influenced_dof=names), tmp_path)
+    assert np.array_equal(found.added_mass, base.added_mass[OMEGA])
+    more = [
+        dataset.isel(wave_direction=[at]).assign_coords(wave_direction=[angle])
+        for at, angle in ((3, -0.5), (0, 2.0 * np.pi))
+    ]
+    how: dict[str, Any] = {"data_vars": "minimal", "coords": "minimal", "compat": "override", "join": "outer"}
+    found = read(xarray.concat([dataset, *more], dim="wave_direction", **how), tmp_path)
     assert len(found.heading) == dataset.sizes["wave_direction"] + 1
     assert found.heading[-1] == pytest.approx(2.0 * np.pi - 0.5)
     assert np.array_equal(found.force[-1], found.force[3])
@@ -150,72 +137,53 @@ def two_depths() -> xarray.Dataset:
     deep = layout()
     shallow = deep.assign_coords(water_depth=20.0)
     shallow["added_mass"] = 1.5 * deep["added_mass"]
-    both = xarray.concat(
-        [shallow, deep], dim="water_depth", data_vars="all", coords="minimal", compat="override", join="exact"
-    )
+    how: dict[str, Any] = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "exact"}
+    both = xarray.concat([shallow, deep], dim="water_depth", **how)
     for name in ("inertia_matrix", "hydrostatic_stiffness"):
         both[name] = deep[name]
     return both
 
 
-def test_one_of_several_depths(tmp_path: Path) -> None:
-    """Added mass of each is its own; the file asks which."""
-    both = two_depths()
-    with pytest.raises(FileFormatError, match=r"holds water depths 20, inf m; choose one by load_database"):
-        read(both, tmp_path)
-    with pytest.raises(FileFormatError, match="holds water depths 20, inf m, not 30 m"):
-        read(both, tmp_path, depth=30.0)
-    base = shipped_database().added_mass[OMEGA]
-    assert read(both, tmp_path, depth=20.0).added_mass == pytest.approx(1.5 * base, rel=1e-12)
-    assert read(both, tmp_path, depth=20.0).depth == 20.0
-    assert read(both, tmp_path, depth=np.inf).added_mass == pytest.approx(base, rel=1e-12)
-    assert read(layout(), tmp_path, depth=np.inf).depth == np.inf
-
-
-def test_the_depth_chosen_is_that_of_the_sea(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A sea by height and period takes it; one that has a depth has to fit."""
+def test_one_of_several_depths_is_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Added mass of each is its own; the file asks which. A sea takes it, or has to fit."""
+    both, base = two_depths(), shipped_database()
+    for given, words in (({}, "choose one"), ({"depth": 30.0}, "not 30 m")):
+        with pytest.raises(FileFormatError, match=f"depths 20, inf m.*{words}"):
+            read(both, tmp_path, **given)
+    for depth, factor in ((20.0, 1.5), (np.inf, 1.0)):
+        found = read(both, tmp_path, depth=depth)
+        assert found.added_mass == pytest.approx(factor * base.added_mass[OMEGA], rel=1e-12)
+        assert found.depth == depth
     file = tmp_path / "hull.nc"
-    two_depths().to_netcdf(file, engine="netcdf4")
-    found = load_database(file, depth=20.0, speed=0.0)
-    assert found.depth == 20.0
-    scene = Scene()
-    scene.add_vessel(replace(shipped_database(), depth=20.0), memory="convolution")
-    scene.add_sea(hs=1.0, tp=9.0)
-    assert scene.waves is not None and scene.waves.depth == 20.0
-    scene.waves = None
-    deep = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
-    with pytest.raises(SceneError, match=r"inf m deep, .* are for 20 m, .*SeaState\(depth=20\)"):
-        scene.add_sea(sea=deep)
-    shipped_database().save(tmp_path / "deep.nc")
-    with pytest.raises(FileFormatError, match="is of a depth of inf m, not of 20 m"):
+    assert load_database(file, depth=20.0, speed=0.0).depth == 20.0
+    base.save(tmp_path / "deep.nc")
+    with pytest.raises(FileFormatError, match="depth of inf m, not of 20 m"):
         load_database(tmp_path / "deep.nc", depth=20.0)
-    with pytest.raises(FileFormatError, match="of 0 m/s, not of speed 3 m/s"):
+    with pytest.raises(FileFormatError, match="not of speed 3 m/s"):
         load_database(file, depth=20.0, speed=3.0)
     assert main(["hydro", str(file), "--depth", "20", "--json"]) == 0
     assert "natural_period_heave_s" in capsys.readouterr().out
     assert main(["hydro", str(file)]) != 0
-    assert "holds water depths 20, inf m" in capsys.readouterr().err
-
-
-def test_parameters_of_one_value_and_dofs_with_a_body(tmp_path: Path) -> None:
-    dataset = layout().drop_vars(["water_depth", "rho"])
-    study = dataset.expand_dims({"water_depth": [np.inf], "rho": [1025.0]})
-    names = [f"hull__{name}" for name in study["radiating_dof"].values]
-    found = read(study.assign_coords(radiating_dof=names, influenced_dof=names), tmp_path)
-    assert np.array_equal(found.added_mass, shipped_database().added_mass[OMEGA])
+    scene = Scene()
+    scene.add_vessel(replace(base, depth=20.0), memory="convolution")
+    scene.add_sea(hs=1.0, tp=9.0)
+    assert scene.waves is not None and scene.waves.depth == 20.0
+    scene.waves = None
+    deep = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
+    with pytest.raises(SceneError, match=r"inf m deep, .* 20 m, .*SeaState\(depth=20\)"):
+        scene.add_sea(sea=deep)
 
 
 @pytest.mark.parametrize("measure", ["freq", "period", "wavenumber", "wavelength"])
-@pytest.mark.parametrize("depth", [np.inf, 60.0])
-def test_any_measure_of_frequency(measure: str, depth: float, tmp_path: Path) -> None:
-    """Solved for periods or wavelengths, with the limits 0 and infinity, in deep and shallow water."""
+def test_any_measure_of_frequency(measure: str, tmp_path: Path) -> None:
+    """Solved for periods or wavelengths, with the limits 0 and infinity, in shallow water."""
     dataset = layout()
-    dataset["water_depth"] = depth
+    dataset["water_depth"] = 60.0
     by_omega = read(dataset, tmp_path)
     omega = dataset["omega"].values
     between = (omega > 0.0) & np.isfinite(omega)
     k = omega.copy()  # 0 and infinity stay
-    k[between] = wavenumber(omega[between], g=shipped_database().g, depth=depth)
+    k[between] = wavenumber(omega[between], g=shipped_database().g, depth=60.0)
     with np.errstate(divide="ignore"):
         values = {"freq": omega / (2.0 * np.pi), "period": 2.0 * np.pi / omega, "wavenumber": k,
                   "wavelength": 2.0 * np.pi / k}[measure]  # fmt: skip
@@ -227,137 +195,97 @@ def test_any_measure_of_frequency(measure: str, depth: float, tmp_path: Path) ->
     assert found.force == pytest.approx(by_omega.force, rel=1e-9)
 
 
-def test_motions_that_are_missing_have_no_load(tmp_path: Path) -> None:
+def test_motions_and_matrices_that_are_missing(tmp_path: Path) -> None:
     base, dataset = shipped_database(), layout()
-    three = [
-        i for i, name in enumerate(dataset["radiating_dof"].values) if name in ("Surge", "Heave", "Pitch")
-    ]
-    part = dataset.isel(radiating_dof=three, influenced_dof=three)
-    with pytest.warns(MissingMotionsWarning, match="has no sway, roll, yaw; .* zero there"):
-        found = read(part, tmp_path, mass_matrix=base.mass_matrix, restoring=base.restoring)
+    given = {"mass_matrix": base.mass_matrix, "restoring": base.restoring}
+    names = dataset["radiating_dof"].values
+    three = [i for i, name in enumerate(names) if name in ("Surge", "Heave", "Pitch")]
+    with pytest.warns(MissingMotionsWarning, match="no sway, roll, yaw"):
+        found = read(dataset.isel(radiating_dof=three, influenced_dof=three), tmp_path, **given)
     kept = np.ix_([0, 2, 4], [0, 2, 4])
     for name in ("added_mass", "damping"):
         matrices = getattr(found, name)
         assert np.array_equal(matrices[:, *kept], getattr(base, name)[OMEGA][:, *kept])
         assert not matrices[:, [1, 3, 5]].any() and not matrices[:, :, [1, 3, 5]].any()
     assert not found.force[..., [1, 3, 5]].any()
-    assert (
-        np.abs(found.force[..., 2] - base.force[HEADING, OMEGA, 2]).max() < 1e-12 * np.abs(base.force).max()
-    )
-
-
-def test_matrices_given_by_the_caller(tmp_path: Path) -> None:
-    base, dataset = shipped_database(), layout().drop_vars(["inertia_matrix", "hydrostatic_stiffness"])
-    with pytest.raises(FileFormatError, match=r"inertia_matrix is missing; set body\.inertia_matrix"):
-        read(dataset, tmp_path)
+    heave = base.force[HEADING, OMEGA, 2]
+    assert np.abs(found.force[..., 2] - heave).max() < 1e-12 * np.abs(base.force).max()
+    bare = dataset.drop_vars(["inertia_matrix", "hydrostatic_stiffness"])
+    with pytest.raises(FileFormatError, match="inertia_matrix is missing"):
+        read(bare, tmp_path)
     with pytest.raises(FileFormatError, match=r"hydrostatic_stiffness is missing; .* pass restoring"):
-        read(dataset, tmp_path, mass_matrix=base.mass_matrix)
-    found = read(dataset, tmp_path, mass_matrix=base.mass_matrix, restoring=base.restoring)
-    assert np.array_equal(found.restoring, base.restoring)
+        read(bare, tmp_path, mass_matrix=base.mass_matrix)
+    assert np.array_equal(read(bare, tmp_path, **given).restoring, base.restoring)
 
 
-@pytest.mark.parametrize(
-    ("damage", "message"),
-    [
-        (lambda d: d.drop_vars("added_mass"), "not a seacrane|added_mass is missing"),
-        (lambda d: d.drop_vars("radiation_damping"), "variable radiation_damping is missing"),
-        (lambda d: d.drop_vars("rho"), "rho is missing"),
-        (lambda d: d.drop_vars(["excitation_force", "diffraction_force"]), "neither excitation_force nor"),
-        (lambda d: d.drop_vars("complex"), "parts .* re and im along complex"),
-        (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5 m/s"),
-        (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "reaches 180.* radians"),
-        (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof holds .* heave among them"),
-        (lambda d: d.isel(radiating_dof=[0, 1, 3, 4, 5, 5]), "radiating_dof holds .* each once"),
-        (lambda d: d.isel(radiating_dof=[0, 1, 5]), "influenced_dof and radiating_dof name different"),
-        (lambda d: d.isel(radiating_dof=[0, 5], influenced_dof=[0, 5]), "has no surge, .* mass_matrix and"),
-        (lambda d: d.rename(omega="frequency"), "no dimension omega, freq, period"),
-        (lambda d: d.assign_coords(influenced_dof=list("abcdef")), "influenced_dof holds a, b"),
-        (
-            lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]),
-            "several bodies",
-        ),
-        (lambda d: d.isel(omega=[0, -1]), "no finite positive frequency"),
-        (lambda d: d.isel(omega=[1, 1, 2]), "repeated, negative or undefined"),
-        (lambda d: d.assign(added_mass=d.added_mass * np.nan), r"added_mass\[0, 0, 0\] is nan"),
-        (lambda d: d.assign(added_mass=d.added_mass.isel(omega=0, drop=True)), "added_mass has dimensions"),
-        (lambda d: d.assign(diffraction_force=d.diffraction_force * np.nan), "force.* is .*nan"),
-        (lambda d: d.assign(hydrostatic_stiffness=-d.hydrostatic_stiffness), "C33 = -"),
-        (lambda d: d.drop_vars("rho").expand_dims(rho=[1000.0, 1025.0]), "rho has 2 values"),
-        (lambda d: d.expand_dims(trim=[0.0, 1.0]), "depends on trim"),
-    ],
-)
-def test_damage_is_named(damage: Any, message: str, tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=rf"hull\.nc: .*({message})"):
-        read(damage(layout()), tmp_path)
+DAMAGE: list[tuple[Any, str]] = [
+    (lambda d: d.drop_vars("added_mass"), "not a seacrane|added_mass is missing"),
+    (lambda d: d.drop_vars("rho"), "rho is missing"), (lambda d: d.drop_vars("complex"), "along complex"),
+    (lambda d: d.drop_vars(["excitation_force", "diffraction_force"]), "neither excitation_force nor"),
+    (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5"),
+    (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "180.* radians"),
+    (lambda d: d.isel(radiating_dof=[0, 1, 3, 4, 5, 5]), "radiating_dof .* each once"),
+    (lambda d: d.isel(radiating_dof=[0, 1, 5]), "influenced_dof and radiating_dof"),
+    (lambda d: d.isel(radiating_dof=[0, 5], influenced_dof=[0, 5]), "no surge, .* mass_matrix and"),
+    (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof .*heave"),
+    (lambda d: d.assign(hydrostatic_stiffness=-d.hydrostatic_stiffness), "C33 = -"),
+    (lambda d: d.rename(omega="frequency"), "no dimension omega"),
+    (lambda d: d.assign_coords(influenced_dof=list("abcdef")), "influenced_dof holds a, b"),
+    (lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]), "several"),
+    (lambda d: d.isel(omega=[0, -1]), "no finite positive"), (lambda d: d.isel(omega=[1, 1, 2]), "repeated"),
+    (lambda d: d.assign(added_mass=d.added_mass.isel(omega=0, drop=True)), "added_mass has dimensions"),
+    (lambda d: d.assign(diffraction_force=d.diffraction_force * np.nan), "force.* is .*nan"),
+    (lambda d: d.drop_vars("rho").expand_dims(rho=[1000.0, 1025.0]), "rho has 2 values"),
+    (lambda d: d.expand_dims(trim=[0.0, 1.0]), "depends on trim"),
+]  # fmt: skip
 
 
-def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+def test_damage_is_named(tmp_path: Path) -> None:
+    for damage, message in DAMAGE:
+        with pytest.raises(FileFormatError, match=rf"hull\.nc: .*({message})"):
+            read(damage(layout()), tmp_path)
     with pytest.raises(FileFormatError, match=r"none\.nc: no such file"):
         read_capytaine(tmp_path / "none.nc")
     layout().to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
     whole = (tmp_path / "hull.nc").read_bytes()
     for part in (0.0, 0.2, 0.6, 0.95):
         (tmp_path / "cut.nc").write_bytes(whole[: int(part * len(whole))])
-        with pytest.raises(FileFormatError, match=r"cut\.nc"):
-            read_capytaine(tmp_path / "cut.nc")
-        with pytest.raises(FileFormatError, match=r"cut\.nc"):
-            load_database(tmp_path / "cut.nc")
+        for reader in (read_capytaine, load_database):
+            with pytest.raises(FileFormatError, match=r"cut\.nc"):
+                reader(tmp_path / "cut.nc")
 
 
-def test_told_apart_from_our_own_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    layout().to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
-    assert "Capytaine" in load_database(tmp_path).source
-    assert main(["hydro", str(tmp_path / "hull.nc"), "--json"]) == 0
-    rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
-    assert rows["symmetry_damping"]["verdict"] == "pass"
-    load_database(tmp_path / "hull.nc").save(tmp_path / "ours.nc")
-    assert np.array_equal(
-        load_database(tmp_path / "ours.nc").force, load_database(tmp_path / "hull.nc").force
-    )
+def solved_barge(x: float, y: float, turn: Any = None) -> xarray.Dataset:
+    """A barge centred at ``x``, ``y`` of the mesh, turning about it or ``turn``, solved by Capytaine.
 
-
-def solved_barge(x: float, y: float) -> xarray.Dataset:
-    """A barge centred at ``x``, ``y`` of the mesh, solved by Capytaine."""
+    In deep water: in finite depth it fits at random points, up to 0.4 % from run to run.
+    """
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     centre = (x, y, 0.0)
     mesh = capytaine.mesh_parallelepiped(size=(24.0, 8.0, 4.0), center=centre, resolution=(12, 4, 4))
+    dofs = capytaine.rigid_body_dofs(rotation_center=turn or centre)
     body = capytaine.FloatingBody(
-        mesh=mesh.immersed_part(),
-        dofs=capytaine.rigid_body_dofs(rotation_center=centre),
-        center_of_mass=(x, y, 0.5),
-        name="barge",
+        mesh=mesh.immersed_part(), dofs=dofs, center_of_mass=(x, y, 0.5), name="barge"
     )
     body.inertia_matrix = body.compute_rigid_body_inertia()
     body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness()
-    study = xarray.Dataset(
-        coords={
-            "omega": [0.6, 0.9, 1.2, 1.5],
-            "wave_direction": np.radians(np.arange(0.0, 181.0, 15.0)),
-            "radiating_dof": list(body.dofs),
-        }
-    )
+    wanted = {"omega": [0.6, 0.9, 1.2, 1.5], "wave_direction": np.radians(np.arange(0.0, 181.0, 15.0))}
+    study = xarray.Dataset(coords=wanted | {"radiating_dof": list(body.dofs)})
     solved: xarray.Dataset = capytaine.BEMSolver().fill_dataset(study, [body], progress_bar=False)
     return solved
 
 
-@pytest.fixture(scope="module")
-def barge_dataset() -> xarray.Dataset:
-    """The barge at the origin."""
-    return solved_barge(0.0, 0.0)
-
-
 @pytest.mark.warns("DampingWarning", "HeadingGapWarning")
-def test_a_fresh_capytaine_run(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
+def test_a_fresh_capytaine_run(tmp_path: Path) -> None:
     """Energy relation (signs of the couplings included), long waves, and a mesh placed elsewhere."""
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
-    capytaine.export_dataset(tmp_path / "here.nc", barge_dataset)
+    capytaine.export_dataset(tmp_path / "here.nc", solved_barge(0.0, 0.0))
     capytaine.export_dataset(tmp_path / "there.nc", solved_barge(30.0, -10.0))
     found, moved = load_database(tmp_path / "here.nc"), load_database(tmp_path / "there.nc")
     assert found.port_starboard_symmetric
     assert (found.length, found.breadth, found.draught) == pytest.approx((24.0, 8.0, 2.0), rel=0.05)
     radiated = damping_from_forces(found)
-    assert radiated is not None
     peak = np.sqrt(np.diagonal(found.damping, axis1=1, axis2=2).max(axis=0))
     error = (radiated - found.damping) / np.outer(peak, peak)
     for j, k in ((0, 0), (1, 1), (2, 2), (4, 4), (5, 5), (0, 4)):
@@ -365,34 +293,5 @@ def test_a_fresh_capytaine_run(barge_dataset: xarray.Dataset, tmp_path: Path) ->
     for j, k in ((0, 4), (1, 3)):  # roll is off by a third on so few panels, but signs have to agree
         assert np.all(radiated[:, j, k] * found.damping[:, j, k] > 0.0)
     assert 0.6 < found.force[0, 0, 2].real / found.restoring[2, 2] < 1.0
-    scale = np.abs(found.force).max(axis=(0, 1))
-    assert np.all(np.abs(moved.force - found.force) <= 1e-4 * scale)
+    assert np.all(np.abs(moved.force - found.force) <= 1e-4 * np.abs(found.force).max(axis=(0, 1)))
     assert np.all(np.abs(moved.added_mass - found.added_mass) <= 1e-4 * np.abs(found.added_mass).max())
-
-
-@pytest.mark.warns("DampingWarning")
-def test_what_capytaine_exports_as_wamit_files(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
-    """A set without .out: the caller gives volume and gravity. Digits are those of the export."""
-    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
-    exported = pytest.importorskip("capytaine.io.wamit", reason="capytaine 3 is needed: pip install .[hydro]")
-    capytaine.export_dataset(tmp_path / "whole.nc", barge_dataset)
-    whole = load_database(tmp_path / "whole.nc")
-    exported.export_to_wamit(barge_dataset, str(tmp_path / "barge"), exports=("1", "3", "hst"))
-    with pytest.raises(FileFormatError, match=r"barge\.out: no such file; .* displaced volume"):
-        load_database(tmp_path / "barge")
-    with pytest.raises(FileFormatError, match="g is 0"):
-        read_wamit(tmp_path / "barge", volume=1.0, g=0.0)
-    found = read_wamit(
-        tmp_path / "barge",
-        volume=whole.mass_matrix[0, 0] / whole.rho,
-        g=whole.g,
-        rho=whole.rho,
-        mass_matrix=whole.mass_matrix,
-    )
-    assert found.port_starboard_symmetric and found.depth == np.inf
-    assert np.array_equal(found.mass_matrix, whole.mass_matrix)
-    for name in ("omega", "heading", "added_mass", "damping", "restoring", "force"):
-        mine, theirs = getattr(found, name), getattr(whole, name)
-        if name in ("added_mass", "damping"):  # Capytaine 3 writes the moving motion first, WAMIT the force
-            theirs = theirs.swapaxes(1, 2)
-        assert np.abs(mine - theirs).max() <= 2e-6 * np.abs(theirs).max(), name

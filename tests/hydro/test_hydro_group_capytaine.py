@@ -22,12 +22,8 @@ DISTANCES = (100.0, 550.0, 3000.0)  # m
 
 def hemisphere(name: str, x: float, y: float) -> Any:
     mesh = capytaine.mesh_sphere(radius=RADIUS, center=(x, y, 0.0), resolution=(6, 8)).immersed_part()
-    body = capytaine.FloatingBody(
-        mesh=mesh,
-        dofs=capytaine.rigid_body_dofs(rotation_center=(x, y, 0.0)),
-        center_of_mass=(x, y, -1.0),
-        name=name,
-    )
+    dofs = capytaine.rigid_body_dofs(rotation_center=(x, y, 0.0))
+    body = capytaine.FloatingBody(mesh=mesh, dofs=dofs, center_of_mass=(x, y, -1.0), name=name)
     body.inertia_matrix = body.compute_rigid_body_inertia(rho=1025.0)
     body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness(rho=1025.0)
     return body
@@ -36,15 +32,8 @@ def hemisphere(name: str, x: float, y: float) -> Any:
 def solved(bodies: tuple[Any, Any], omega: list[float], heading: list[float]) -> xarray.Dataset:
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     both = bodies[0] + bodies[1]
-    wanted = xarray.Dataset(
-        coords={
-            "omega": omega,
-            "wave_direction": heading,
-            "radiating_dof": list(both.dofs),
-            "rho": [1025.0],
-        }
-    )
-    return capytaine.BEMSolver().fill_dataset(wanted, both, progress_bar=False)
+    coords = {"omega": omega, "wave_direction": heading, "radiating_dof": list(both.dofs), "rho": [1025.0]}
+    return capytaine.BEMSolver().fill_dataset(xarray.Dataset(coords=coords), both, progress_bar=False)
 
 
 def as_group(dataset: xarray.Dataset, folder: Path) -> HydroGroup:

@@ -43,41 +43,25 @@ def group_in(water: Oscillators) -> HydroGroup:
     infinite = np.zeros((12, 12))
     infinite[MOVING, MOVING] = 0.4 * INERTIA
     added_mass[at] = kernel.imag / omega[:, None, None]
-    added_mass += infinite
     damping[at] = kernel.real
     force = np.zeros((2, len(omega), 12), dtype=complex)
-    force[:, :, MOVING] = (
-        1e5 * np.exp(-omega)[None, :, None] * np.array([[1j, 1.0, 0.6j, 0.8], [0.5j, 1.0, 1j, 1.0]])[:, None]
-    )
+    shape = np.array([[1j, 1.0, 0.6j, 0.8], [0.5j, 1.0, 1j, 1.0]])
+    force[:, :, MOVING] = 1e5 * np.exp(-omega)[None, :, None] * shape[:, None]
     bodies = []
     for name, place, resonance in (("one", 0.0, 0.7), ("two", 30.0, 0.8)):
-        restoring = np.zeros((6, 6))
+        restoring, rate = np.zeros((2, 6, 6))
         restoring[HEAVE, HEAVE] = 2.0 * INERTIA * resonance**2
-        rate = np.zeros((6, 6))
         rate[HEAVE, HEAVE] = 0.1 * INERTIA
-        bodies.append(
-            GroupBody(
-                name=name,
-                position=np.array([0.0, place, 0.0]),
-                mass_matrix=INERTIA * np.eye(6),
-                restoring=restoring,
-                linear_damping=rate,
-                length=40.0,
-                breadth=15.0,
-                draught=4.0,
-            )
-        )
+        body = GroupBody(
+            name=name, position=np.array([0.0, place, 0.0]), mass_matrix=INERTIA * np.eye(6),
+            restoring=restoring, linear_damping=rate, length=40.0, breadth=15.0, draught=4.0,
+        )  # fmt: skip
+        bodies.append(body)
     return HydroGroup(
-        name="known",
-        bodies=tuple(bodies),
-        omega=omega,
-        heading=np.array([0.5, 1.2]),
-        added_mass=added_mass,
-        damping=damping,
-        infinite_frequency_added_mass=infinite,
-        force=force,
+        name="known", bodies=tuple(bodies), omega=omega, heading=np.array([0.5, 1.2]), force=force,
+        added_mass=added_mass + infinite, damping=damping, infinite_frequency_added_mass=infinite,
         source="known oscillators",
-    )
+    )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -90,29 +74,17 @@ def model(group: HydroGroup) -> MemoryModel:
     return fit_memory(database=group, limit=LIMIT)
 
 
-def test_it_is_passive_over_all_motions_together(model: MemoryModel) -> None:
+def test_it_is_passive_over_all_motions_and_couples_the_hulls(group: HydroGroup, model: MemoryModel) -> None:
+    """Within the limit that the model states, as motions solved with it at the data's frequencies are."""
     certificate = passivity_certificate(model)
-    assert certificate.passive
-    assert certificate.energy
-    assert model.motions == 12
-    assert model.passivity.minimum > -1e-12
-
-
-def test_motions_are_within_the_limit(group: HydroGroup, model: MemoryModel) -> None:
-    """The limit that the model states, and motions solved with it at the data's frequencies."""
-    assert model.motion is not None
-    assert model.motion.reached
-    assert model.motion.error.seas.shape == (12,)
+    assert certificate.passive and certificate.energy
+    assert model.motions == 12 and model.passivity.minimum > -1e-12
+    assert model.motion is not None and model.motion.reached and model.motion.error.seas.shape == (12,)
     added_mass, damping = model.frequency_response(group.omega)
     solved = motion_response(group, added_mass=added_mass, damping=damping)[:, :, MOVING]
-    given = group.motion_rao[:, :, MOVING]
-    inside = group.omega < 1.5
+    given, inside = group.motion_rao[:, :, MOVING], group.omega < 1.5
     error = np.abs(solved - given)[:, inside].max(axis=(0, 1)) / np.abs(given).max(axis=(0, 1))
     assert error.max() < 5.0 * LIMIT
-
-
-def test_what_couples_the_hulls_is_in_the_memory(group: HydroGroup, model: MemoryModel) -> None:
-    added_mass, damping = model.frequency_response(group.omega)
     for table, fitted in ((group.added_mass, added_mass), (group.damping, damping)):
         coupled = table[:, HEAVE, 6 + HEAVE]
         assert np.abs(fitted[:, HEAVE, 6 + HEAVE] - coupled).max() < 0.1 * np.ptp(coupled)
@@ -122,7 +94,6 @@ def test_what_couples_the_hulls_is_in_the_memory(group: HydroGroup, model: Memor
 
 def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model: MemoryModel) -> None:
     moved = replace(group, memory=model).ordered(["two", "one"])
-    assert moved.memory is not None
     place = np.r_[6:12, 0:6]
     square = np.ix_(range(len(group.omega)), place, place)
     assert moved.memory.transfer(group.omega) == pytest.approx(model.transfer(group.omega)[square], rel=1e-12)
@@ -131,29 +102,23 @@ def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model:
 
 
 def test_hulls_that_do_not_couple_have_memories_of_their_own() -> None:
+    """In one fit, and as single ones side by side: states and order as they are."""
     apart = group_in(known_water(0.0))
     model = fit_memory(database=apart, limit=LIMIT)
     assert all(len({motion // 6 for motion in block.inputs}) == 1 for block in model.blocks)
-    assert not np.any(model.transfer(apart.omega)[:, :6, 6:])
-    assert passivity_certificate(model).passive
-
-
-def test_single_memories_side_by_side(group: HydroGroup) -> None:
-    """States and order as they are: what two vessels have without interaction."""
-    apart = group_in(known_water(0.0))
     single = [fit_memory(database=apart[name], limit=LIMIT, band=(0.15, 2.2)) for name in apart]
     joint = joined_memory(single)
-    assert joint.states == sum(model.states for model in single)
-    for i, model in enumerate(single):
+    assert joint.states == sum(one.states for one in single)
+    for i, one in enumerate(single):
         at = slice(6 * i, 6 * i + 6)
-        assert np.array_equal(joint.transfer(group.omega)[:, at, at], model.transfer(group.omega))
-    assert not np.any(joint.transfer(group.omega)[:, :6, 6:])
-    assert passivity_certificate(joint).passive
+        assert np.array_equal(joint.transfer(apart.omega)[:, at, at], one.transfer(apart.omega))
+    for both in (model, joint):
+        assert not np.any(both.transfer(apart.omega)[:, :6, 6:])
+        assert passivity_certificate(both).passive
 
 
 def test_a_memory_of_another_size_is_refused(group: HydroGroup) -> None:
-    single = fit_memory(database=group["one"], limit=LIMIT)
     with pytest.raises(ValueError, match="its memory has 6 motions, the group 12"):
-        replace(group, memory=single)
-    with pytest.raises(ValueError, match="memory of kind 'per-pair' is of one hull"):
+        replace(group, memory=fit_memory(database=group["one"], limit=LIMIT))
+    with pytest.raises(ValueError, match="'per-pair' is of one hull"):
         fit_memory(database=group, kind="per-pair")

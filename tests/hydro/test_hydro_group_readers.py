@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
-import xarray
 from group_cases import bemio_file, capytaine_dataset, capytaine_file, nemoh_folder, wamit_files, written_pair
 
 from seacrane.cli import main
@@ -66,6 +66,7 @@ def assert_same(found: HydroGroup, group: HydroGroup, tolerance: float = 1e-9) -
         assert np.abs(mine.mass_matrix - its.mass_matrix).max() <= 1e-9 * np.abs(its.mass_matrix).max()
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.AssumedInertiaWarning")
 @pytest.mark.parametrize("name", FORMATS)
 def test_what_was_written_comes_back(name: str, pair: HydroGroup, tmp_path: Path) -> None:
     """Names, order, places, phases and which index is the load: coupling blocks are not symmetric here."""
@@ -73,161 +74,107 @@ def test_what_was_written_comes_back(name: str, pair: HydroGroup, tmp_path: Path
     path = write(pair, tmp_path)
     given = {} if name == "capytaine" else {"mass_matrices": masses(pair)}
     assert_same(read(path, **given), pair)
-
-
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.AssumedInertiaWarning")
-@pytest.mark.parametrize("name", FORMATS)
-def test_load_database_gives_the_group_and_names_its_hulls(
-    name: str, pair: HydroGroup, tmp_path: Path
-) -> None:
-    path = FORMATS[name][0](pair, tmp_path)
     found = load_database(path)
-    assert isinstance(found, HydroGroup)
-    assert found.names == pair.names
-    with pytest.raises(FileFormatError, match="holds bodies crane, feeder, and one hull is needed"):
+    assert isinstance(found, HydroGroup) and found.names == pair.names
+    with pytest.raises(FileFormatError, match="crane, feeder, and one hull"):
         load_hull(path)
 
 
-def test_a_turned_body_of_wamit(tmp_path: Path) -> None:
+def test_wamit_turned_and_by_its_listing_alone(pair: HydroGroup, tmp_path: Path) -> None:
     """PHIBODY: matrices and forces are in the body's own axes, phases stay at the global origin."""
-    pair = written_pair(heading=np.pi)
-    assert_same(read_wamit_group(wamit_files(pair, tmp_path), mass_matrices=masses(pair)), pair)
-
-
-def test_a_listing_alone_has_phases_in_degrees(pair: HydroGroup, tmp_path: Path) -> None:
+    turned = written_pair(heading=np.pi)
+    assert_same(read_wamit_group(wamit_files(turned, tmp_path), mass_matrices=masses(turned)), turned)
+    for file in tmp_path.iterdir():
+        file.unlink()
     path = wamit_files(pair, tmp_path, numbers=False)
-    with pytest.warns(RoundedPhaseWarning, match="rounded to degrees"):
+    with pytest.warns(RoundedPhaseWarning, match="degrees"):
         found = read_wamit_group(path, mass_matrices=masses(pair))
     assert_same(replace(found, force=pair.force), pair)
     off = np.abs(found.force - pair.force) / np.maximum(np.abs(pair.force), 1e-300)
     assert 1e-4 < off.max() <= np.radians(0.5) + 1e-6
 
 
-def test_readers_of_one_body_name_the_reader_of_several(pair: HydroGroup, tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=r"crane, feeder.*read_capytaine_group"):
-        read_capytaine(capytaine_file(pair, tmp_path))
-    with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
-        read_wamit(wamit_files(pair, tmp_path) / "pair")
-
-
-@pytest.mark.warns("AssumedInertiaWarning")
-def test_masses_are_guessed_aloud(pair: HydroGroup, tmp_path: Path) -> None:
-    with pytest.warns(AssumedInertiaWarning, match="no mass matrix of feeder, give read_bemio_group"):
-        found = read_bemio_group(bemio_file(pair, tmp_path))
-    assert found.mass_matrix[6, 6] == pytest.approx(pair.mass_matrix[6, 6])
-
-
 def test_rotation_centres_that_a_file_does_not_tell(pair: HydroGroup, tmp_path: Path) -> None:
-    silent = capytaine_dataset(pair).drop_vars("rotation_center")
-    silent.to_netcdf(tmp_path / "silent.nc")
-    with pytest.warns(AssumedReferenceWarning, match="crane, feeder turn"):
-        found = read_capytaine_group(tmp_path / "silent.nc")
+    path = tmp_path / "silent.nc"
+    capytaine_dataset(pair).drop_vars("rotation_center").to_netcdf(path)
+    with pytest.warns(AssumedReferenceWarning, match="crane, feeder"):
+        found = read_capytaine_group(path)
     assert not np.any([body.position for body in found.bodies])
     told = {body.name: body.position for body in pair.bodies}
-    assert_same(read_capytaine_group(tmp_path / "silent.nc", rotation_centres=told), pair)
-    with pytest.raises(FileFormatError, match="rotation_centres are given for crane: name each"):
-        read_capytaine_group(tmp_path / "silent.nc", rotation_centres={"crane": (0.0, 0.0, 0.0)})
+    assert_same(read_capytaine_group(path, rotation_centres=told), pair)
+    with pytest.raises(FileFormatError, match=r"rotation_centres .* crane"):
+        read_capytaine_group(path, rotation_centres={"crane": (0.0, 0.0, 0.0)})
 
 
-def test_hydrostatics_in_another_order_are_named(tmp_path: Path) -> None:
+def test_hydrostatics_in_another_order_are_named(pair: HydroGroup, tmp_path: Path) -> None:
     """The files of two unlike bodies exchanged: a long wave lifts each with its own C33 alone."""
-    pair = written_pair()
-    double = replace(pair.bodies[1], restoring=2.0 * pair.bodies[1].restoring)
+    bodies = (pair.bodies[0], replace(pair.bodies[1], restoring=2.0 * pair.bodies[1].restoring))
+    unlike = replace(pair, bodies=bodies)
     force = pair.force.copy()
     force[:, :, 6:] *= 2.0
-    unlike = replace(pair, bodies=(pair.bodies[0], double), force=force)
-    unlike = in_long_waves(unlike)
+    force[:, 0, 2::6] = np.diag(unlike.restoring)[2::6]
+    unlike = replace(unlike, omega=0.1 * pair.omega, force=force)
     folder = nemoh_folder(unlike, tmp_path)
     read_nemoh_group(folder, mass_matrices=masses(unlike))
     for source, target in (("Kh_0", "spare"), ("Kh_1", "Kh_0"), ("spare", "Kh_1")):
         shutil.move(folder / "Mesh" / f"{source}.dat", folder / "Mesh" / f"{target}.dat")
-    with pytest.raises(
-        FileFormatError, match=r"the restoring of crane has C33 = .* of feeder: they stand in"
-    ):
+    with pytest.raises(FileFormatError, match=r"restoring of crane has C33 = .* of feeder"):
         read_nemoh_group(folder, mass_matrices=masses(unlike))
 
 
-def in_long_waves(group: HydroGroup) -> HydroGroup:
-    """The group as if its frequencies were a tenth, with forces of hulls that follow the water level."""
-    force = group.force.copy()
-    force[:, 0, 2::6] = np.diag(group.restoring)[2::6]
-    return replace(group, omega=0.1 * group.omega, force=force)
-
-
-@pytest.mark.parametrize(
-    ("damage", "message"),
-    [
+@pytest.mark.warns("AssumedInertiaWarning")
+def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
+    given: dict[str, Any] = {"mass_matrices": masses(pair)}
+    for damage, message in (
         (lambda d: d.isel(influenced_dof=slice(1, None)), "influenced_dof lacks crane__"),
-        (lambda d: d.drop_vars("inertia_matrix"), "inertia_matrix is missing; set it for each body"),
+        (lambda d: d.drop_vars("inertia_matrix"), "inertia_matrix is missing"),
         (lambda d: d.assign(added_mass=d.added_mass * np.nan), r"added_mass\[0, 0, 0\] is nan"),
-        (lambda d: d.assign_coords(forward_speed=2.0), "forward_speed is 2 m/s"),
+        (lambda d: d.assign_coords(forward_speed=2.0), "forward_speed is 2"),
         (
             lambda d: d.assign(hydrostatic_stiffness=0.0 * d.hydrostatic_stiffness),
             "body crane: restoring C33",
         ),
-    ],
-)
-def test_damage_is_named(
-    damage: Callable[[xarray.Dataset], xarray.Dataset], message: str, pair: HydroGroup, tmp_path: Path
-) -> None:
-    damage(capytaine_dataset(pair)).to_netcdf(tmp_path / "pair.nc")
-    with pytest.raises(FileFormatError, match=rf"pair\.nc: .*{message}"):
-        read_capytaine_group(tmp_path / "pair.nc")
-
-
-@pytest.mark.parametrize(
-    ("file", "change", "message"),
-    [
-        ("pair.out", lambda text: text.replace("YBODY", "Y"), "no XBODY, .* of crane"),
-        ("pair.out", lambda text: text.replace("Gravity:", "G:"), "no gravity of file"),
-        ("pair.1", lambda text: text.replace(" 12 ", " 13 ", 1), "motion 13 is not one of 1 to 12; 2 rigid"),
-        ("pair.3", lambda text: text[: len(text) // 2], r"pair\.3, line"),
-        ("pair.hst", lambda text: "\n".join(text.splitlines()[:50]) + "\n", "50 of 72 entries end here"),
-    ],
-)
-def test_damage_of_wamit_is_named(
-    file: str, change: Callable[[str], str], message: str, pair: HydroGroup, tmp_path: Path
-) -> None:
-    folder = wamit_files(pair, tmp_path)
-    (folder / file).write_text(change((folder / file).read_text()))
-    with pytest.raises(FileFormatError, match=message):
-        read_wamit_group(folder, mass_matrices=masses(pair))
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda text: text.replace("2 ! Number", "3 ! Number"), "3 bodies with 12 lines of rotations"),
-        (lambda text: text.replace("38.0", "39.0", 1), "rotations of body 2 turn about 2 points"),
-    ],
-)
-def test_damage_of_nemoh_is_named(
-    change: Callable[[str], str], message: str, pair: HydroGroup, tmp_path: Path
-) -> None:
-    folder = nemoh_folder(pair, tmp_path)
-    control = folder / "Nemoh.cal"
-    control.write_text(change(control.read_text()))
-    with pytest.raises(FileFormatError, match=message):
-        read_nemoh_group(folder, mass_matrices=masses(pair))
-
-
-def test_shapes_of_bemio(pair: HydroGroup, tmp_path: Path) -> None:
-    import h5py
-
-    path = bemio_file(pair, tmp_path)
-    with h5py.File(path, "a") as file:
-        del file["body2/hydro_coeffs/added_mass/all"]
-        file["body2/hydro_coeffs/added_mass/all"] = np.ones((6, 6, len(pair.omega)))
-    with pytest.raises(FileFormatError, match=r"body2/.*added_mass/all has shape \(6, 6, "):
-        read_bemio_group(path, mass_matrices=masses(pair))
-
-
-def test_values_of_other_bodies_are_refused(pair: HydroGroup, tmp_path: Path) -> None:
-    wrong: dict[str, Any] = {"crane": np.eye(6), "barge": np.eye(6)}
-    with pytest.raises(
-        FileFormatError, match="holds bodies crane, feeder; mass_matrices are given for crane, barge"
     ):
-        read_bemio_group(bemio_file(pair, tmp_path), mass_matrices=wrong)
+        damage(capytaine_dataset(pair)).to_netcdf(tmp_path / "pair.nc")
+        with pytest.raises(FileFormatError, match=rf"pair\.nc: .*{message}"):
+            read_capytaine_group(tmp_path / "pair.nc")
+    with pytest.raises(FileFormatError, match=r"crane, feeder.*read_capytaine_group"):
+        read_capytaine(capytaine_file(pair, tmp_path))
+    folder = wamit_files(pair, tmp_path)
+    with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
+        read_wamit(folder / "pair")
+    nemoh_folder(pair, folder)
+    for name, change, message, read in (
+        ("pair.out", lambda text: text.replace("YBODY", "Y"), "no XBODY, .* of crane", read_wamit_group),
+        ("pair.out", lambda text: text.replace("Gravity:", "G:"), "no gravity", read_wamit_group),
+        ("pair.1", lambda text: text.replace(" 12 ", " 13 ", 1), "motion 13 .* 1 to 12", read_wamit_group),
+        ("pair.3", lambda text: text[: len(text) // 2], r"pair\.3, line", read_wamit_group),
+        ("pair.hst", lambda text: "\n".join(text.splitlines()[:50]) + "\n", "50 of 72", read_wamit_group),
+        (
+            "Nemoh.cal",
+            lambda text: text.replace("2 ! Number", "3 ! Number"),
+            "3 bodies .* 12",
+            read_nemoh_group,
+        ),
+        ("Nemoh.cal", lambda text: text.replace("38.0", "39.0", 1), "body 2 turn about 2", read_nemoh_group),
+    ):
+        file = folder / name
+        sound = file.read_text()
+        file.write_text(change(sound))
+        with pytest.raises(FileFormatError, match=message):
+            read(folder, **given)
+        file.write_text(sound)
+    path = bemio_file(pair, tmp_path)
+    with pytest.raises(FileFormatError, match=r"mass_matrices .* crane, barge"):
+        read_bemio_group(path, mass_matrices={"crane": np.eye(6), "barge": np.eye(6)})
+    with pytest.warns(AssumedInertiaWarning, match="no mass matrix of feeder"):
+        found = read_bemio_group(path)
+    assert found.mass_matrix[6, 6] == pytest.approx(pair.mass_matrix[6, 6])
+    with h5py.File(path, "a") as of_file:
+        del of_file["body2/hydro_coeffs/added_mass/all"]
+        of_file["body2/hydro_coeffs/added_mass/all"] = np.ones((6, 6, len(pair.omega)))
+    with pytest.raises(FileFormatError, match=r"body2/.*added_mass/all has shape \(6, 6, "):
+        read_bemio_group(path, **given)
 
 
 def test_the_command_shows_the_check_of_a_group(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -11,30 +13,47 @@ import numpy as np
 import pytest
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, load_database, read_veres
-from seacrane.warnings import PartialSetWarning
+from seacrane.hydro import (
+    HydroDatabase,
+    VeresHydrostatics,
+    load_database,
+    read_veres,
+    read_veres_hydrostatics,
+)
+from seacrane.hydro.readers.veres_files import read_matrices
+from seacrane.warnings import HydrostaticsWarning, PartialSetWarning
 
 TO_OURS = np.array([-1, -1, 1, -1, -1, 1])
-KEY = ["0", "9", "19", "24", "27", "31", "35"]
+BOTH = np.outer(TO_OURS, TO_OURS)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def supply(shared: Path) -> Path:
     """Folder of the supply vessel's files."""
     return shared / "veres" / "supply"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def expected(supply: Path) -> dict[str, Any]:
     """Reference values that came with the files."""
     values: dict[str, Any] = json.loads((supply / "expected.json").read_text())
     return values
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def database(supply: Path) -> HydroDatabase:
-    """The supply vessel as our reader reads it."""
-    return load_database(supply)
+    """The supply vessel as our reader reads it; nothing about it warns."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return load_database(supply)
+
+
+@pytest.fixture
+def copy(supply: Path, tmp_path: Path) -> Path:
+    """A writable copy of all files."""
+    for suffix in (".re1", ".re2", ".re7", ".re8", ".hyd"):
+        shutil.copyfile(supply / f"input{suffix}", tmp_path / f"input{suffix}")
+    return tmp_path
 
 
 def of_heading(database: HydroDatabase, heading_deg: float) -> int:
@@ -45,256 +64,172 @@ def of_heading(database: HydroDatabase, heading_deg: float) -> int:
     return int(distance.argmin())
 
 
-def complex_of(pairs: Any) -> np.ndarray:
-    """Complex array from [re, im] pairs."""
-    array = np.array(pairs, dtype=float)
-    return np.asarray(array[..., 0] + 1j * array[..., 1])
-
-
-def test_header(database: HydroDatabase, expected: dict[str, Any]) -> None:
+def test_header_and_matrices_are_the_reference_values(
+    database: HydroDatabase, expected: dict[str, Any]
+) -> None:
     head = expected["header"]
-    assert (database.rho, database.g) == (head["rho"], head["g"])
+    assert (database.rho, database.g, database.speed) == (head["rho"], head["g"], 0.0)
     assert (database.length, database.breadth, database.draught) == (head["Lpp"], head["B"], head["T"])
     assert database.omega == pytest.approx(expected["omega"], rel=1e-12)
     assert len(database.heading) == head["nhead"]
-    assert database.speed == 0.0
     assert database.infinite_frequency_added_mass is None
-
-
-def test_matrices_in_our_axes(database: HydroDatabase, expected: dict[str, Any]) -> None:
-    ours = expected["xfwd_yport_zup"]["at_file_origin"]
+    ours, raw = expected["xfwd_yport_zup"]["at_file_origin"], expected["raw_file_axes"]
     assert np.array_equal(database.mass_matrix, np.array(ours["M"]))
     assert np.array_equal(database.restoring, np.array(ours["C"]))
     for key, matrix in ours["A"].items():
         assert np.array_equal(database.added_mass[int(key)], np.array(matrix))
-
-
-def test_signs_against_the_raw_file(database: HydroDatabase, expected: dict[str, Any]) -> None:
-    both = np.outer(TO_OURS, TO_OURS)
-    for key in KEY:
-        assert np.array_equal(
-            database.damping[int(key)], both * np.array(expected["raw_file_axes"]["B"][key])
-        )
-
-
-def test_checksums_of_all_frequencies(database: HydroDatabase, expected: dict[str, Any]) -> None:
-    sums = expected["raw_file_axes"]["A_checksum"]
-    both = np.outer(TO_OURS, TO_OURS)
+        assert np.array_equal(database.damping[int(key)], BOTH * np.array(raw["B"][key]))
     headings = len(database.heading)
-    found = {
-        "sum_A": np.sum(database.added_mass * both),
-        "sum_B": np.sum(database.damping * both),
-        "sum_abs_A": np.sum(np.abs(database.added_mass)),
-        "sum_abs_B": np.sum(np.abs(database.damping)),
-    }
-    for name, value in found.items():
-        assert value == pytest.approx(sums[name], rel=1e-12) or headings * value == pytest.approx(
-            sums[name], rel=1e-12
-        )
-
-
-def test_additional_matrices_are_kept_apart(database: HydroDatabase, expected: dict[str, Any]) -> None:
-    (extra,) = database.additional
-    assert extra.added_mass[:, 3, 3] == pytest.approx(expected["raw_file_axes"]["A_additional_44"], rel=1e-12)
-    assert extra.damping[:, 3, 3] == pytest.approx(expected["raw_file_axes"]["B_additional_44"], rel=1e-12)
-    only_roll = np.ones((6, 6), dtype=bool)
-    only_roll[3, 3] = False
-    assert not np.any(extra.added_mass[:, only_roll])
-    assert not np.any(extra.restoring)
-
-
-def test_roll_damping_columns(database: HydroDatabase, expected: dict[str, Any]) -> None:
-    assert database.roll_damping is not None
-    for key, values in expected["raw_file_axes"]["roll_linear_quadratic_linearised"].items():
+    for name, table in (("A", database.added_mass), ("B", database.damping)):
+        for key, value in ((f"sum_{name}", np.sum(table * BOTH)), (f"sum_abs_{name}", np.sum(np.abs(table)))):
+            ratio = raw["A_checksum"][key] / value
+            assert ratio == pytest.approx(1.0 if ratio < 2.0 else headings, rel=1e-12)
+    (extra,) = database.additional  # kept apart, and of roll alone
+    assert extra.added_mass[:, 3, 3] == pytest.approx(raw["A_additional_44"], rel=1e-12)
+    assert extra.damping[:, 3, 3] == pytest.approx(raw["B_additional_44"], rel=1e-12)
+    others = np.ones((6, 6), dtype=bool)
+    others[3, 3] = False
+    assert not np.any(extra.added_mass[:, others]) and not np.any(extra.restoring)
+    roll = database.roll_damping
+    for key, values in raw["roll_linear_quadratic_linearised"].items():
         k, h = (int(part) for part in key.split(","))
         at = of_heading(database, expected["heading_deg"][h])
-        roll = database.roll_damping
         assert [roll.linear[k], roll.quadratic[k], roll.linearised[at, k]] == pytest.approx(values, rel=1e-12)
-
-
-def test_linearised_roll_damping_belongs_to_its_amplitude(database: HydroDatabase) -> None:
-    roll = database.roll_damping
-    assert roll is not None
-    assert roll.linearised_amplitude is not None
-    assert database.motion_rao is not None
     amplitude = np.abs(database.motion_rao[:, :, 3]) * roll.linearised_amplitude
     rebuilt = 8.0 / (3.0 * np.pi) * roll.quadratic * database.omega * amplitude
     assert rebuilt == pytest.approx(roll.linearised, rel=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("reference", "attribute"),
-    [("force_rao_file_axes", "force"), ("motion_rao_file_axes", "motion_rao")],
-)
-def test_transfer_functions(
-    database: HydroDatabase, expected: dict[str, Any], reference: str, attribute: str
+def test_forces_and_motions_are_the_reference_values(
+    database: HydroDatabase, expected: dict[str, Any]
 ) -> None:
-    table = getattr(database, attribute)
-    for key, values in expected[reference].items():
-        k, h = (int(part) for part in key.split(","))
-        at = of_heading(database, expected["heading_deg"][h])
-        assert np.array_equal(table[at, k], TO_OURS * complex_of(values))
-
-
-def test_directions_in_our_convention(database: HydroDatabase, expected: dict[str, Any]) -> None:
+    for reference, table in (("force", database.force), ("motion", database.motion_rao)):
+        for key, values in expected[f"{reference}_rao_file_axes"].items():
+            k, h = (int(part) for part in key.split(","))
+            at = of_heading(database, expected["heading_deg"][h])
+            assert np.array_equal(table[at, k], TO_OURS * (np.array(values) @ [1.0, 1j]))
     for key, values in expected["xfwd_yport_zup"]["at_file_origin"]["force_rao"].items():
         frequency, direction = key.split(",mu=")
-        omega = expected["omega"][int(frequency)]
-        found = database.force_at(omega, np.radians(float(direction)))
-        reference = complex_of(values)
+        found = database.force_at(expected["omega"][int(frequency)], np.radians(float(direction)))
+        reference = np.array(values) @ [1.0, 1j]
         assert np.abs(found - reference).max() < 1e-9 * np.abs(reference).max()
-
-
-def test_port_side_by_symmetry(database: HydroDatabase) -> None:
-    parity = np.array([1, -1, 1, -1, 1, -1])
-    starboard = database.force_at(1.0, np.radians(225.0))
-    assert database.force_at(1.0, np.radians(135.0)) == pytest.approx(parity * starboard, rel=1e-6)
-
-
-def test_long_waves_lift_the_ship_by_its_waterplane(database: HydroDatabase) -> None:
+    port, starboard = (database.force_at(1.0, np.radians(degrees)) for degrees in (135.0, 225.0))
+    assert port == pytest.approx(np.array([1, -1, 1, -1, 1, -1]) * starboard, rel=1e-6)
     assert database.force[:, 0, 2].real == pytest.approx(database.restoring[2, 2], rel=0.03)
-
-
-def test_pitch_follows_the_slope_of_a_long_head_sea(database: HydroDatabase) -> None:
-    """zeta = a exp(i(wt - k x cos b)), and pitch follows -d zeta/dx = i k cos b."""
-    assert database.motion_rao is not None
+    # zeta = a exp(i(wt - k x cos b)): in a long head sea pitch follows -d zeta/dx = i k cos b.
     head = of_heading(database, 0.0)
     slope = 1j * database.omega[0] ** 2 / database.g * np.cos(database.heading[head])
     assert database.motion_rao[head, 0, 4] == pytest.approx(slope, rel=0.1)
 
 
-@pytest.mark.parametrize("name", ["", "input", "input.re7", "input.re8", "input.re1", "input.hyd"])
-def test_folder_stem_or_any_file_will_do(supply: Path, name: str, database: HydroDatabase) -> None:
-    found = load_database(supply / name if name else supply)
-    assert np.array_equal(found.force, database.force)
+def test_drift_against_the_reference_values(
+    database: HydroDatabase, expected: dict[str, Any], tmp_path: Path
+) -> None:
+    factors, drift = expected["drift_dimensional_factor"], database.drift
+    for key, coefficients in expected["drift_file_coeff"].items():
+        k, h = (int(part) for part in key.split(","))
+        load = np.array(coefficients) * TO_OURS[[0, 1, 5]] * [factors["Fx"], factors["Fy"], factors["Mz"]]
+        place = of_heading(database, expected["heading_deg"][h])
+        assert drift.coefficient[place, k, [0, 1, 5]] == pytest.approx(load, rel=1e-6)
+    assert not np.any(drift.coefficient[:, :, 2:5])
+    assert np.array_equal(drift.omega, database.omega) and np.array_equal(drift.heading, database.heading)
+    # Short waves are reflected: astern, to starboard, in beam seas near rho g L / 2 and not beyond it.
+    astern, beam = drift.coefficient[of_heading(database, 0.0)], drift.coefficient[of_heading(database, 90.0)]
+    assert np.all(astern[drift.omega > 0.5, 0] < 0.0) and np.all(beam[drift.omega > 0.5, 1] < 0.0)
+    assert 0.9 < -beam[-1, 1] / (0.5 * database.rho * database.g * database.length) <= 1.0
+    database.save(tmp_path / "ship.nc")
+    assert np.array_equal(load_database(tmp_path / "ship.nc").drift.coefficient, drift.coefficient)
 
 
-@pytest.fixture
-def copy(supply: Path, tmp_path: Path) -> Path:
-    """A writable copy of the three files."""
-    for suffix in (".re1", ".re7", ".re8"):
-        shutil.copy(supply / f"input{suffix}", tmp_path)
-    for file in tmp_path.iterdir():
-        file.chmod(0o644)
-    return tmp_path
-
-
-def test_upper_case_suffixes(copy: Path) -> None:
+def test_folder_stem_or_any_file_will_do(supply: Path, copy: Path, database: HydroDatabase) -> None:
+    for name in ("", "input", "input.re7", "input.re8", "input.re1", "input.hyd"):
+        assert np.array_equal(load_database(supply / name if name else supply).force, database.force)
+    for suffix in (".re7", ".re8"):
+        shutil.copyfile(copy / f"input{suffix}", copy / f"other{suffix}")
+    with pytest.raises(FileFormatError, match="input, other"):
+        load_database(copy)
+    assert load_database(copy / "other").name == "other"
     for file in list(copy.iterdir()):
         file.rename(file.with_suffix(file.suffix.upper()))
-    assert len(load_database(copy).omega) == 36
     assert len(load_database(copy / "input").omega) == 36
 
 
-def test_motions_are_optional(copy: Path) -> None:
-    (copy / "input.re1").unlink()
-    assert read_veres(copy).motion_rao is None
-
-
-def test_wave_forces_follow_from_motions(copy: Path, database: HydroDatabase) -> None:
+def test_wave_forces_follow_from_motions_and_what_is_missing_is_told(
+    copy: Path, database: HydroDatabase
+) -> None:
     """Without .re8: forces in the digits that motions have, nothing left to compare."""
-    (copy / "input.re8").unlink()
-    with pytest.warns(PartialSetWarning, match=r"no \.re8; wave forces are solved from the motions"):
+    assert "; no ." not in database.source
+    (copy / "input.re1").rename(copy / "away")
+    assert read_veres(copy).motion_rao is None
+    (copy / "away").rename(copy / "input.re1")
+    for suffix in (".re8", ".re2", ".hyd"):
+        (copy / f"input{suffix}").unlink()
+    with pytest.warns(PartialSetWarning, match=r"no \.re8"):
         found = load_database(copy)
     scale = np.abs(database.force).max(axis=(0, 1))
     inside = database.omega <= 2.0
     assert np.all(np.abs(found.force - database.force)[:, inside] <= 2e-3 * scale)
-    assert found.motion_rao is None
-    for lost in (r"no .re8: wave forces are solved", "no .re2: no drift", "no .hyd: hydrostatics are not"):
+    assert found.motion_rao is None and found.drift is None
+    for lost in ("no .re8: wave forces are solved", "no .re2: no drift", "no .hyd: hydrostatics are not"):
         assert lost in found.source
-    assert "; no ." not in database.source
-
-
-@pytest.mark.parametrize(
-    ("suffixes", "message"),
-    [
-        ([".re7"], r"input\.re7: no such file; .* no mass, added mass, .*MotionRaos"),
-        ([".re8", ".re1"], r"input\.re8: no such file, nor \.re1"),
-    ],
-)
-def test_missing_files_are_named(copy: Path, suffixes: list[str], message: str) -> None:
-    for suffix in suffixes:
+    for suffix, message in (
+        (".re1", r"input\.re8: no such file, nor \.re1"),
+        (".re7", r"input\.re7: no such"),
+    ):
         (copy / f"input{suffix}").unlink()
-    with pytest.raises(FileFormatError, match=message):
-        read_veres(copy / "input")
-
-
-def test_two_sets_in_one_folder_need_the_stem(copy: Path) -> None:
-    for suffix in (".re7", ".re8"):
-        shutil.copy(copy / f"input{suffix}", copy / f"other{suffix}")
-    with pytest.raises(FileFormatError, match="input, other"):
-        load_database(copy)
-    assert load_database(copy / "other").name == "other"
+        with pytest.raises(FileFormatError, match=message):
+            read_veres(copy / "input")
 
 
 @pytest.mark.parametrize("suffix", [".re1", ".re7", ".re8"])
-@pytest.mark.parametrize(
-    "kept", [0, 1, 5, 6, 7, 8, 9, 10, 11, 12, 17, 18, 19, 20, 21, 60, 1000, 2500, 4805, -40, -2, -1]
-)
-def test_truncation_names_file_and_line(copy: Path, suffix: str, kept: int) -> None:
-    path = copy / f"input{suffix}"
-    lines = path.read_bytes().splitlines(keepends=True)
-    if kept >= len(lines):
-        kept = len(lines) // 3
-    path.write_bytes(b"".join(lines[:kept]))
-    with pytest.raises(FileFormatError, match=rf"input\{suffix}, line \d+"):
-        read_veres(copy)
-
-
-@pytest.mark.parametrize("suffix", [".re1", ".re7", ".re8"])
-@pytest.mark.parametrize("part", [0.1, 0.33, 0.5, 0.77, 0.99])
-def test_truncation_inside_a_line(copy: Path, suffix: str, part: float) -> None:
+def test_truncation_names_file_and_line(copy: Path, suffix: str) -> None:
     path = copy / f"input{suffix}"
     data = path.read_bytes()
-    path.write_bytes(data[: int(part * len(data))])
-    with pytest.raises(FileFormatError, match=rf"input\{suffix}, line \d+"):
-        read_veres(copy)
+    lines = data.splitlines(keepends=True)
+    cuts = [b"".join(lines[:kept]) for kept in (0, 5, 6, 7, 9, 10, 11, 17, 18, 19, 20, 21, 60, -40, -1)]
+    for part in [*cuts, *(data[: int(share * len(data))] for share in (0.1, 0.5, 0.99))]:
+        path.write_bytes(part)
+        with pytest.raises(FileFormatError, match=rf"input\{suffix}, line \d+"):
+            read_veres(copy)
 
 
-def replace_line(path: Path, number: int, text: str) -> None:
-    """Replace one line (counted from 1) of a file."""
-    lines = path.read_text().splitlines()
-    lines[number - 1] = text
-    path.write_text("\n".join(lines) + "\n")
+MUTATIONS = [  # suffix, line counted from 1, its text, and what is said
+    (".re7", 7, "0.1025E+04", "gravity: 2 numbers"), (".re7", 7, "-1025.0 9.81", "header .* differ"),
+    (".re7", 8, "82.8 nan 6.0", "line 8: .*'nan'"), (".re7", 10, "-1 1", "version line '-1 1'"),
+    (".re7", 10, "1 19 36 6", "line 11: mass matrix: 6 .* 4"), (".re7", 11, "1 19 36 5", "six motions"),
+    (".re7", 11, "1 19 0 6", "at least one"), (".re7", 11, "1 19 37 6", "counts are wrong"),
+    (".re7", 11, "1 1000000000 1000000000 6", "counts are"), (".re7", 11, "1 19 36.5 6", "whole numbers"),
+    (".re7", 12, "0 0 0 0 0 0", "differ|positive definite"), (".re7", 18, "5 0 0 5.38592 6", "no speed"),
+    (".re7", 20, "0.2 0.3", "frequency: 1 numbers"), (".re7", 22, "0 1e6 0 x 0 0", "line 22: .*'x'"),
+    (".re7", 22, "0.0 0.28169215E+09 0.0 0.0 0.0 0.0", "depend on the heading"),
+    (".re8", 10, "1 18 36 6", "line|differ"), (".re8", 11, "0 0 0 5.4 6", "motion point differ"),
+    (".re8", 12, "5.0", "headings differ"), (".re8", 13, "0.11", "frequencies of heading number 2"),
+    (".re8", 14, "2 1.0 1.0", r"motions \[2.0, 2.0"), (".re8", 14, "1 1.0 inf", "line 14: .*finite"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("suffix", "number", "text", "message"),
-    [
-        (".re7", 7, "0.1025E+04", "density and gravity: 2 numbers"),
-        (".re7", 7, "-1025.0 9.81", "header .* differ"),
-        (".re7", 8, "82.8 nan 6.0", "line 8: .*'nan' is not a finite"),
-        (".re7", 10, "-1 1", "version line '-1 1'"),
-        (".re7", 10, "1 19 36 6", "line 11: mass matrix: 6 numbers are expected, found 4"),
-        (".re7", 11, "1 19 36 5", "six motions"),
-        (".re7", 11, "1 19 0 6", "at least one"),
-        (".re7", 11, "1 19 37 6", "counts are wrong"),
-        (".re7", 11, "1 19 35 6", "line"),
-        (".re7", 11, "1 1000000000 1000000000 6", "counts are wrong"),
-        (".re7", 11, "1 19 36.5 6", "whole numbers"),
-        (".re7", 11, "2 19 36 6", "counts are wrong"),
-        (".re7", 12, "0 0 0 0 0 0", "differ|positive definite"),
-        (".re7", 18, "5.0 0.0 0.0 5.38592 6.0", "no speed is in every file"),
-        (".re7", 20, "0.2 0.3", "frequency: 1 numbers"),
-        (".re7", 22, "0.0 0.28169215E+07 0.0 x 0.0 0.0", "line 22: .*'x' is not a number"),
-        (".re7", 22, "0.0 0.28169215E+09 0.0 0.0 0.0 0.0", "depend on the heading"),
-        (".re8", 10, "1 18 36 6", "line|differ"),
-        (".re8", 11, "0.0 0.0 0.0 5.4 6.0", "motion point differ"),
-        (".re8", 12, "5.0", "headings differ"),
-        (".re8", 13, "0.11", "frequencies of heading number 2"),
-        (".re8", 14, "2 1.0 1.0", r"motions \[2.0, 2.0"),
-        (".re8", 14, "1 1.0 inf", "line 14: .*not a finite"),
-        (".re1", 14, "1 1.0", "line 14: .*3 numbers"),
-    ],
-)
-def test_mutations_are_refused(copy: Path, suffix: str, number: int, text: str, message: str) -> None:
-    replace_line(copy / f"input{suffix}", number, text)
-    with pytest.raises(FileFormatError, match=message):
-        read_veres(copy)
+def test_mutations_are_refused(copy: Path) -> None:
+    for suffix, number, text, message in MUTATIONS:
+        path = copy / f"input{suffix}"
+        sound = path.read_text()
+        lines = sound.splitlines()
+        lines[number - 1] = text
+        path.write_text("\n".join(lines) + "\n")
+        with pytest.raises(FileFormatError, match=message):
+            read_veres(copy)
+        path.write_text(sound)
+    text = (copy / "input.re2").read_text()
+    for old, new, message in (
+        ("   1.0472  ", "   1.0572  ", "frequencies differ"), ("0.82800003E+02", "0.92800003E+02", "header"),
+    ):  # fmt: skip
+        (copy / "input.re2").write_text(text.replace(old, new))
+        with pytest.raises(FileFormatError, match=rf"input\.re2: {message}"):
+            read_veres(copy)
 
 
-def test_frequencies_in_any_order(copy: Path, database: HydroDatabase) -> None:
-    """A file whose frequencies fall is read into rising ones, everything else with them."""
+def test_frequencies_in_any_order_and_version_1(copy: Path, database: HydroDatabase) -> None:
+    """Falling frequencies are read into rising ones; version 1 has no version line, no additional blocks."""
+    (copy / "input.re2").unlink()
     for suffix, head, block in ((".re8", 11, 7), (".re1", 11, 7), (".re7", 18, 38)):
         path = copy / f"input{suffix}"
         lines = path.read_text().splitlines()
@@ -305,6 +240,73 @@ def test_frequencies_in_any_order(copy: Path, database: HydroDatabase) -> None:
             out += [line for part in reversed(blocks) for line in part]
             position += 1 + 36 * block
         path.write_text("\n".join(out) + "\n")
-    turned = read_veres(copy)
-    for name in ("omega", "added_mass", "damping", "force", "motion_rao"):
+    turned, sound = read_veres(copy), (copy / "input.re7").read_text().splitlines()
+    out, position = sound[:9] + sound[10:18], 18
+    for _ in range(19):
+        out.append(sound[position])
+        for k in range(36):
+            block = sound[position + 1 + 38 * k : position + 39 + 38 * k]
+            out += [block[0], *block[1:7], *block[13:19], *block[25:31], block[37]]
+        position += 1 + 36 * 38
+    (copy / "input.re7").write_text("\n".join(out) + "\n")
+    assert read_matrices(copy / "input.re7").version == 1
+    first = read_veres(copy)
+    assert first.additional == ()
+    assert np.array_equal(first.roll_damping.linearised, database.roll_damping.linearised)
+    for name in ("omega", "added_mass", "damping", "restoring", "mass_matrix", "force", "motion_rao"):
         assert np.array_equal(getattr(turned, name), getattr(database, name))
+        assert np.array_equal(getattr(first, name), getattr(database, name))
+    (copy / "input.re7").write_text("\n".join(out[:-20]) + "\n")
+    with pytest.raises(FileFormatError, match=r"input\.re7, line \d+: .* truncated"):
+        read_veres(copy)
+
+
+def test_hydrostatics(supply: Path, tmp_path: Path) -> None:
+    assert read_veres_hydrostatics(supply / "input.hyd") == VeresHydrostatics(
+        length=82.8, breadth=19.2, draught=6.0, sinkage=0.0, trim_deg=0.0, displacement=6362210.0, kb=3.334,
+        vcg=7.3, lcb=36.014, lcg=36.014, cb=0.651, cw=0.870, gm_transverse=2.144, gm_longitudinal=103.628,
+        r44=6.72, r55=20.7, r66=20.7,
+    )  # fmt: skip
+    lines, whole = HYD.splitlines(), tmp_path / "box.hyd"
+    for kept in range(len(lines)):
+        whole.write_text("\n".join(lines[:kept]))
+        if kept < 2:
+            with pytest.raises(FileFormatError, match=r"box\.hyd: none of the rows"):
+                read_veres_hydrostatics(whole)
+            continue
+        assert read_veres_hydrostatics(whole).length == 60.0
+        whole.write_text("\n".join([*lines[: kept - 1], lines[kept - 1][:36]]))  # before its number
+        with pytest.raises(FileFormatError, match=rf"box\.hyd, line {kept}: .*truncated"):
+            read_veres_hydrostatics(whole)
+
+
+HYD = """99
+Length between perpendiculars    (m)     60.000
+Breadth                          (m)     14.000
+Draught, midship                 (m)      5.000
+Displacement                (tonnes)    4310.00       4300.00*
+Vertical center of gravity,      VCG      6.000*
+Longitudinal center of bouyancy, LCB                   28.500*
+Transverse metacentric height,   GMt                    1.422*
+"""
+
+
+def test_hydrostatics_that_contradict_the_matrices(copy: Path) -> None:
+    text = (copy / "input.hyd").read_text()
+    for old, new, message in (
+        ("6362.21*", "6442.21*", "displacement 6.44221e[+]06 against 6.36221e[+]06"),
+        ("2.144*", "2.344*", r"gm_transverse 2.344 against 2.14\d+"),
+        ("103.628*", "99.628*", "gm_longitudinal 99.628 against"), ("7.300*", "7.400*", "vcg 7.4 against"),
+        ("                   36.014*", "                   35.014*", "lcb 35.014 against 36.014"),
+        ("36.000        36.014*", "36.000*       36.214", ""),  # the marked one agrees
+        ("36.000        36.014*", "36.000        37.014*", "lcg 37.014 against 36.014"),
+        ("6.720*", "6.920*", "r44 6.92 against"), ("r55     20.700*", "r55     21.700*", "r55 21.7"),
+        ("19.200", "18.200", "breadth 18.2 against 19.2"),
+    ):  # fmt: skip
+        assert old in text
+        (copy / "input.hyd").write_text(text.replace(old, new, 1))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            read_veres(copy)
+        assert [one.category for one in caught] == [HydrostaticsWarning] * bool(message)
+        assert all(re.search(message, str(one.message)) for one in caught)

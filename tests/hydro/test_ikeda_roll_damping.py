@@ -1,4 +1,4 @@
-"""Ikeda's roll damping: limits, published numbers, and the decay that it makes of a roll."""
+"""Ikeda's roll damping of ships and eddies of one section: limits, published numbers, decays of a roll."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, simulate
-from seacrane.hydro import MainParticulars, ikeda_roll_damping, shipped_database
+from seacrane.hydro import MainParticulars, ikeda_roll_damping, section_eddy_damping, shipped_database
 from seacrane.hydro.hull.ikeda import bilge_keels, eddy, friction, friction_at_speed, lift
+from seacrane.hydro.hull.section_eddies import eddy_coefficient
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 
 Array = NDArray[np.float64]
@@ -32,12 +33,13 @@ LIFT_OF_S175 = 4595742.29
 UNIT = 1025.0 * 0.65 * 300.0 * 50.0**3 * 12.5 * np.sqrt(2.0 * 9.81 / 50.0)  # rho V B^2 sqrt(2 g / B)
 
 
-def test_slow_and_small_the_friction_is_that_of_an_oscillating_plate() -> None:
+def test_friction_is_that_of_an_oscillating_plate_and_of_himeno() -> None:
     """Stokes: rho S sqrt(w nu / 2) per rate, at the radius squared. Kato's fit is 11 % above it."""
     values: dict[str, float] = {"radius": 2.0, "surface": 100.0, "omega": 0.5, "rho": 1025.0}
     found = friction(**values, amplitude=1e-6, viscosity=1.19e-6)
     plate = 1025.0 * 100.0 * np.sqrt(0.5 * 1.19e-6 / 2.0) * 2.0**2
     assert found / plate == pytest.approx(0.787 * np.sqrt(2.0), rel=2e-3)
+    assert friction(**PLATE) == pytest.approx(himeno(**PLATE), rel=2e-3)  # rounded, the same
 
 
 PLATE: dict[str, float] = {
@@ -48,26 +50,22 @@ PLATE: dict[str, float] = {
 def himeno(
     *, radius: float, surface: float, amplitude: float, omega: float, rho: float, viscosity: float
 ) -> float:
-    """Friction, N m s/rad."""
+    """Friction, N m s/rad: 0.787 rho S r^2 sqrt(w nu) (1 + 0.00814 (r^2 phi^2 w / nu)^0.386)."""
     turbulent = 1.0 + 0.00814 * (radius**2 * amplitude**2 * omega / viscosity) ** 0.386
     return float(0.787 * rho * surface * radius**2 * np.sqrt(omega * viscosity) * turbulent)
 
 
-def test_friction_in_the_form_of_himeno() -> None:
-    """0.787 rho S r^2 sqrt(w nu) (1 + 0.00814 (r^2 phi^2 w / nu)^0.386): rounded, the same."""
-    assert friction(**PLATE) == pytest.approx(himeno(**PLATE), rel=2e-3)
+def test_other_programs_have_these_numbers() -> None:
+    """Total of Kawahara, Maekawa and Ikeda's program, less its waves and its friction, which is laminar.
 
-
-def test_the_authors_program_has_this_sum() -> None:
-    """Total of Kawahara, Maekawa and Ikeda's program, less its waves and its friction, which is laminar."""
+    S175 of another program, which takes kappa = 0.1 in steps after Himeno: 1 m/s, period 20 s.
+    """
     found = ikeda_roll_damping(SHIP, **CALL)
     assert (found.eddy + found.bilge_keels) / UNIT == pytest.approx(OF_AUTHORS, rel=1e-10)
-
-
-def test_lift_and_friction_of_a_container_ship_at_speed() -> None:
-    """S175 of another program, which takes kappa = 0.1 in steps after Himeno: 1 m/s, period 20 s."""
     assert lift(**S175, rho=1025.0) == pytest.approx(LIFT_OF_S175, rel=1e-6)
     assert friction_at_speed(1.0, 2.0 * np.pi / 20.0, 175.0) == pytest.approx(753901.66 / 701580.94, rel=1e-7)
+    values: dict[str, float] = {"cb": 0.6, "cm": 0.95, "bd": 3.0, "og": -0.5, "frequency": 0.5}
+    assert eddy(**values, amplitude=0.2) == pytest.approx(2.0 * eddy(**values, amplitude=0.1))
 
 
 def direct_bilge_keels(
@@ -110,39 +108,28 @@ def both_bilge_keels(breadth: float, degrees: float) -> tuple[float, float]:
     return simple, direct
 
 
-@pytest.mark.parametrize("breadth", [0.02, 0.03])
-@pytest.mark.parametrize("degrees", [5.0, 10.0, 15.0])
-def test_the_simple_bilge_keels_follow_ikedas_own(breadth: float, degrees: float) -> None:
+def test_the_simple_bilge_keels_follow_ikedas_own() -> None:
     """Of one section all along, Cb = Cm is outside the fit; a full ship at its end is within 30 %."""
-    simple, direct = both_bilge_keels(breadth, degrees)
-    assert simple == pytest.approx(direct, rel=0.3)
+    for breadth in (0.02, 0.03):
+        for degrees in (5.0, 10.0, 15.0):
+            simple, direct = both_bilge_keels(breadth, degrees)
+            assert simple == pytest.approx(direct, rel=0.3)
 
 
-def test_without_bilge_keels_there_is_none_of_them() -> None:
+def test_without_bilge_keels_at_speed_and_the_pair_that_does_the_work() -> None:
     bare = CALL | {"bilge_keel_length": 0.0, "bilge_keel_breadth": 0.0}
-    with_keels, without = ikeda_roll_damping(SHIP, **CALL), ikeda_roll_damping(SHIP, **bare)
+    still, without = ikeda_roll_damping(SHIP, **CALL), ikeda_roll_damping(SHIP, **bare)
     assert without.bilge_keels == 0.0 and without.lift == 0.0
-    assert (without.friction, without.eddy) == (with_keels.friction, with_keels.eddy)
-    assert without.total < with_keels.total
-
-
-def test_speed_carries_eddies_away_and_brings_lift() -> None:
+    assert (without.friction, without.eddy) == (still.friction, still.eddy)
+    assert without.total < still.total
     slow, fast = (ikeda_roll_damping(SHIP, speed=speed, **CALL) for speed in (1.0, 10.0))
-    still = ikeda_roll_damping(SHIP, **CALL)
-    assert fast.eddy < slow.eddy < still.eddy
+    assert fast.eddy < slow.eddy < still.eddy  # carried away
     assert fast.lift == pytest.approx(10.0 * slow.lift)
     assert fast.friction > slow.friction > still.friction
-
-
-@pytest.mark.parametrize("share", [1.0, 0.5])
-def test_the_pair_does_the_work_of_the_method(share: float) -> None:
-    pair = ikeda_roll_damping(SHIP, **CALL)
-    method = ikeda_roll_damping(SHIP, **(CALL | {"amplitude_deg": share * 10.0})).total
-    rate = share * np.radians(10.0) * CALL["omega"]
-    assert pair.linear + 8.0 / (3.0 * np.pi) * rate * pair.quadratic == pytest.approx(method)
-
-
-def test_particulars_of_a_hull() -> None:
+    for share in (1.0, 0.5):
+        method = ikeda_roll_damping(SHIP, **(CALL | {"amplitude_deg": share * 10.0})).total
+        rate = share * np.radians(10.0) * CALL["omega"]
+        assert still.linear + 8.0 / (3.0 * np.pi) * rate * still.quadratic == pytest.approx(method)
     hull = shipped_hull()
     found = MainParticulars.of(hull)
     assert found.block_coefficient == pytest.approx(hull.hydrostatics.volume / (115.0 * 25.0 * 6.4), rel=1e-3)
@@ -150,36 +137,26 @@ def test_particulars_of_a_hull() -> None:
     assert (found.length, found.breadth, found.draught) == pytest.approx((115.0, 25.0, 6.4), rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"ship": {"block_coefficient": 0.45}}, "block_coefficient is 0.45; the formulas hold from 0.5"),
-        ({"ship": {"midship_coefficient": 0.88}}, "midship_coefficient is 0.88"),
-        ({"ship": {"draught": 25.0}}, "breadth / draught is 2"),
-        ({"axis_height": 20.0}, "roll axis / draught is -1.6"),
-        ({"omega": 0.7}, "omega sqrt"),
-        ({"omega": 0.0}, "omega is 0"),
-        ({"bilge_keel_breadth": 4.0}, "bilge_keel_breadth / breadth is 0.08"),
-        ({"bilge_keel_length": 150.0}, "bilge_keel_length / length is 0.5"),
-        ({"bilge_keel_length": 0.0}, "give both, or none"),
-        ({"amplitude_deg": 25.0}, "amplitude_deg is 25"),
-        ({"speed": -1.0}, "speed is -1"),
-        ({"ship": {"block_coefficient": 0.85}}, "eddies come out"),
-        ({"ship": {"length": 0.0}}, "length is 0"),
-    ],
-)
-def test_outside_the_method_it_is_refused(changes: dict[str, Any], words: str) -> None:
-    ship, call = changes.get("ship", {}), {key: value for key, value in changes.items() if key != "ship"}
-    with pytest.raises(SceneError, match=words):
-        ikeda_roll_damping(replace(SHIP, **ship), **(CALL | call))
+def test_outside_the_method_it_is_refused() -> None:
+    for ship, call, words in (
+        ({"block_coefficient": 0.45}, {}, "0.45.* 0.5"), ({"length": 0.0}, {}, "length is 0"),
+        ({"midship_coefficient": 0.88}, {}, "midship_coefficient is 0.88"), ({}, {"speed": -1.0}, "speed"),
+        ({"draught": 25.0}, {}, "breadth / draught is 2"), ({}, {"axis_height": 20.0}, "draught is -1.6"),
+        ({}, {"omega": 0.7}, "omega sqrt"), ({}, {"bilge_keel_breadth": 4.0}, "breadth is 0.08"),
+        ({}, {"bilge_keel_length": 150.0}, "length is 0.5"), ({}, {"bilge_keel_length": 0.0}, "both, or"),
+        ({}, {"amplitude_deg": 25.0}, "amplitude_deg is 25"), ({"block_coefficient": 0.85}, {}, "eddies"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            ikeda_roll_damping(replace(SHIP, **ship), **(CALL | call))
 
 
 def rolling(linear: float, quadratic: float) -> tuple[Array, Array, float, float]:
     """Time, roll (rad) of a free decay from 8 deg, inertia and stiffness; a body that can only roll."""
-    inertia, stiffness = 4e9, 1e9
+    inertia, stiffness, half = 4e9, 1e9, 0.5 * np.radians(8.0)
     scene = Scene(name="decay", gravity=0.0)
-    scene.add_body(name="hull", mass=1e7, inertia=[inertia, 1e10, 1e10], quaternion=_turned(8.0))
-    restoring, damping = np.zeros((6, 6)), np.zeros((6, 6))
+    turned = (float(np.cos(half)), float(np.sin(half)), 0.0, 0.0)
+    scene.add_body(name="hull", mass=1e7, inertia=[inertia, 1e10, 1e10], quaternion=turned)
+    restoring, damping = np.zeros((2, 6, 6))
     restoring[3, 3], damping[3, 3] = stiffness, linear
     scene.add_vessel(
         body="hull", added_mass=np.zeros((6, 6)), linear_damping=damping, restoring=restoring,
@@ -187,11 +164,6 @@ def rolling(linear: float, quadratic: float) -> tuple[Array, Array, float, float
     )  # fmt: skip
     run = simulate(scene, t_end=120.0, dt_out=0.05)
     return run.time, run["vessel_motion"][:, 3], inertia, stiffness
-
-
-def _turned(degrees: float) -> tuple[float, float, float, float]:
-    half = 0.5 * np.radians(degrees)
-    return float(np.cos(half)), float(np.sin(half)), 0.0, 0.0
 
 
 def crests(roll: Array) -> Array:
@@ -210,20 +182,15 @@ def decrements(damping: float) -> tuple[list[float], float]:
     return [float(np.log(one / two)) for one, two in pairwise(crests(roll))], closed
 
 
-def test_equivalent_linear_damping_makes_its_logarithmic_decrement() -> None:
+def test_free_decays_of_linear_damping_and_of_the_pair() -> None:
+    """d phi / d n = -(pi / 2 w I) (b1 phi + 8 / (3 pi) w b2 phi^2) over half periods n, integrated."""
     measured, decrement = decrements(1e8)
     assert measured == pytest.approx([decrement] * len(measured), rel=2e-3)
-
-
-def test_the_pair_makes_the_decay_of_its_energy() -> None:
-    """d phi / d n = -(pi / 2 w I) (b1 phi + 8 / (3 pi) w b2 phi^2) over half periods n, integrated."""
     linear, quadratic = 3e7, 8e8
     _, roll, inertia, stiffness = rolling(linear, quadratic)
-    measured = crests(roll)
-    omega = np.sqrt(stiffness / inertia)
+    measured, omega = crests(roll), np.sqrt(stiffness / inertia)
     b1, b2 = np.pi / (2 * omega * inertia) * np.array([linear, 8.0 / (3.0 * np.pi) * omega * quadratic])
-    n = np.arange(len(measured))
-    decay = np.exp(-b1 * n)
+    decay = np.exp(-b1 * np.arange(len(measured)))
     closed = b1 * measured[0] * decay / (b1 + b2 * measured[0] * (1.0 - decay))
     assert measured == pytest.approx(closed, rel=0.01)
 
@@ -232,12 +199,11 @@ def test_a_database_takes_the_pair_in_place_of_its_own() -> None:
     database = shipped_database()
     pair = database.with_roll_damping(linear=2e7, quadratic=3e8)
     assert pair.linear_damping[3, 3] == 2e7 and pair.quadratic_damping[3] == 3e8
-    share = database.with_roll_damping(fraction=0.05)
-    assert database.with_roll_damping(linear=1e6, fraction=0.05).linear_damping[3, 3] == pytest.approx(
-        share.linear_damping[3, 3] + 1e6
+    share, both = (
+        database.with_roll_damping(linear=one, fraction=0.05).linear_damping[3, 3] for one in (0.0, 1e6)
     )
-    others = np.ones((6, 6), dtype=bool)
-    others[3, 3] = False
+    assert both == pytest.approx(share + 1e6)
+    others = np.arange(36).reshape(6, 6) != 21
     assert np.array_equal(pair.linear_damping[others], database.linear_damping[others])
     scene = Scene()
     scene.add_vessel(pair, memory="none")
@@ -246,6 +212,39 @@ def test_a_database_takes_the_pair_in_place_of_its_own() -> None:
         database.with_roll_damping(quadratic=-1.0)
 
 
-def test_a_dimensionless_eddy_does_not_know_the_bilge_keels() -> None:
-    values: dict[str, float] = {"cb": 0.6, "cm": 0.95, "bd": 3.0, "og": -0.5, "frequency": 0.5}
-    assert eddy(**values, amplitude=0.2) == pytest.approx(2.0 * eddy(**values, amplitude=0.1))
+BOX: dict[str, Any] = {
+    "breadth": 0.28, "draught": 0.112, "area_coefficient": 1.0, "amplitude_deg": 10.0, "omega": 5.0,
+}  # fmt: skip
+
+
+def test_work_is_quadratic_and_grows_with_the_fourth_power_of_size() -> None:
+    one = section_eddy_damping(**BOX)
+    for changes, factor in (
+        ({"amplitude_deg": 20.0}, 2.0), ({"omega": 10.0, "rho": 2050.0}, 4.0),
+        ({"breadth": 0.56, "draught": 0.224}, 16.0),
+    ):  # fmt: skip
+        assert section_eddy_damping(**(BOX | changes)) == pytest.approx(factor * one)
+    round_one = eddy_coefficient(half=1.0, area=0.25 * np.pi, depth=0.0, radius=1.0)
+    assert abs(round_one) < 0.01 * eddy_coefficient(half=1.0, area=1.0, depth=0.0, radius=0.0)
+    bilge = BOX | {"area_coefficient": 0.99}
+    sizes = [section_eddy_damping(**(bilge | {"bilge_radius": radius})) for radius in (0.0, 0.02, 0.04)]
+    assert sizes[0] > sizes[1] > sizes[2] > 0.0
+
+
+def test_numbers_of_the_method() -> None:
+    """By a second writing of the same equations, over full Lewis coefficients."""
+    for half, area, radius, expected in (
+        (1.25, 1.0, 0.0, 7.111), (1.25, 0.995, 0.02 / 0.112, 0.9410), (0.772, 0.541, 0.7720, 0.3078),
+    ):  # fmt: skip
+        found = eddy_coefficient(half=half, area=area, depth=0.0, radius=radius)
+        assert found == pytest.approx(expected, rel=2e-3)
+
+
+def test_what_makes_no_section_is_refused() -> None:
+    for changes, words in (
+        ({"area_coefficient": 1.1}, "is 1.1"), ({"axis_height": -0.2}, "axis above the keel"),
+        ({"area_coefficient": 0.5, "axis_height": -0.07}, "raise the axis"), ({"breadth": 0.0}, "breadth"),
+        ({"bilge_radius": -0.1}, "bilge_radius is -0.1"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            section_eddy_damping(**(BOX | changes))

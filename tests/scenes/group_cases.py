@@ -33,7 +33,6 @@ def written_pair(*, heading: float = 0.0, hull: HydroDatabase | None = None) -> 
     coupling = np.kron(1.0 - np.eye(2), np.ones((6, 6))) * np.outer(size, size)
     shape = pair.added_mass.shape
     infinite = pair.infinite_frequency_added_mass
-    assert infinite is not None
     return replace(
         pair,
         added_mass=pair.added_mass + 0.1 * coupling * draw.standard_normal(shape),
@@ -53,7 +52,6 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
     order = np.concatenate([first, [i for i in order if i not in first]])  # bodies are named by first place
     omega = np.append(group.omega, np.inf)
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     square = np.ix_(range(len(omega)), order, order)
     added_mass = np.concatenate([group.added_mass, infinite[None]])
     damping = np.concatenate([group.damping, np.zeros((1, *group.damping.shape[1:]))])
@@ -63,6 +61,7 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
     waves = ("complex", "omega", "wave_direction", "influenced_dof")
     bodies = group.names[::-1]
     by_name = {body.name: body for body in group.bodies}
+    centres = (("body", "space_coordinate"), np.array([by_name[name].position for name in bodies]))
     return xarray.Dataset(
         {
             "added_mass": (("omega", *matrix), added_mass[square]),
@@ -73,24 +72,13 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
             "draught": ("body", [by_name[name].draught for name in bodies]),
         },
         {
-            "omega": omega,
-            "wave_direction": group.heading,
-            "influenced_dof": labels[order],
-            "radiating_dof": labels[order],
-            "complex": ["re", "im"],
-            "body": list(bodies),
-            "space_coordinate": ["x", "y", "z"],
-            "rotation_center": (
-                ("body", "space_coordinate"),
-                np.array([by_name[name].position for name in bodies]),
-            ),
-            "rho": group.rho,
-            "g": group.g,
-            "water_depth": np.inf,
+            "omega": omega, "wave_direction": group.heading, "complex": ["re", "im"], "body": list(bodies),
+            "influenced_dof": labels[order], "radiating_dof": labels[order], "rho": group.rho, "g": group.g,
+            "space_coordinate": ["x", "y", "z"], "rotation_center": centres, "water_depth": np.inf,
             "forward_speed": 0.0,
         },
         {"capytaine_version": "3.0.0"},
-    )
+    )  # fmt: skip
 
 
 def capytaine_file(group: HydroGroup, folder: Path) -> Path:
@@ -143,7 +131,6 @@ def wamit_files(group: HydroGroup, folder: Path, *, numbers: bool = True) -> Pat
     turns = np.tile([0, 0, 0, 1, 1, 1], len(group))
     rho, g = group.rho, group.g
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     periods = 2.0 * np.pi / group.omega
     listing = ["WAMIT  Version 7.2", "Input from Geometric Data Files:"]
     listing += [f"   N=  {i}     {name}.gdf" for i, name in enumerate(group.names, start=1)]
@@ -198,7 +185,6 @@ def bemio_file(group: HydroGroup, folder: Path) -> Path:
     path = folder / "pair.h5"
     rho, g = group.rho, group.g
     infinite = group.infinite_frequency_added_mass
-    assert infinite is not None
     with h5py.File(path, "w") as file:
         told = {"rho": rho, "g": g, "scaled": 0.0, "water_depth": b"infinite", "w": group.omega}
         for name, value in (told | {"wave_dir": np.degrees(group.heading)}).items():

@@ -17,6 +17,7 @@ G = 9.80665
 EVENTS = {"crest": 0.0, "zero down-crossing": 90.0, "trough": 180.0, "zero up-crossing": 270.0}
 UNITS = ("period (s)", "frequency (rad/s)", "frequency (Hz)")
 ZERO = (0.0, 0.0, 0.0)
+Place = tuple[float, float, float]
 
 
 @cache
@@ -27,15 +28,9 @@ def hull_part() -> HydroDatabase:
     """
     base = shipped_database()
     part = dataclasses.replace(
-        base,
-        omega=base.omega[3::9],
-        heading=base.heading[::3],
-        added_mass=base.added_mass[3::9],
-        damping=base.damping[3::9],
-        force=base.force[::3, 3::9],
-        g=G,
-        memory=None,
-    )
+        base, omega=base.omega[3::9], heading=base.heading[::3], added_mass=base.added_mass[3::9],
+        damping=base.damping[3::9], force=base.force[::3, 3::9], g=G, memory=None,
+    )  # fmt: skip
     return dataclasses.replace(part, motion_rao=motion_response(part))
 
 
@@ -45,17 +40,10 @@ def plain(value: Any) -> Any:
 
 
 def model(
-    hull: HydroDatabase,
-    *,
-    waves: str = "frequency (rad/s)",
-    sense: str = "lags",
-    unit: str = "degrees",
-    event: str = "crest",
-    turn: str = "degrees",
-    reference: tuple[float, float, float] = ZERO,
-    load: tuple[float, float, float] = ZERO,
-    phase: tuple[float, float, float] = ZERO,
-) -> dict[str, Any]:
+    hull: HydroDatabase, *, waves: str = "frequency (rad/s)", sense: str = "lags", unit: str = "degrees",
+    event: str = "crest", turn: str = "degrees", reference: Place = ZERO, load: Place = ZERO,
+    phase: Place = ZERO,
+) -> dict[str, Any]:  # fmt: skip
     """The hull as an OrcaFlex model; its own reference point is the origin of the vessel's axes."""
     at, origin, start = (np.array(point, dtype=float) for point in (reference, load, phase))
 
@@ -65,14 +53,9 @@ def model(
 
     def moved(matrix: np.ndarray) -> list[Any]:
         """About the reference origin: the motion at ours is that at the reference plus rotation x lever."""
-        steps = []
-        for unit_motion in np.eye(6):
-            there = unit_motion.copy()
-            there[:3] += np.cross(unit_motion[3:], -at)
-            wrench = matrix @ there
-            wrench[3:] += np.cross(-at, wrench[:3])
-            steps.append(wrench)
-        return plain(np.array(steps).T)
+        lever = np.eye(6)
+        lever[:3, 3:] = np.cross(np.eye(3), -at).T
+        return plain(lever.T @ matrix @ lever)
 
     crest_at_start = (
         hull.omega**2 / G * (np.cos(hull.heading) * start[0] + np.sin(hull.heading) * start[1])[:, None]
@@ -91,13 +74,11 @@ def model(
         ]
 
     forces, motions = hull.force.copy(), hull.motion_rao
-    assert motions is not None
     motions = motions.copy()
     forces[:, :, 3:] += np.cross(-origin, forces[:, :, :3])
     motions[:, :, :3] += np.cross(motions[:, :, 3:], origin)
     angle = np.pi / 180.0 if turn == "degrees" else 1.0
     infinite = hull.infinite_frequency_added_mass
-    assert infinite is not None
     omega = np.concatenate([[np.inf], hull.omega])
     tables = (
         np.concatenate([infinite[None], hull.added_mass]),
@@ -138,25 +119,14 @@ def model(
         "Environment": {"Density": 1.025, "WaterDepth": "Infinity"},
         "VesselTypes": [
             {
-                "Name": "Vessel type1",
-                "Length": 115.0,
-                "RAOResponseUnits": turn,
-                "RAOWaveUnit": "amplitude",
-                "WavesReferredToBy": waves,
-                "RAOPhaseConvention": sense,
-                "RAOPhaseUnitsConvention": unit,
-                "RAOPhaseRelativeToConvention": event,
-                "SurgePositive": "forward",
-                "SwayPositive": "port",
-                "HeavePositive": "up",
-                "RollPositiveStarboard": "down",
-                "PitchPositiveBow": "down",
-                "YawPositiveBow": "port",
-                "Symmetry": "xz plane",
-                "Draughts": [draught],
+                "Name": "Vessel type1", "Length": 115.0, "RAOResponseUnits": turn, "RAOWaveUnit": "amplitude",
+                "WavesReferredToBy": waves, "RAOPhaseConvention": sense, "RAOPhaseUnitsConvention": unit,
+                "RAOPhaseRelativeToConvention": event, "SurgePositive": "forward", "SwayPositive": "port",
+                "HeavePositive": "up", "RollPositiveStarboard": "down", "PitchPositiveBow": "down",
+                "YawPositiveBow": "port", "Symmetry": "xz plane", "Draughts": [draught],
             }
         ],
-    }
+    }  # fmt: skip
 
 
 def text_of(document: dict[str, Any]) -> str:

@@ -65,14 +65,9 @@ def radiation(section: LewisSection, nu: float, terms: int = 20) -> ComplexArray
 
 
 def _basis(
-    section: LewisSection,
-    zeta: ComplexArray,
-    z: ComplexArray,
-    normal: ComplexArray,
-    nu: float,
-    parity: int,
+    section: LewisSection, zeta: ComplexArray, z: ComplexArray, normal: ComplexArray, nu: float, parity: int,
     terms: int,
-) -> tuple[ComplexArray, ComplexArray]:
+) -> tuple[ComplexArray, ComplexArray]:  # fmt: skip
     """Potentials and normal velocities (points, terms + 1); the imaginary part is that of exp(i omega t)."""
     w = 1j * nu * z
     wave, standing = np.exp(-w), np.exp(-w) * expi(w)

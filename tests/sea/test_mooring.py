@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,43 +51,35 @@ def stiffness(scene: Scene) -> Array:
     return np.asarray(both @ fixed @ both.T)
 
 
-@pytest.mark.parametrize("springs", [FOUR, SYMMETRIC], ids=["four", "symmetric"])
 @pytest.mark.parametrize("heading", [0.0, 130.0])
-def test_springs_have_the_assembled_matrix(springs: list[MooringSpring], heading: float) -> None:
+def test_springs_and_a_matrix_with_all_its_couplings_act_as_given(heading: float) -> None:
+    """The matrix is of a symmetric mooring, beside what it adds to heave, roll and pitch."""
     pose: dict[str, Any] = {"position": (30.0, -20.0, 0.0), "heading_deg": heading}
-    free = vessel(mooring_period=None, **pose)
-    held = stiffness(vessel(mooring=springs, **pose)) - stiffness(free)
-    wanted = mooring_matrix(springs)
-    assert np.abs(held - wanted).max() <= 1e-5 * np.abs(wanted).max()
-
-
-@pytest.mark.parametrize("heading", [0.0, 130.0])
-def test_a_matrix_acts_as_it_is_given(heading: float) -> None:
-    """Of a symmetric mooring, with all its couplings, beside what it adds to heave, roll and pitch."""
-    pose: dict[str, Any] = {"position": (30.0, -20.0, 0.0), "heading_deg": heading}
-    wanted = mooring_matrix(SYMMETRIC)
-    wanted[2, 2] += 2e4
-    wanted[2, 4] += 1e5
-    wanted[4, 2] += 1e5
-    wanted[4, 4] += 3e7
+    free = stiffness(vessel(mooring_period=None, **pose))
+    for springs in (FOUR, SYMMETRIC):
+        wanted = mooring_matrix(springs)
+        held = stiffness(vessel(mooring=springs, **pose)) - free
+        assert np.abs(held - wanted).max() <= 1e-5 * np.abs(wanted).max()
+    for (i, j), value in {(2, 2): 2e4, (2, 4): 1e5, (4, 2): 1e5, (4, 4): 3e7}.items():
+        wanted[i, j] += value
     scene = vessel(mooring=wanted, **pose)
-    held = stiffness(scene) - stiffness(vessel(mooring_period=None, **pose))
     size = np.sqrt(np.outer(np.diagonal(wanted), np.diagonal(wanted)))
-    assert np.all(np.abs(held - wanted) <= 1e-5 * size)
+    assert np.all(np.abs(stiffness(scene) - free - wanted) <= 1e-5 * size)
     assert len(scene.springs) == 2
 
 
-def test_a_matrix_that_couples_nothing_needs_no_springs() -> None:
-    scene = vessel(mooring=np.diag([1e5, 2e5, 3e4, 0.0, 1e6, 4e8]))
+def test_a_matrix_that_couples_nothing_needs_no_springs_and_damping_is_a_share_of_critical() -> None:
+    held = vessel(mooring=np.diag([1e5, 2e5, 3e4, 0.0, 1e6, 4e8]))
     water = vessel().vessels["vessel"].restoring
-    held = scene.vessels["vessel"]
-    assert not scene.springs
-    assert np.array_equal(held.mooring_stiffness, [1e5, 2e5, 4e8])
-    assert np.allclose(held.restoring - water, np.diag([0, 0, 3e4, 0, 1e6, 0]), rtol=1e-9)
-
-
-def test_a_number_is_a_period() -> None:
+    assert not held.springs
+    assert np.array_equal(held.vessels["vessel"].mooring_stiffness, [1e5, 2e5, 4e8])
+    assert np.allclose(held.vessels["vessel"].restoring - water, np.diag([0, 0, 3e4, 0, 1e6, 0]), rtol=1e-9)
     assert vessel(mooring=90.0) == vessel(mooring_period=90.0)
+    wanted = mooring_matrix(SYMMETRIC)
+    period = vessel(mooring_damping=0.2).vessels["vessel"]
+    damped = vessel(mooring=wanted, mooring_damping=0.2).vessels["vessel"]
+    critical = period.mooring_damping / (0.2 * np.sqrt(period.mooring_stiffness))
+    assert np.allclose(damped.mooring_damping, 0.2 * critical * np.sqrt(np.diagonal(wanted)[[0, 1, 5]]))
 
 
 def test_springs_and_their_matrix_move_the_vessel_alike() -> None:
@@ -100,14 +93,6 @@ def test_springs_and_their_matrix_move_the_vessel_alike() -> None:
     assert np.all(np.abs(runs[1] - runs[0]).max(axis=0)[[0, 1, 5]] < 0.02 * scale[[0, 1, 5]])
 
 
-def test_damping_is_a_share_of_critical() -> None:
-    wanted = mooring_matrix(SYMMETRIC)
-    period = vessel(mooring_damping=0.2).vessels["vessel"]
-    held = vessel(mooring=wanted, mooring_damping=0.2).vessels["vessel"]
-    critical = period.mooring_damping / (0.2 * np.sqrt(period.mooring_stiffness))
-    assert np.allclose(held.mooring_damping, 0.2 * critical * np.sqrt(np.diagonal(wanted)[[0, 1, 5]]))
-
-
 def with_own(database: HydroDatabase, matrix: Array) -> HydroDatabase:
     return replace(database, restoring=database.restoring + matrix)
 
@@ -119,98 +104,49 @@ def test_the_mooring_of_a_database_is_used_once() -> None:
     with pytest.warns(OwnMooringWarning, match="C11 = "):
         scene = vessel(with_own(database, own))
     assert np.abs(stiffness(scene) - bare - own).max() <= 1e-9 * own.max()
-
-
-@pytest.mark.warns("NonPassiveMemoryWarning")
-@pytest.mark.parametrize("second", [{"mooring": 100.0}, {"mooring": FOUR}, {"mooring_period": 90.0}])
-def test_a_second_mooring_is_refused(second: dict[str, Any]) -> None:
-    database = with_own(shipped_database(), np.diag([1e5, 2e5, 0, 0, 0, 3e8]))
-    with pytest.raises(SceneError, match=r"holds a mooring already.*without_mooring"):
-        vessel(database, **second)
-    plain = vessel(database.without_mooring(), **second)
-    assert plain == vessel(replace(database, restoring=shipped_database().restoring), **second)
-
-
-@pytest.mark.warns("NonPassiveMemoryWarning")
-def test_a_coupling_without_its_spring_is_no_mooring() -> None:
+    moored = with_own(database, np.diag([1e5, 2e5, 0, 0, 0, 3e8]))
+    assert np.array_equal(moored.without_mooring().restoring, database.restoring)
+    for second in ({"mooring": 100.0}, {"mooring": FOUR}, {"mooring_period": 90.0}):
+        with pytest.raises(SceneError, match=r"holds a mooring already.*without_mooring"):
+            vessel(moored, **second)
+        assert vessel(moored.without_mooring(), **second) == vessel(database, **second)
+    rounding = vessel(with_own(database, np.diag([1e-6, 0, 0, 0, 0, 0])).without_mooring())
+    usual = vessel().vessels["vessel"].mooring_stiffness
+    assert np.array_equal(rounding.vessels["vessel"].mooring_stiffness, usual)
     odd = np.zeros((6, 6))
-    odd[0, 4] = odd[4, 0] = 1e5
-    scene = vessel(with_own(shipped_database(), odd))
+    odd[0, 4] = odd[4, 0] = 1e5  # a coupling without its spring is no mooring
+    scene = vessel(with_own(database, odd))
     with pytest.raises(SceneError, match=r"restoring\(0, 4\)"):
         scene.compile()
     assert not scene.springs
 
 
-def test_rounding_is_no_mooring() -> None:
-    scene = vessel(with_own(shipped_database(), np.diag([1e-6, 0, 0, 0, 0, 0])).without_mooring())
-    assert np.array_equal(
-        scene.vessels["vessel"].mooring_stiffness, vessel().vessels["vessel"].mooring_stiffness
-    )
-
-
-def test_without_mooring_gives_the_water_back() -> None:
-    database = shipped_database()
-    moored = with_own(database, np.diag([1e5, 2e5, 0, 0, 0, 3e8]))
-    assert np.array_equal(moored.without_mooring().restoring, database.restoring)
-
-
-@pytest.mark.parametrize(
-    ("mooring", "words"),
-    [
-        ("soft", "natural period"),
-        (-5.0, "period of -5"),
-        (np.ones((3, 3)), "shape"),
-        (np.diag([1e5, -2e5, 0, 0, 0, 1e8]), "negative stiffness"),
-        (np.eye(6) + np.eye(6, k=1), "symmetric"),
-        ([1.0, 2.0], "natural period"),
-    ],
-)
-def test_what_is_no_mooring_is_refused(mooring: Any, words: str) -> None:
-    with pytest.raises(SceneError, match=words):
-        vessel(mooring=mooring)
-
-
-def test_a_twist_is_refused() -> None:
-    matrix = np.diag([1e5, 1e5, 0, 1e7, 1e7, 1e8])
-    matrix[0, 3] = matrix[3, 0] = 1e5
-    with pytest.raises(SceneError, match="C14"):
-        vessel(mooring=matrix)
-
-
-def test_two_arguments_for_one_mooring_are_refused() -> None:
+def test_what_is_no_mooring_is_refused() -> None:
+    twist = np.diag([1e5, 1e5, 0, 1e7, 1e7, 1e8])
+    twist[0, 3] = twist[3, 0] = 1e5
+    for mooring, words in (
+        ("soft", "natural period"), (-5.0, "period of -5"), (np.ones((3, 3)), "shape"),
+        (np.diag([1e5, -2e5, 0, 0, 0, 1e8]), "negative stiffness"), (np.eye(6) + np.eye(6, k=1), "symmetric"),
+        ([1.0, 2.0], "natural period"), (twist, "C14"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            vessel(mooring=mooring)
     with pytest.raises(SceneError, match="both given"):
         vessel(mooring=FOUR, mooring_period=90.0)
-
-
-def test_a_spring_has_a_stiffness() -> None:
     with pytest.raises(SceneError, match="stiffness is 0"):
         MooringSpring(point=(0, 0, 0), direction_deg=0.0, stiffness=0.0)
 
 
-def test_a_scene_with_springs_is_saved(tmp_path: Any) -> None:
+def test_files_hold_matrices_and_springs(tmp_path: Path) -> None:
     scene = vessel(mooring=FOUR)
     scene.save(tmp_path / "moored.json")
     assert Scene.load(tmp_path / "moored.json") == scene
-
-
-def test_drawings_leave_the_far_ends_out() -> None:
-    assert outline_of(vessel(mooring=FOUR))["links"] == []
-
-
-def test_lift_files_hold_matrices_and_springs(tmp_path: Any) -> None:
+    assert outline_of(scene)["links"] == []  # drawings leave the far ends out
     rows = ", ".join(str(row) for row in mooring_matrix(SYMMETRIC).tolist())
-    springs = ", ".join(
-        f"{{ point_m = {list(s.point)}, direction_deg = {s.direction_deg}, "
-        f"stiffness_N_per_m = {s.stiffness} }}"
-        for s in FOUR
-    )
-    for key, mooring in (
-        (f"mooring = [{rows}]", mooring_matrix(SYMMETRIC)),
-        (f"mooring_springs = [{springs}]", FOUR),
-    ):
-        file = tmp_path / "lift.toml"
-        file.write_text(
-            'format = "seacrane lift"\nversion = 2\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
-            f"{key}\n"
-        )
-        assert Lift.load(file).scene().springs == vessel(mooring=mooring).springs
+    entry = "{{ point_m = {}, direction_deg = {}, stiffness_N_per_m = {} }}"
+    springs = ", ".join(entry.format(list(s.point), s.direction_deg, s.stiffness) for s in FOUR)
+    head = 'format = "seacrane lift"\nversion = 2\n[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
+    for key, mooring in (("mooring", mooring_matrix(SYMMETRIC)), ("mooring_springs", FOUR)):
+        value = rows if key == "mooring" else springs
+        (tmp_path / "lift.toml").write_text(f"{head}{key} = [{value}]\n")
+        assert Lift.load(tmp_path / "lift.toml").scene().springs == vessel(mooring=mooring).springs

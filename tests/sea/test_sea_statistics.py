@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from seacrane.errors import SceneError
@@ -15,7 +14,9 @@ NAMES = [f"{s.kind}-{s.exponent:g}" for s in SPREADINGS]
 
 
 @pytest.mark.parametrize("spreading", SPREADINGS, ids=NAMES)
-def test_spreading_is_a_density_with_its_quantiles(spreading: Spreading) -> None:
+def test_spreading_is_a_density_with_quantiles_that_directions_follow_in_every_band(
+    spreading: Spreading,
+) -> None:
     density = lambda b: float(spreading.density(b))  # noqa: E731
     whole = quad(density, -np.pi, 0.0)[0] + quad(density, 0.0, np.pi)[0]
     assert whole == pytest.approx(1.0, rel=1e-7)
@@ -31,6 +32,16 @@ def test_spreading_is_a_density_with_its_quantiles(spreading: Spreading) -> None
     if spreading == cos_n(2.0):
         assert spreading.density(0.6) == pytest.approx(2.0 / np.pi * np.cos(0.6) ** 2, rel=1e-13)
         assert spreading.density(1.7) == 0.0
+    waves = short_crested(spreading, seed=11)
+    off = np.array(waves.direction) - np.radians(140.0)
+    for band in (slice(None), slice(100, 200), slice(500, 600)):
+        angles = np.sort(off[band])
+        n = angles.size
+        # Golden-ratio steps: any n neighbours fill (0, 1) with gaps below 2.6 / n; random ones would not.
+        shares = np.searchsorted(angles, spreading.quantile(np.linspace(0.02, 0.98, 49))) / n
+        np.testing.assert_allclose(shares, np.linspace(0.02, 0.98, 49), atol=3.0 / n)
+        ideal = spreading.quantile((np.arange(n) + 0.5) / n)
+        assert np.abs(angles - ideal).mean() < 0.1 * spreading.std
 
 
 def short_crested(spreading: Spreading, **options: object) -> WaveComponents:
@@ -39,31 +50,6 @@ def short_crested(spreading: Spreading, **options: object) -> WaveComponents:
         count=int(options.pop("count", 600)),
     )  # fmt: skip
     return SeaState(systems=[system], **options).realise().waves
-
-
-@pytest.mark.parametrize("spreading", SPREADINGS, ids=NAMES)
-def test_directions_follow_the_spreading_in_every_band(spreading: Spreading) -> None:
-    waves = short_crested(spreading, seed=11)
-    off = np.array(waves.direction) - np.radians(140.0)
-    for band in (slice(None), slice(100, 200), slice(500, 600)):
-        angles = np.sort(off[band])
-        n = angles.size
-        ideal = spreading.quantile((np.arange(n) + 0.5) / n)
-        # Golden-ratio steps: any n neighbours fill (0, 1) with gaps below 2.6 / n; random ones would not.
-        shares = np.searchsorted(angles, spreading.quantile(np.linspace(0.02, 0.98, 49))) / n
-        np.testing.assert_allclose(shares, np.linspace(0.02, 0.98, 49), atol=3.0 / n)
-        assert np.abs(angles - ideal).mean() < 0.1 * spreading.std
-
-
-def test_energy_does_not_depend_on_the_place() -> None:
-    # One direction per frequency: over its common period the variance is m0 at every point, to rounding.
-    waves = short_crested(cos_2s(3.0), seed=5, placement="uniform", count=300)
-    step = float(np.min(np.diff(waves.omega)))
-    period = 2.0 * np.pi / step
-    t = np.arange(4096) * period / 4096
-    for x, y in [(0.0, 0.0), (33.0, -12.0), (400.0, 250.0)]:
-        record = waves.elevation(t, x=x, y=y)
-        assert np.mean(record**2) == pytest.approx(waves.m0, rel=1e-10)
 
 
 def test_cross_spectrum_of_two_points_is_that_of_the_spreading() -> None:
@@ -88,46 +74,29 @@ def test_cross_spectrum_of_two_points_is_that_of_the_spreading() -> None:
         assert 0.05 < abs(expected) < 0.97
 
 
-def crossings_and_crests(record: NDArray, levels: NDArray) -> tuple[NDArray, NDArray]:
-    below, above = record[:-1, None] < levels, record[1:, None] >= levels
-    zero = np.flatnonzero((record[:-1] < 0.0) & (record[1:] >= 0.0))
-    crests = np.maximum.reduceat(record, zero)[:-1]
-    return np.count_nonzero(below & above, axis=0), crests
-
-
 def test_many_seeds_cross_levels_as_rice_says_and_have_rayleigh_crests() -> None:
-    spectrum, dt, duration = jonswap(hs=2.0, tp=8.0), 0.2, 1200.0
-    t = np.arange(0.0, duration, dt)
-    levels = np.array([0.0, 1.0, 2.0])
-    seeds, counts, crests, variances = 40, np.zeros(3), [], []
+    system, duration = WaveSystem(spectrum=jonswap(hs=2.0, tp=8.0), direction_deg=0.0), 1200.0
+    t, levels, seeds = np.arange(0.0, duration, 0.2), np.array([0.0, 1.0, 2.0]), 40
+    counts, crests, variances = np.zeros(3), [], []
     for seed in range(seeds):
-        waves = (
-            SeaState(systems=[WaveSystem(spectrum=spectrum, direction_deg=0.0)], seed=seed).realise().waves
-        )
-        sigma = np.sqrt(waves.m0)
-        record = waves.elevation(t) / sigma
-        more, high = crossings_and_crests(record, levels)
-        counts += more
-        crests.append(high)
+        waves = SeaState(systems=[system], seed=seed).realise().waves
+        record = waves.elevation(t) / np.sqrt(waves.m0)
+        counts += np.count_nonzero((record[:-1, None] < levels) & (record[1:, None] >= levels), axis=0)
+        zero = np.flatnonzero((record[:-1] < 0.0) & (record[1:] >= 0.0))
+        crests.append(np.maximum.reduceat(record, zero)[:-1])
         variances.append(np.mean(record**2))
     expected = seeds * duration / waves.mean_period * np.exp(-0.5 * levels**2)
     np.testing.assert_allclose(counts, expected, rtol=0.04)
     assert np.mean(variances) == pytest.approx(1.0, abs=0.02)
-    all_crests = np.concatenate(crests)
     for level in (1.0, 1.5, 2.0):
         # Rayleigh is the narrow-band limit; the JONSWAP band takes some small crests in, hence the margin.
-        assert np.mean(all_crests > level) == pytest.approx(np.exp(-0.5 * level**2), rel=0.10)
+        assert np.mean(np.concatenate(crests) > level) == pytest.approx(np.exp(-0.5 * level**2), rel=0.10)
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: cos_2s(0.0), "exponent is 0.0; give one above 0"),
-        (lambda: cos_n(float("nan")), "exponent is nan"),
-        (lambda: Spreading(kind="cos", exponent=2.0), "kind is 'cos'; give 'cos-2s' or 'cos-n'"),
-        (lambda: cos_2s("wide"), "exponent is 'wide'; give a number"),
-    ],
-)
-def test_bad_spreadings_are_named(make: object, message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        make()  # type: ignore[operator]
+def test_bad_spreadings_are_named() -> None:
+    for kind, exponent, message in (
+        ("cos-2s", 0.0, "exponent is 0.0"), ("cos-n", float("nan"), "exponent is nan"),
+        ("cos", 2.0, "kind is 'cos'"), ("cos-2s", "wide", "exponent is 'wide'"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            Spreading(kind=kind, exponent=exponent)

@@ -1,4 +1,4 @@
-"""Wave loads from one FFT per channel: the same table as the one made knot by knot."""
+"""Wave loads from one FFT per channel are those made knot by knot; negligible components are left out."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, SceneError, _core, simulate
-from seacrane.description.compilation import compiled_waves
+from seacrane import Run, Scene, SceneError, _core, cases, simulate
+from seacrane.description.compilation import compiled_waves, drift_table, wave_table
 from seacrane.description.wave_grid import grid_of
+from seacrane.description.wave_selection import kept_components, without_negligible
+from seacrane.description.waves import ByHeading
 from seacrane.hydro import shipped_database
 from seacrane.scene import HullLoads, Waves
 from seacrane.warnings import MeanPositionWarning, RepeatingSeaWarning
@@ -24,20 +26,15 @@ Array = NDArray[np.float64]
 def uniform(count: int = 80, step: float = 0.02, first: float = 20.0, **changes: Any) -> Waves:
     """Components at (first + i) step, two directions each, with drift."""
     rng = np.random.default_rng(6)
-    omega = np.repeat(step * (first + np.arange(count // 2)), 2)
     size = np.array([1e5, 1e5, 1e6, 1e6, 1e7, 1e6])
+    transfer = size * (rng.normal(size=(count, 6)) + 1j * rng.normal(size=(count, 6)))
+    hull = HullLoads(transfer=transfer, position=(15.0, -30.0), drift=1e4 * rng.normal(size=(count, 6)))
     values: dict[str, Any] = {
-        "omega": omega,
+        "omega": np.repeat(step * (first + np.arange(count // 2)), 2),
         "amplitude": rng.uniform(0.01, 0.1, count),
         "phase": rng.uniform(0.0, 6.28, count),
         "direction": rng.uniform(0.0, 6.28, count),
-        "hulls": {
-            "vessel": HullLoads(
-                transfer=size * (rng.normal(size=(count, 6)) + 1j * rng.normal(size=(count, 6))),
-                position=(15.0, -30.0),
-                drift=1e4 * rng.normal(size=(count, 6)),
-            )
-        },
+        "hulls": {"vessel": hull},
         "evaluation": "fft",
     }
     return Waves(**{**values, **changes})
@@ -45,7 +42,6 @@ def uniform(count: int = 80, step: float = 0.02, first: float = 20.0, **changes:
 
 def tables(waves: Waves) -> tuple[Any, Any, Any, Any]:
     """Exact load and its table, drift and its table."""
-    from seacrane.description.compilation import drift_table, wave_table
 
     sea, hull = waves.components(), waves.hull()
     exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=hull.position)
@@ -53,8 +49,7 @@ def tables(waves: Waves) -> tuple[Any, Any, Any, Any]:
     return exact, wave_table(waves, hull, exact), drift, drift_table(waves, hull, drift)
 
 
-@pytest.mark.parametrize("first", [20.0, 20.5])
-@pytest.mark.parametrize("relative_bound", [1e-5, 1e-9])
+@pytest.mark.parametrize(("first", "relative_bound"), [(20.0, 1e-5), (20.5, 1e-9)])
 def test_the_series_is_the_sum_within_the_bound(first: float, relative_bound: float) -> None:
     """Also between bins' middles (first = 20.5), where the sea repeats after two turns of the step."""
     waves = uniform(first=first, relative_bound=relative_bound)
@@ -76,59 +71,51 @@ def test_a_run_from_the_series_is_the_run_from_the_sum(tmp_path: Path) -> None:
     scene = Scene(name="series")
     scene.add_vessel(shipped_database(), mooring_period=100.0)
     scene.waves = uniform()
-    first = simulate(scene, t_end=20.0, dt_out=1.0, rtol=1e-9)
+    given = {"t_end": 20.0, "dt_out": 1.0, "rtol": 1e-9}
+    first = simulate(scene, **given)
     scene.save(tmp_path / "series.json")
-    again = simulate(Scene.load(tmp_path / "series.json"), t_end=20.0, dt_out=1.0, rtol=1e-9)
-    np.testing.assert_array_equal(first.channels["vessel_motion"], again.channels["vessel_motion"])
+    again = simulate(Scene.load(tmp_path / "series.json"), **given)
+    np.testing.assert_array_equal(first["vessel_motion"], again["vessel_motion"])
     for evaluation in ("exact", "table"):
         scene.waves = replace(scene.waves, evaluation=evaluation)
-        other = simulate(scene, t_end=20.0, dt_out=1.0, rtol=1e-9)
-        scale = np.abs(first.channels["vessel_motion"]).max(axis=0)
-        error = np.abs(other.channels["vessel_motion"] - first.channels["vessel_motion"])
-        assert np.all(error < 1e-6 * scale)
+        other = simulate(scene, **given)
+        scale = np.abs(first["vessel_motion"]).max(axis=0)
+        assert np.all(np.abs(other["vessel_motion"] - first["vessel_motion"]) < 1e-6 * scale)
         for name in ("wave_force", "drift_force"):
-            size = np.abs(first.channels[name]).max()
-            assert np.abs(other.channels[name] - first.channels[name]).max() < 1e-7 * size
+            assert np.abs(other[name] - first[name]).max() < 1e-7 * np.abs(first[name]).max()
 
 
 def test_the_grid_is_found_or_refused() -> None:
-    step, number = grid_of(np.array([0.3, 0.5, 0.6]))
-    assert step == pytest.approx(0.1, rel=1e-12)
-    np.testing.assert_array_equal(number, [3, 5, 6])
-    step, number = grid_of(np.array([0.25, 0.35, 0.45, 0.45]))
-    assert step == pytest.approx(0.05, rel=1e-12)
-    np.testing.assert_array_equal(number, [5, 7, 9, 9])
-    assert grid_of(np.array([0.7]))[0] == pytest.approx(0.7)
+    for omega, step, number in (
+        ([0.3, 0.5, 0.6], 0.1, [3, 5, 6]), ([0.25, 0.35, 0.45, 0.45], 0.05, [5, 7, 9, 9]), ([0.7], 0.7, [1]),
+    ):  # fmt: skip
+        found, multiples = grid_of(np.array(omega))
+        assert found == pytest.approx(step, rel=1e-12)
+        np.testing.assert_array_equal(multiples, number)
     for omega in ([0.3, 0.5, 0.6 + 1e-6], [0.3, 0.3 + 1e-7, 1.0]):
-        with pytest.raises(ValueError, match="realise the sea with placement='uniform'"):
+        with pytest.raises(ValueError, match="placement='uniform'"):
             grid_of(np.array(omega))
     even = uniform()
     omega = even.omega.copy()
     omega[3] *= 1.0001
-    jittered = replace(even, omega=omega)
-    with pytest.raises(SceneError, match="frequencies that are multiples of one step"):
-        compiled_waves(jittered)
-    with pytest.raises(SceneError, match="evaluation is 'spline'; choose table, exact, fft"):
-        compiled_waves(uniform(evaluation="spline"))
+    with pytest.raises(SceneError, match="multiples of one step"):
+        compiled_waves(replace(even, omega=omega))
 
 
 def test_knots_of_another_load_are_refused() -> None:
-    waves = uniform(relative_bound=1e-3)
-    exact, table, _, _ = tables(waves)
+    exact, table, _, _ = tables(uniform(relative_bound=1e-3))
     count = table.stored_knots
     period = count * table.step
     times = np.arange(count) * table.step
-    knots = np.stack(
-        [np.column_stack([exact.evaluate(times, derivative=k), np.zeros(count)]) for k in range(3)], axis=1
-    )
-    with pytest.raises(ValueError, match="knot 0, channel 6: distance from the sum"):
-        _core.WaveTable(exact, relative_bound=1e-3, period=period, knots=knots)
-    with pytest.raises(ValueError, match=r"number of knots is \d+; give at least"):
-        _core.WaveTable(exact, relative_bound=1e-3, period=period, knots=knots[:10])
-    with pytest.raises(ValueError, match=r"knots need the shape \(knots, 3, 7\)"):
-        _core.WaveTable(exact, relative_bound=1e-3, period=period, knots=knots[:, 0])
-    with pytest.raises(ValueError, match="period is 0"):
-        _core.WaveTable(exact, relative_bound=1e-3, knots=knots)
+    values = [np.column_stack([exact.evaluate(times, derivative=k), np.zeros(count)]) for k in range(3)]
+    knots = np.stack(values, axis=1)
+    for given, message in (
+        ({"period": period, "knots": knots}, "knot 0, channel 6"),
+        ({"period": period, "knots": knots[:10]}, r"number of knots is \d+"),
+        ({"period": period, "knots": knots[:, 0]}, r"shape \(knots, 3, 7\)"), ({"knots": knots}, "period is"),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=message):
+            _core.WaveTable(exact, relative_bound=1e-3, **given)
 
 
 @pytest.mark.warns("MeanPositionWarning")
@@ -136,9 +123,90 @@ def test_a_run_longer_than_its_sea_is_told_so() -> None:
     scene = Scene(name="long")
     scene.add_vessel(shipped_database(), mooring_period=100.0, memory="none")
     scene.waves = uniform(step=0.2, first=2.0, count=10)
-    with pytest.warns(RepeatingSeaWarning, match=r"repeat after 31\.4159 s, the run takes 40 s"):
+    with pytest.warns(RepeatingSeaWarning, match=r"31\.4159 s, the run takes 40 s"):
         simulate(scene, t_end=40.0, dt_out=10.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", MeanPositionWarning)  # it drifts
         simulate(scene, t_end=31.0, dt_out=10.0)
+
+
+def sea(count: int = 40, *, seed: int = 2) -> Waves:
+    """Components whose amplitudes spread over fourteen decades."""
+    random = np.random.default_rng(seed)
+    transfer = random.normal(size=(count, 6)) + 1j * random.normal(size=(count, 6))
+    return Waves(
+        omega=np.sort(random.uniform(0.3, 2.0, count)),
+        amplitude=10.0 ** random.uniform(-14.0, 0.0, count),
+        phase=random.uniform(0.0, 6.0, count),
+        direction=np.full(count, 0.4),
+        hulls={"vessel": HullLoads(transfer=1e5 * transfer)},
+    )
+
+
+@pytest.mark.parametrize("negligible", [0.0, 1e-9, 1e-3])
+def test_the_bound_holds_in_every_load_at_every_time_and_one_more_would_break_it(negligible: float) -> None:
+    waves = replace(sea(), negligible=negligible)
+    fewer = without_negligible(waves)
+    assert (fewer.omega.size < 40) == (negligible > 0.0)
+    full, less = (_core.ExactWaveLoad(w.components(), transfer=w.hull().transfer) for w in (waves, fewer))
+    most = np.abs(waves.hull().transfer).T @ waves.amplitude
+    times = np.linspace(0.0, 500.0, 400)
+    difference = np.abs(full.evaluate(times) - less.evaluate(times)).max(axis=0)
+    assert (difference <= (negligible + 1e-13) * most).all()
+    kept = kept_components(waves)
+    assert waves.amplitude[~kept].sum() <= negligible * waves.amplitude.sum()
+    magnitude = waves.amplitude[:, None] * np.abs(np.hstack([waves.hull().transfer, np.ones((40, 1))]))
+    share = magnitude / magnitude.sum(axis=0)
+    smallest = np.flatnonzero(kept)[np.argmin(share[kept].max(axis=1))]
+    assert (share[~kept].sum(axis=0) + share[smallest]).max() > negligible
+    assert kept_components(replace(waves, evaluation="fft")).all()
+    assert kept_components(replace(waves, phase=np.zeros(3))).all()  # which does not fit
+
+
+def test_loads_over_the_heading_and_drift_count_too() -> None:
+    """A component without load at the mean heading may have one at another, or drift."""
+    plain = replace(sea(4), amplitude=np.array([1e-12, 1.0, 1.0, 1e-12]))
+    assert list(kept_components(plain)) == [False, True, True, False]
+    values = np.zeros((3, 4, 6), dtype=complex)
+    values[:, 1:3] = 1.0
+    values[1, 0] = 1e12
+    headings = np.array([0.0, 0.5, 1.0])
+    by_heading = plain.changed(force_by_heading=ByHeading(heading=headings, values=values))
+    assert list(kept_components(by_heading)) == [True, True, True, False]
+    assert without_negligible(by_heading).hull().force_by_heading.values.shape == (3, 3, 6)
+    drift = np.array([[0.0] * 6, [1.0] * 6, [1.0] * 6, [1e24] * 6])
+    turning = ByHeading(heading=headings, values=np.tile(drift, (3, 1, 1)))
+    slow = by_heading.changed(drift=drift, drift_by_heading=turning)
+    assert list(kept_components(slow)) == [True, True, True, True]
+
+
+def test_runs_without_negligible_components_are_those_of_the_whole_sea() -> None:
+    scene = cases.vessel(count=40)
+    amplitude = scene.waves.amplitude.copy()
+    amplitude[[0, 5, 39]] = (0.0, 1e-12, 1e-11)
+    scene.waves = replace(scene.waves, amplitude=amplitude)
+    assert list(np.flatnonzero(~kept_components(scene.waves))) == [0, 5, 39]
+    motions = []
+    for merge in (True, False):
+        run = Run(scene, t_end=20.0, dt_out=1.0, rtol=1e-10, model=scene.compile(merge=merge))
+        run.advance(20.0)
+        motions.append(run.core.channels()["vessel_motion"])
+    assert np.abs(motions[0] - motions[1]).max() <= 1e-8 * np.abs(motions[1]).max()
+    scene.waves = replace(scene.waves, amplitude=np.zeros(40))  # keeps its channels
+    assert np.count_nonzero(kept_components(scene.waves)) == 1
+    run = Run(scene, t_end=0.2)
+    run.advance(0.2)
+    assert (run.core.channels()["wave_force"] == 0.0).all()
+
+
+def test_bad_input_and_files(tmp_path: Path) -> None:
+    scene = cases.vessel(count=5)
+    good = scene.waves
+    for value in (-1e-3, 0.5, float("nan"), "all"):
+        scene.waves = replace(good, negligible=value)
+        with pytest.raises(SceneError, match="negligible"):
+            scene.compile()
+    scene.waves = replace(good, negligible=1e-4)
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json").waves.negligible == 1e-4
