@@ -95,7 +95,14 @@ def test_a_fender_gives_by_its_table() -> None:
 
 def test_stages_end_on_contact_and_when_all_feet_are_clear() -> None:
     stages = [
-        Stage(name="lower", until=Until.contact("feet"), maximum_duration=20.0, commands={"wire.rate": 0.2}),
+        Stage(name="without", duration=1.0),
+        Stage(
+            name="lower",
+            connect=["feet"],
+            until=Until.contact("feet"),
+            maximum_duration=20.0,
+            commands={"wire.rate": 0.2},
+        ),
         Stage(name="slack", duration=2.0, commands={"wire.rate": 0.0}),
         Stage(name="lift", until=Until.release("feet"), maximum_duration=20.0, commands={"wire.rate": -0.1}),
         Stage(name="raise", until=Until.clear("feet", minimum=0.5), maximum_duration=20.0),
@@ -123,14 +130,3 @@ def test_a_load_rests_on_the_deck_of_a_ship() -> None:
     assert not still.events
     press = np.asarray(still["contact_press"])
     assert press.sum(axis=1) == pytest.approx(50e3 * scene.gravity, rel=1e-3)
-
-
-def test_a_contact_may_be_connected_by_a_stage() -> None:
-    scene = hung(0.5)
-    stages = [
-        Stage(name="without", duration=1.0),
-        Stage(name="with", until=Until.contact("feet"), maximum_duration=20.0, connect=["feet"],
-              commands={"wire.rate": 0.2}),
-    ]  # fmt: skip
-    result = simulate_stages(scene, stages)
-    assert float(result["position"][-1, 0, 2]) == pytest.approx(1.0, abs=1e-6)

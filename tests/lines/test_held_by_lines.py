@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from lift_examples import HEAD
 
-from seacrane import Lift, Scene, SceneError, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload, load_crane
+from seacrane import Scene, SceneError, simulate
+from seacrane.crane import Payload, load_crane
 
 G, LOAD = 9.80665, 40e3  # m/s2, kg
 OIL: dict[str, Any] = {
@@ -51,20 +49,12 @@ def at_start(scene: Scene) -> float:
     return float(simulate(scene, 0.1, dt_out=0.1).select("line_tension", line="luffing rope")[0])
 
 
-def test_a_load_on_a_hoist_pulls_at_the_luffing_rope_as_one_on_a_link() -> None:
-    hoisted, linked = lattice(), lattice(link=True)
-    for scene in (hoisted, linked):
-        scene.add_luffing_rope()
-    assert at_start(hoisted) == pytest.approx(at_start(linked), rel=1e-7)
-    result = simulate(hoisted, 3.0, dt_out=0.5)
-    assert np.ptp(result.select("position", body="load", axis="z")) < 1e-5
-
-
-def test_a_hoist_that_runs_to_the_house_relieves_the_luffing_rope() -> None:
+def test_a_load_on_a_hoist_pulls_at_the_luffing_rope_and_one_that_runs_to_the_house_relieves_it() -> None:
     """By its tension times the lever arm of its upper part about the hinge, over falls and their arm."""
-    plain, over = lattice(), lattice(drum=True)
-    for scene in (plain, over):
+    plain, over, linked = lattice(), lattice(drum=True), lattice(link=True)
+    for scene in (plain, over, linked):
         scene.add_luffing_rope()
+    assert at_start(plain) == pytest.approx(at_start(linked), rel=1e-7)
     head = 48.0 * np.array([-math.cos(0.9), math.sin(0.9)])
     mast = np.array([8.0, 13.0])
     drum = np.asarray(over.place_of(body="house", point=(4.0, 0.0, 2.0)))[[0, 2]] - (-2.0, 15.0)
@@ -75,8 +65,8 @@ def test_a_hoist_that_runs_to_the_house_relieves_the_luffing_rope() -> None:
 
     relieved = LOAD * G * arm(drum) / arm(mast) / 12.0
     assert at_start(plain) - at_start(over) == pytest.approx(relieved, rel=1e-7)
-    result = simulate(over, 3.0, dt_out=0.5)
-    assert np.ptp(result.select("position", body="load", axis="z")) < 1e-4
+    for scene, within in ((plain, 1e-5), (over, 1e-4)):
+        assert np.ptp(simulate(scene, 3.0, dt_out=0.5).select("position", body="load", axis="z")) < within
 
 
 POSE = {"slew": -1.0, "s1": 2.0, "s2": 3.0}
@@ -101,50 +91,9 @@ def test_pressures_hold_a_load_that_hangs_on_a_winch() -> None:
     assert found["main_cylinder"].pressure > empty + 1e5
     result = simulate(hoisted, 2.0, dt_out=0.5, rtol=1e-7)
     assert np.ptp(result["hydraulic_stroke"], axis=0) == pytest.approx(0.0, abs=1e-6)
-
-
-def test_pressures_that_hold_are_refused_where_nothing_is_known() -> None:
     scene = knuckle()
     scene.add_body(name="load", mass=LOAD, inertia=(LOAD, LOAD, LOAD), position=(0, 0, 50))
-    with pytest.raises(
-        SceneError, match=r"its holding force is not known, as body 'load' accelerates by 9.81"
-    ):
+    with pytest.raises(SceneError, match=r"body 'load' accelerates by 9.81"):
         scene.hold_pressures()
-    with pytest.raises(SceneError, match="has no hydraulic cylinder whose pressures would hold it"):
+    with pytest.raises(SceneError, match="no hydraulic cylinder"):
         lattice().hold_pressures()
-
-
-def test_a_lift_file_holds_what_hangs_on_its_winch(tmp_path: Path) -> None:
-    x, y, z = KnuckleBoomCrane.load().parts(foot=(0, 0, 0), **POSE).tip[1].tolist()
-    body, point = knuckle().roles[""].tip
-    text = f"""{HEAD}
-[crane]
-base = "ground"
-foot_m = [0, 0, 0]
-slew_rad = -1.0
-s1_m = 2.0
-s2_m = 3.0
-held = true
-hydraulics = {{ main = {{ pump_pressure_Pa = 32e6, rated_flow_m3_per_s = 0.05 }} }}
-
-[[body]]
-name = "load"
-mass_kg = 40000
-inertia_kg_m2 = [4e4, 4e4, 4e4]
-position_m = [{x!r}, {y!r}, {z - 12.0!r}]
-
-[[line]]
-name = "hoist"
-bodies = ["{body}", "load"]
-points_m = [{list(point)}, [0, 0, 0]]
-EA_N = 3e8
-tension_at_start_N = {LOAD * G!r}
-
-[hold_pressures]
-
-[run]
-t_end_s = 1
-"""
-    (tmp_path / "lift.toml").write_text(text, encoding="utf-8")
-    result = Lift.load(tmp_path / "lift.toml").simulate()
-    assert np.ptp(result["hydraulic_stroke"]) < 1e-6

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 FORMULATIONS = ["redundant", "recursive"]
 
 
-def pendulum(stiffness: float | None, *, rung: str = "elastic", damping: float = 0.3) -> Scene:
+def pendulum(stiffness: float | None, *, damping: float = 0.3, **rung: Any) -> Scene:
     """2 t on 8 m, let go at 1 rad; the line is as long under its tension there as the rigid link."""
     scene = Scene(name="pendulum")
     place = 8.0 * np.array([np.sin(1.0), 0.0, -np.cos(1.0)])
@@ -28,7 +28,7 @@ def pendulum(stiffness: float | None, *, rung: str = "elastic", damping: float =
     else:
         scene.add_line(
             name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,
-            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), damping_ratio=damping, rung=rung,
+            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), damping_ratio=damping, **rung,
         )  # fmt: skip
     return scene
 
@@ -121,18 +121,6 @@ def test_the_energy_ledger_converges_with_the_order_of_the_method(rung: str, for
     assert np.diff(np.log2(residuals)) == pytest.approx(-4.5, abs=0.7)  # of order 4, of the damping 5
 
 
-def test_the_energy_ledger_closes_through_a_snatch_as_the_tolerance_falls() -> None:
-    moving = 0.5 * MASS * 4.0
-    residuals = []
-    for rtol in (1e-4, 1e-6, 1e-8):
-        out = record(falling(2.0, stiffness=3e7, along=0.5, ratio=0.0), 2.0, rtol=rtol)
-        residuals.append(np.abs(out["energy_balance"]).max() / moving)
-    assert residuals[1] < 0.1 * residuals[0]
-    assert residuals[2] < 0.1 * residuals[1]
-    damped = record(falling(2.0, stiffness=3e7, along=0.5), 2.0, rtol=1e-8)
-    assert max(residuals[2], np.abs(damped["energy_balance"]).max() / damped["absolute_work"][-1]) < 1e-6
-
-
 def flying(rung: str) -> Scene:
     """Three bodies without weight, one line over all of them; it is taut, and its ends fly apart."""
     scene = Scene(name="flying", gravity=0.0)
@@ -151,24 +139,17 @@ def flying(rung: str) -> Scene:
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
-def test_a_line_keeps_momentum(formulation: str) -> None:
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_a_line_keeps_momentum(rung: str, formulation: str) -> None:
     """Linear and angular, of three bodies in free flight, taut, slack and snatching."""
-    scene = flying("elastic")
-    out = record(scene, 3.0, rtol=1e-10, formulation=formulation)
-    assert np.min(out["line_tension"]) == 0.0
-    assert np.max(out["line_tension"]) > 1e3
-    size = np.abs(out["velocity"]).max() * 1e3
-    for kept in momentum(scene, out):
-        assert np.abs(kept - kept[0]).max() < 1e-7 * size
-
-
-@pytest.mark.parametrize("formulation", FORMULATIONS)
-def test_a_quasi_static_line_keeps_momentum(formulation: str) -> None:
-    scene = flying("quasi-static")
-    scene.replace("rope", settling=0.3)
-    for name in scene.bodies:
-        scene.replace(name, angular_velocity=(0.0, 0.0, 0.0), velocity=(0.1, 0.0, 0.0))
-    out = record(scene, 0.3, rtol=1e-10, formulation=formulation)
+    scene, quasi = flying(rung), rung == "quasi-static"
+    if quasi:
+        scene.replace("rope", settling=0.3)
+        for name in scene.bodies:
+            scene.replace(name, angular_velocity=(0.0, 0.0, 0.0), velocity=(0.1, 0.0, 0.0))
+    out = record(scene, 0.3 if quasi else 3.0, rtol=1e-10, formulation=formulation)
+    assert quasi or np.min(out["line_tension"]) == 0.0
+    assert quasi or np.max(out["line_tension"]) > 1e3
     size = np.abs(out["velocity"]).max() * 1e3
     for kept in momentum(scene, out):
         assert np.abs(kept - kept[0]).max() < 1e-7 * size

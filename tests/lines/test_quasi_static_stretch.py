@@ -3,50 +3,27 @@
 from __future__ import annotations
 
 import warnings
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, case2_on_a_line, hung, reeved, swinging
+from line_scenes import MASS, STIFFNESS, G, case2_on_a_line, hung, settled, swinging, taut
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
+from test_line_limits import pendulum
 
 from seacrane import (
     Curve,
-    Run,
-    Scene,
     SceneError,
     SimulationError,
-    State,
     cases,
-    equilibrium,
-    natural_modes,
     simulate,
 )
 from seacrane.warnings import StiffWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)  # rad/s of the elastic line
-FORMULATIONS = ["redundant", "recursive"]
-
-
-def settled(scene: Scene, *, settling: float = 0.2, **change: Any) -> Scene:
-    """The scene with all its lines quasi-static."""
-    for name, load in list(scene.loads.items()):
-        if type(load).__name__ == "Line":
-            scene.replace(name, rung="quasi-static", settling=settling, **change)
-    return scene
-
-
-def pulled() -> Scene:
-    """`reeved` with both lines taut: they feel each other."""
-    scene = settled(reeved(), settling=0.1)
-    length = Curve.harmonic(start_time=0.0, offset=5.0, amplitude=0.05, omega=3.0)
-    scene.replace("tugger", length=length)
-    scene.replace("hoist", length=13.7566)  # carries the load from the start
-    return scene
 
 
 def driven(omega: float, *, settling: float, amplitude: float = 1e-4) -> tuple[complex, complex]:
@@ -105,64 +82,10 @@ def test_errors_are_of_second_order_in_the_settling_time() -> None:
     assert abs(measured) == pytest.approx(2.0 * (0.2 * omega) ** 2, rel=0.06)
 
 
-def pendulum(rung: str, stiffness: float, *, settling: float = 0.1) -> Scene:
-    """2 t on 8 m, let go at 1 rad, its line as long as without weight."""
-    scene = Scene(name="pendulum")
-    place = 8.0 * np.array([np.sin(1.0), 0.0, -np.cos(1.0)])
-    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
-    if rung == "rigid":
-        scene.add_joint(
-            kind="distance", name="hoist", first="ground", second="load", point=(0, 0, 0), second_point=place,
-        )  # fmt: skip
-    else:
-        scene.add_line(
-            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,
-            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), rung=rung, settling=settling,
-        )  # fmt: skip
-    return scene
-
-
-def motion(scene: Scene, **settings: Any) -> Array:
-    return np.asarray(record(scene, 12.0, dt_out=0.2, rtol=1e-9, **settings)["position"][:, 0])
-
-
-def test_it_tends_to_the_rigid_link_as_one_over_ea() -> None:
-    rigid = motion(pendulum("rigid", 0.0))
-    apart = [np.abs(motion(pendulum("quasi-static", ea)) - rigid).max() for ea in (1e8, 1e9, 1e10)]
-    assert apart[0] / apart[1] == pytest.approx(10.0, rel=0.05)
-    assert apart[1] / apart[2] == pytest.approx(10.0, rel=0.05)
-
-
-def test_it_is_far_nearer_to_the_elastic_line_than_the_rigid_link_and_by_the_order() -> None:
-    elastic = motion(pendulum("elastic", 1e7))
-    rigid = np.abs(motion(pendulum("rigid", 0.0)) - elastic).max()
-    apart = [np.abs(motion(pendulum("quasi-static", 1e7, settling=s)) - elastic).max() for s in (0.1, 0.05)]
-    assert apart[0] < 0.2 * rigid
-    assert apart[0] / apart[1] > 3.0
-
-
-@pytest.mark.warns(sometimes=["LiftedStartWarning", "QuasiStaticLineWarning"])
-@pytest.mark.parametrize("formulation", FORMULATIONS)
-@pytest.mark.parametrize("make", [lambda: settled(swinging(), settling=0.1), pulled])
-def test_the_energy_balance_closes(make: Any, formulation: str) -> None:
-    out = record(make(), 6.0, rtol=1e-8, formulation=formulation)
-    assert out["absolute_work"][-1] > 1e3
-    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
-
-
-@pytest.mark.warns("QuasiStaticLineWarning")
-def test_both_formulations_agree() -> None:
-    a, b = (record(pulled(), 4.0, rtol=1e-9, formulation=form) for form in FORMULATIONS)
-    for name in ("position", "velocity", "load_state"):
-        assert_allclose(a[name], b[name], atol=1e-6)
-    for name in ("acceleration", "line_tension"):
-        assert_allclose(a[name], b[name], atol=1e-5 * np.abs(a[name]).max())
-
-
 @pytest.mark.warns("QuasiStaticLineWarning")
 def test_a_closed_loop_of_rows_beside_it() -> None:
     """Jacobians and steps where joints close a loop in the recursive form as well: three methods agree."""
-    scene = pulled()
+    scene = taut()
     scene.add_joint(
         kind="distance", name="stay", first="ground", second="load", point=(4.2, 3.0, -5.0),
         second_point=(4.2, 0.1, -5.0),
@@ -191,106 +114,61 @@ def test_a_winch_works_on_the_tension_it_records() -> None:
     assert np.ptp(place) > 1.0
 
 
-def test_no_mode_is_faster_than_one_over_the_settling_time() -> None:
-    for stiffness in (1e8, 1e12):
-        modes = natural_modes(settled(hung(length=10.0), settling=0.2, EA=stiffness))
-        assert np.min(modes.natural_period[np.isfinite(modes.natural_period)]) > 2.0 * np.pi * 0.2
+def test_a_line_that_goes_slack_or_stops_ends_the_run_by_name() -> None:
+    thrown = settled(hung())
+    thrown.replace("load", velocity=(0.0, 0.0, 2.0))
+    hauled = hung(length=3.0)
+    hauled.add_winch(line="hoist", rate=-0.5, lag=0.2, minimum_length=2.5)
+    for scene, integrator, words in (
+        (thrown, "dopri5", "quasi-static, and it goes slack"),
+        (thrown, "cvode-adams", "quasi-static, and it goes slack"),
+        (settled(hung(stretch=-0.1)), "dopri5", "goes slack"),
+        (settled(hauled), "dopri5", "hauled in to its minimum_length"),
+    ):
+        with pytest.raises(SimulationError, match=f"line 'hoist'.*{words}"):
+            simulate(scene, 3.0, integrator=integrator)
 
 
-def test_it_rests_where_the_elastic_line_does() -> None:
-    scene = hung(stretch=0.0, damping=0.1)
-    elastic = equilibrium(scene).values
-    found = equilibrium(settled(hung(stretch=0.0, damping=0.1))).values
-    assert_allclose(np.asarray(found)[:3], np.asarray(elastic)[:3], atol=1e-9)
-
-
-@pytest.mark.warns("LiftedStartWarning")
-def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
-    scene = settled(swinging(), settling=0.1)
-    whole = Run(scene, t_end=1.5, dt_out=0.05)
-    whole.advance(0.73)
-    whole.core.state.save(tmp_path / "half.state")
-    whole.advance(1.5)
-    start = State.load(tmp_path / "half.state", scene=scene)
-    rest = Run(scene, t_end=1.5, dt_out=0.05, start=start)
-    rest.advance(1.5)
-    assert np.array_equal(rest.core.state.values, whole.core.state.values)
-    assert set(start.load_states) == {"hoist.length", "hoist.rate", "hoist.strain_rate"}
+@pytest.mark.warns("GrowingModeWarning", "UnitWarning")
+def test_a_stiff_elastic_line_is_told_its_rung() -> None:
+    with pytest.warns(StiffWarning, match="line 'hoist'.* taut, give it"):
+        simulate(pendulum(1e11, damping=0.02), 12.0, channels=["position"], dt_out=0.1, rtol=1e-3)
 
 
 @pytest.mark.warns("UnitWarning")
 def test_stiff_costs_like_soft_on_case2() -> None:
     """From 1e8 to 1e11 N: 1 cm of the payload, 2 % of the tension's range, 1.5 times the evaluations."""
-    settings: dict[str, Any] = {"dt_out": 0.2, "rtol": 1e-4}
-    rigid = simulate(cases.case2(), 60.0, channels=["position"], **settings)
-    evaluations = {}
-    for stiffness in (1e8, 1e11):
-        scene = case2_on_a_line("quasi-static", stiffness)
-        out = simulate(scene, 60.0, channels=["position", "line_tension"], **settings)
-        evaluations[stiffness] = out.stats["evaluations"]
-        assert evaluations[stiffness] < 1.5 * rigid.stats["evaluations"]
-        if stiffness > 1e8:
-            continue
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", StiffWarning)
-            elastic = simulate(
-                case2_on_a_line("elastic", stiffness), 60.0, channels=["position", "line_tension"],
-                dt_out=0.2, rtol=1e-7,
-            )  # fmt: skip
-        payload = list(scene.bodies).index("payload")
-        apart = np.asarray(out["position"])[:, payload] - np.asarray(elastic["position"])[:, payload]
-        assert np.linalg.norm(apart, axis=1).max() < 0.01
-        tension = np.asarray(elastic["line_tension"])[:, 0]
-        assert np.abs(np.asarray(out["line_tension"])[:, 0] - tension).max() < 0.02 * np.ptp(tension)
-    assert evaluations[1e11] < 1.1 * evaluations[1e8]
-
-
-def test_a_line_that_goes_slack_ends_the_run_by_name() -> None:
-    scene = settled(hung())
-    scene.replace("load", velocity=(0.0, 0.0, 2.0))
-    for integrator in ("dopri5", "cvode-adams"):
-        with pytest.raises(
-            SimulationError, match="line 'hoist': its stretch is quasi-static, and it goes slack"
-        ):
-            simulate(scene, 3.0, integrator=integrator)
-    with pytest.raises(SimulationError, match="goes slack"):
-        simulate(settled(hung(stretch=-0.1)), 1.0)
-
-
-def test_hauling_in_to_the_end_is_refused_by_name() -> None:
-    scene = hung(length=3.0)
-    scene.add_winch(line="hoist", rate=-0.5, lag=0.2, minimum_length=2.5)
-    with pytest.raises(SimulationError, match="has hauled in to its minimum_length"):
-        simulate(settled(scene), 3.0)
+    how: dict[str, Any] = {"dt_out": 0.2, "channels": ["position", "line_tension"]}
+    rigid = simulate(cases.case2(), 60.0, channels=["position"], rtol=1e-4)
+    soft, stiff = (
+        simulate(case2_on_a_line("quasi-static", ea), 60.0, rtol=1e-4, **how) for ea in (1e8, 1e11)
+    )
+    assert stiff.stats["evaluations"] < 1.1 * soft.stats["evaluations"]
+    assert soft.stats["evaluations"] < 1.5 * rigid.stats["evaluations"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", StiffWarning)
+        elastic = simulate(case2_on_a_line("elastic", 1e8), 60.0, rtol=1e-7, **how)
+    apart = soft.select("position", body="payload") - elastic.select("position", body="payload")
+    assert np.linalg.norm(apart, axis=1).max() < 0.01
+    tension = elastic["line_tension"]
+    assert np.abs(soft["line_tension"] - tension).max() < 0.02 * np.ptp(tension)
 
 
 def test_what_it_cannot_do_is_told() -> None:
-    with pytest.raises(SceneError, match="rung 'stiff' is unknown; choose 'elastic' or 'quasi-static'"):
-        scene = hung()
-        scene.replace("hoist", rung="stiff")
-        scene.compile()
     for method in ("ida", "generalized-alpha"):
         with pytest.raises(Exception, match=f'"{method}" has no accelerations for lines'):
             simulate(settled(hung()), 1.0, integrator=method)
-    scene = pulled()
-    scene.add_body(name="float", mass=1.0, inertia=(1, 1, 1), position=(0, 0, -20))
-    scene.add_joint(
-        kind="prismatic", name="rail", first="ground", second="float", point=(0, 0, -20), axis=(0, 0, 1)
-    )
-    scene.add_end_stop(name="stop", joint="rail", minimum=-1.0)
-    with pytest.raises(SceneError, match="limit 'stop' makes impacts, which shake the line"):
-        scene.compile()
-    with pytest.raises(SceneError, match="has kinematics 'paper'"):
-        paper = cases.case2(kinematics="paper")
-        paper.add_line(
-            name="tugger", bodies=["ground", "payload"], points=[(60, 0, 20), (0, 0, 0)], EA=1e8,
-            length=60.0, rung="quasi-static",
-        )  # fmt: skip
-        paper.compile()
-
-
-@pytest.mark.warns("GrowingModeWarning", "UnitWarning")
-def test_a_stiff_elastic_line_is_told_its_rung() -> None:
-    scene = pendulum("elastic", 1e11)
-    with pytest.warns(StiffWarning, match="the stretch of line 'hoist' and the line stays taut, give it"):
-        simulate(scene, 12.0, channels=["position"], dt_out=0.1, rtol=1e-3)
+    wrong, stopped, paper = hung(), taut(), cases.case2(kinematics="paper")
+    wrong.replace("hoist", rung="stiff")
+    stopped.add_body(name="float", mass=1.0, inertia=(1, 1, 1), position=(0, 0, -20))
+    stopped.add_joint(kind="prismatic", name="rail", first="ground", second="float", point=(0, 0, -20))
+    stopped.add_end_stop(name="stop", joint="rail", minimum=-1.0)
+    tugger = {"points": [(60, 0, 20), (0, 0, 0)], "EA": 1e8, "length": 60.0, "rung": "quasi-static"}
+    paper.add_line(name="tugger", bodies=["ground", "payload"], **tugger)
+    for scene, words in (
+        (wrong, "rung 'stiff' is unknown"),
+        (stopped, "limit 'stop' makes impacts"),
+        (paper, "kinematics 'paper'"),
+    ):
+        with pytest.raises(SceneError, match=words):
+            scene.compile()

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from heavy_line_scenes import in_waves
+from heavy_line_scenes import FIRST, LAG, PAID, asked, wet
 from numpy.typing import NDArray
-from test_jacobian import largest_error, moving
 
 from seacrane import (
     Curve,
@@ -22,48 +20,14 @@ from seacrane import (
     Until,
     equilibrium,
     natural_modes,
-    shipped_database,
     simulate,
     simulate_stages,
 )
 from seacrane.result import heavy_line_tension
-from seacrane.run import Run
 
 Array = NDArray[np.float64]
 G = 9.80665
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-9}
-FORMS = ("recursive", "redundant")
-LAG, FIRST, LAST, OVER = 0.2, 10.5, 14.0, 4.0  # s, m, m, s
-PAID = Curve.quintic(start_time=0.0, end_time=OVER, start=FIRST, end=LAST)
-KINDS: dict[str, dict[str, Any]] = {
-    "by rate": {},
-    "holds a tension": {"tension": 4e3, "tension_gain": 1e-4},
-    "with a drum": {
-        "drum_inertia": 300.0, "drum_radius": 0.5, "maximum_tension": 2e4, "brake_capacity": 1e4,
-        "brake": Curve.quintic(start_time=0.5, end_time=1.5, start=0.0, end=0.4),
-    },
-}  # fmt: skip
-
-
-def asked(lag: float) -> Curve:
-    """The rate that a winch with a lag is asked for to pay out as PAID does: r + lag r'."""
-    quintic = np.polynomial.Polynomial(PAID.to_pieces()["coefficients"][0])
-    rate = quintic.deriv(1) + lag * quintic.deriv(2)
-    whole = np.zeros(6)
-    whole[: rate.coef.size] = rate.coef
-    return Curve.pieces(starts=[0.0, OVER], coefficients=[whole, np.zeros(6)])
-
-
-def wet(
-    length: Curve | float = FIRST, *, rung: Any = "elastic", compensated: bool = False, **winch: Any
-) -> Scene:
-    """On a winch, but with a curve for its length."""
-    scene = in_waves(length, rung=rung)
-    if not isinstance(length, Curve):
-        scene.add_winch("wire", **{"rate": asked(LAG), "lag": LAG} | winch)
-    if compensated:
-        scene.add_heave_compensation("active", body="load", winch="wire", gain=0.3, lag=0.3, high_pass=0.05)
-    return scene
 
 
 def hauled(length: Curve | float, *, rung: Any) -> Scene:
@@ -88,40 +52,6 @@ def test_a_winch_pays_out_as_a_curve_for_the_length_does(rung: Any) -> None:
     )
     for channel, size in (("position", 10.0), ("line_tension", 1e4)):
         assert np.asarray(other[channel]) == pytest.approx(np.asarray(one[channel]), abs=2e-7 * size)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_both_formulations_agree_and_the_ledger_closes(kind: str) -> None:
-    channels = ["position", "energy_balance", "absolute_work", "load_state"]
-    scene = wet(compensated=True, **KINDS[kind])
-    one, other = (
-        simulate(scene, t_end=2.0, dt_out=0.1, channels=channels, formulation=form, **EXACT) for form in FORMS
-    )
-    assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-7)
-    paid_out = one.select("load_state", state_name="wire.length")
-    assert np.ptp(paid_out) > 0.2
-    for result in (one, other):
-        assert np.max(np.abs(result["energy_balance"])) < 1e-7 * np.max(result["absolute_work"])
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
-def test_the_exact_jacobian_is_that_of_differences(kind: str, rung: Any) -> None:
-    if rung == "quasi-static" and kind == "with a drum":
-        pytest.skip("refused")
-    model = wet(rung=rung, compensated=True, **KINDS[kind]).compile()
-    assert largest_error(model, 0.7, moving(model, 4), step=3e-4, kinks=True) < 1e-6
-
-
-@pytest.mark.parametrize("formulation", FORMS)
-def test_a_run_continues_bit_for_bit(formulation: str) -> None:
-    given: dict[str, Any] = {"formulation": formulation, "integrator": "dopri5", "dt_out": 0.1}
-    whole = Run(wet(compensated=True), 1.0, **given)
-    whole.advance(0.47)
-    rest = Run(wet(compensated=True), 1.0, start=whole.state, outputs_from=0.0, **given)
-    for one in (whole, rest):
-        one.advance(1.0)
-    assert np.array_equal(whole.state.values, rest.state.values)
 
 
 MU, HEAVY, STIFF, MASS, DEEP = 25.0, 20, 4e8, 110e3, 1000.0  # kg/m, segments, N, kg, m
@@ -211,59 +141,21 @@ def test_stages_command_it_and_wait_for_it() -> None:
     )
 
 
-def test_a_run_ends_by_name_where_it_has_hauled_in_to_its_end() -> None:
-    scene = hung(Curve.constant(value=0.0), deep=12.0, segments=3, rate=-1.0, minimum_length=8.0)
-    with pytest.raises(SimulationError, match=r"hauled in to its minimum_length, which would stop the mass"):
-        simulate(scene, t_end=20.0)
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"lag": 0.0}, "which needs a smooth rate, and its winch has no lag; give one, such as 0.1 s"),
-        ({"minimum_length": 60.0}, "starts with a length of 40 m and a minimum_length of 60 m"),
-    ],
-)
-def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=f"line 'wire.1': .*{message}"):
-        hung(Curve.constant(value=0.0), deep=40.0, segments=4, **given).compile()
-
-
-def test_a_length_that_changes_by_itself_takes_no_winch() -> None:
+def test_what_does_not_fit_is_refused_by_name() -> None:
+    rest = Curve.constant(value=0.0)
+    for given, message in (
+        ({"lag": 0.0}, "line 'wire.1': .*its winch has no lag"),
+        ({"minimum_length": 60.0}, "length of 40 m and a minimum_length of 60 m"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            hung(rest, deep=40.0, segments=4, **given).compile()
+    with pytest.raises(SimulationError, match="hauled in to its minimum_length"):
+        simulate(hung(rest, deep=12.0, segments=3, rate=-1.0, minimum_length=8.0), t_end=20.0)
     scene = wet(PAID)
-    with pytest.raises(SceneError, match="line 'wire': has a Curve for its length, and the winch changes it"):
+    with pytest.raises(SceneError, match="line 'wire': has a Curve for its length"):
         scene.add_winch("wire", lag=LAG)
     assert not scene.loads["wire.1"].winch
-
-
-def test_parts_of_a_line_that_is_not_there_are_refused() -> None:
-    scene = hung(Curve.constant(value=0.0), deep=40.0, segments=4)
-    scene.replace("wire.3 winding", kind="load", paid_out_by="rope")
-    with pytest.raises(
-        SceneError, match="paid out by 'rope', and no segment before it is on a winch of this name"
-    ):
-        scene.compile()
-
-
-def test_a_file_keeps_it(tmp_path: Path) -> None:
-    scene = wet(compensated=True)
-    scene.save(tmp_path / "wet.json")
-    assert Scene.load(tmp_path / "wet.json").loads == scene.loads
-
-
-def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
-    scene = Scene(name="hoist", gravity=G)
-    scene.add_given_vessel(shipped_database())
-    scene.add_sea(hs=0.0, tp=8.0)
-    scene.add_crane(slew=0.0, s1=1.0, s2=2.0)
-    for wire, message in (({"EA": 1.0}, "wire has 'EA'; give some of"), (None, "needs a smooth length")):
-        with pytest.raises(SceneError, match=message):
-            scene.add_hoist("wire", mass=50e3, size=(4, 4, 4), rung="with mass", winch=True, wire=wire)
-    scene.add_hoist("wire", mass=50e3, size=(4, 4, 4), length=20.0, EA=1.5e8, rung="with mass",
-                    mass_per_length=20.0, winch={"lag": 0.1},
-                    wire={"segments": 5, "medium": "sea", "diameter": 0.06})  # fmt: skip
-    at_rest = equilibrium(scene)
-    assert at_rest.load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
-    assert [name for name in scene.loads if name.endswith("water")] == [
-        f"wire.{i} water" for i in range(1, 6)
-    ]
+    lost = hung(rest, deep=40.0, segments=4)
+    lost.replace("wire.3 winding", kind="load", paid_out_by="rope")
+    with pytest.raises(SceneError, match="paid out by 'rope'"):
+        lost.compile()

@@ -54,6 +54,17 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     return scene
 
 
+def closed_stiffness(stroke: float) -> float:
+    """Of both chambers with their valves shut, N/m."""
+    stiffness = 0.0
+    for area, swept, hose in (
+        (FULL, FULL * stroke, SET["hose_volume"]), (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
+    ):  # fmt: skip
+        whole = (swept + hose) / SET["oil_modulus"]
+        stiffness += area**2 / (whole + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"])
+    return stiffness
+
+
 def lifted(**settings: Any) -> Scene:
     """The spool opens, holds, closes and opens the other way."""
     up = Curve.quintic(start_time=0.1, end_time=0.3, start=0.0, end=0.6)

@@ -110,3 +110,31 @@ def case2_on_a_line(rung: str, stiffness: float) -> Scene:
         length=8.0 / (1.0 + 1e4 * G / stiffness), rung=rung,
     )  # fmt: skip
     return scene
+
+
+def busy() -> Scene:
+    """A swinging load that is hauled in by a drum, with a tension held and a brake that closes on the way."""
+    haul = Curve.quintic(start_time=0.3, end_time=1.0, start=0.0, end=-0.4)
+    shut = Curve.quintic(start_time=2.0, end_time=2.3, start=0.0, end=1.0)
+    return swinging(
+        rate=haul, tension=30e3, tension_gain=3e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
+        maximum_rate=0.8, maximum_tension=26e3, maximum_power=5e3, brake=shut, brake_capacity=28e3,
+        brake_give=0.01,
+    )  # fmt: skip
+
+
+def settled(scene: Scene, *, settling: float = 0.2, **change: Any) -> Scene:
+    """The scene with all its lines quasi-static."""
+    for name, load in list(scene.loads.items()):
+        if type(load).__name__ == "Line":
+            scene.replace(name, rung="quasi-static", settling=settling, **change)
+    return scene
+
+
+def taut() -> Scene:
+    """`reeved` with both lines taut: they feel each other."""
+    scene = settled(reeved(), settling=0.1)
+    length = Curve.harmonic(start_time=0.0, offset=5.0, amplitude=0.05, omega=3.0)
+    scene.replace("tugger", length=length)
+    scene.replace("hoist", length=13.7566)  # carries the load from the start
+    return scene
