@@ -56,13 +56,9 @@ def quick_case2() -> Scene:
     scene.actuators.clear()
     for name, actuator in actuators.items():
         scene.add_actuator(
-            name=name,
-            joint=actuator.joint,
-            stiffness=actuator.stiffness,
-            damping=actuator.damping,
-            feed_forward=actuator.feed_forward,
-            reference=engine_reference(name),
-        )
+            name=name, joint=actuator.joint, stiffness=actuator.stiffness, damping=actuator.damping,
+            feed_forward=actuator.feed_forward, reference=engine_reference(name),
+        )  # fmt: skip
     return scene
 
 
@@ -77,14 +73,12 @@ def wave_load(scene: Scene) -> Callable[[float], Array]:
 def body_records(scene: Scene) -> list[dict[str, Any]]:
     return [
         {
-            "name": body.name,
-            "mass": body.mass,
-            "inertia": body.inertia,
+            "name": body.name, "mass": body.mass, "inertia": body.inertia,
             "position": body.position + rotation_matrix(body.quaternion) @ body.center_of_mass,
             "quaternion": body.quaternion,
         }
         for body in scene.bodies.values()
-    ]
+    ]  # fmt: skip
 
 
 def joint_records(payload: Payload | None) -> list[dict[str, Any]]:
@@ -104,28 +98,22 @@ def vessel_record(scene: Scene) -> dict[str, Any]:
         for b in parameters.memory.blocks
     ]
     return {
-        "body": "vessel",
-        "added_mass": parameters.added_mass,
-        "damping": parameters.linear_damping,
-        "restoring": parameters.restoring,
-        "quadratic_roll_damping": parameters.quadratic_damping[3],
+        "body": "vessel", "added_mass": parameters.added_mass, "damping": parameters.linear_damping,
+        "restoring": parameters.restoring, "quadratic_roll_damping": parameters.quadratic_damping[3],
         "reference_point": [0.0, 0.0, 0.0],
         "station_keeping": {"stiffness": moored.mooring_stiffness, "damping": moored.mooring_damping},
         "memory": {"blocks": blocks},
-    }
+    }  # fmt: skip
 
 
 def actuator_records(scene: Scene) -> list[dict[str, Any]]:
     return [
         {
-            "joint": actuator.joint,
-            "stiffness": actuator.stiffness,
-            "damping": actuator.damping,
-            "feedforward": feed_forward_record(actuator.feed_forward),
-            "reference": reference_record(name),
+            "joint": actuator.joint, "stiffness": actuator.stiffness, "damping": actuator.damping,
+            "feedforward": feed_forward_record(actuator.feed_forward), "reference": reference_record(name),
         }
         for name, actuator in scene.actuators.items()
-    ]
+    ]  # fmt: skip
 
 
 def feed_forward_record(curve: Curve) -> dict[str, Any]:
@@ -142,14 +130,12 @@ def reference_system(scene: Scene, *, prescribed: bool = False) -> System:
     """The scene for the reference; `prescribed` replaces the controllers by drivers on their references."""
     balance = scene.point_forces["balance"]
     records = {
-        "gravity": [0.0, 0.0, -scene.gravity],
-        "bodies": body_records(scene),
-        "joints": joint_records(Payload()),
-        "actuators": [] if prescribed else actuator_records(scene),
+        "gravity": [0.0, 0.0, -scene.gravity], "bodies": body_records(scene),
+        "joints": joint_records(Payload()), "actuators": [] if prescribed else actuator_records(scene),
         "drivers": driver_records(scene) if prescribed else [],
         "point_forces": [{"body": "vessel", "point": balance.point, "force": balance.force}],
         "vessel": vessel_record(scene),
-    }
+    }  # fmt: skip
     return System.from_records(records, wave_loads=wave_load(scene))
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from seacrane import Result, Run, Scene, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import spline_curve
 from seacrane.warnings import LargeSwingWarning
@@ -136,48 +135,6 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     forces = crane.static_cylinder_forces(s1=0.0, s2=0.0, payload_mass=payload.mass if payload else 0.0)
     np.testing.assert_allclose([held.loads["main"], held.loads["knuckle"]], forces, rtol=1e-9)
     assert abs(held.loads["slew"]) < 1e-3
-
-
-def heel_by_hand(payload: Payload | None, slew: float, s1: float, s2: float) -> float:
-    """Moved weight's moment over C44 less what the crane and payload weights high up take from it, rad.
-
-    The hanging payload acts at the tip. Body-fixed balancing force at waterline height under the start's
-    common centre of gravity.
-    """
-    crane = KnuckleBoomCrane.load()
-
-    def weight_moments(pose: dict[str, float]) -> tuple[float, float]:
-        center = crane.center_of_mass(**pose)
-        across, high = crane.mass * G * center[1], crane.mass * G * center[2]
-        if payload:
-            tip = np.array(FOOT) + crane.geometry.tip(**pose)
-            across, high = across + payload.mass * G * tip[1], high + payload.mass * G * tip[2]
-        return across, high
-
-    start, _ = weight_moments({"slew": 0.0, "s1": 0.0, "s2": 0.0})
-    end, high = weight_moments({"slew": slew, "s1": s1, "s2": s2})
-    c44 = shipped_database().restoring[3, 3]
-    assert 0.7 < 1.0 - high / c44 < 0.8
-    return -(end - start) / (c44 - high)
-
-
-@pytest.mark.warns(sometimes=["LargeSwingWarning"])
-@pytest.mark.parametrize("name", ["case1", "case2"])
-def test_mean_heel_after_the_swing_out(name: str) -> None:
-    """Within 5 % of the closed form, at the reached and at the commanded pose; in waves and in calm water."""
-    payload = Payload() if name == "case2" else None
-    alone = simulate(cases.vessel(), channels=["vessel_motion"])
-    run = simulate(CASES[name]())
-    late = run.time >= 50.0
-    moved = float(np.mean(run["vessel_motion"][late, 3] - alone["vessel_motion"][late, 3]))
-    s1, s2 = np.mean(run["stroke"][late], axis=0)
-    reached = heel_by_hand(payload, float(np.mean(run["slew_angle"][late])), float(s1), float(s2))
-    commanded = heel_by_hand(payload, -np.pi / 2.0, 2.0, 2.0)
-    assert moved == pytest.approx(reached, rel=0.05)
-    assert moved == pytest.approx(commanded, rel=0.05)
-    calm = simulate(CASES[name](hs=0.0), t_end=400.0, dt_out=50.0, channels=["vessel_motion"])
-    assert calm["vessel_motion"][-1, 3] == pytest.approx(reached, rel=0.01)
-    assert np.degrees(moved) < -3.0
 
 
 def loads_on_bodies(scene: Scene, run: Result) -> tuple[Array, Array]:

@@ -74,13 +74,11 @@ def test_it_has_a_limit_state_and_a_row_and_is_kept_in_files(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"points": []}, "no points"),
-        ({"points": "top"}, "no point 'top'"),
-        ({"body": "ship"}, "no body 'ship'"),
-        ({"size": (1.0, -1.0, 1.0)}, "not negative"),
+        ({"points": []}, "no points"), ({"points": "top"}, "no point 'top'"),
+        ({"body": "ship"}, "no body 'ship'"), ({"size": (1.0, -1.0, 1.0)}, "not negative"),
         ({"center": (np.nan, 0.0, 0.0)}, "three finite numbers"),
     ],
-)
+)  # fmt: skip
 def test_what_makes_no_sense_is_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
         falling().add_clearance(**({"name": "gap", "points": "left"} | given))

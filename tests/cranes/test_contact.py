@@ -195,17 +195,14 @@ def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
     [
         ({"friction": 0.3, "stiffness": 0.0}, "friction 0.3 and a stiffness of 0"),
         ({"surface": "pipe", "size": (2.0, 2.02, 3.0), "edge": 0.05}, "0.01 m where it is thinnest"),
-        ({"surface": "cone"}, "plane, box, post, pipe"),
-        ({"surface": "post"}, "needs a size; give 2"),
-        ({"size": (1.0, 1.0, 1.0)}, "a plane has no size"),
-        ({"points": []}, "points is empty"),
-        ({"on": "deck"}, "no body 'deck'"),
-        ({"on": "load"}, "body and on 'load'"),
+        ({"surface": "cone"}, "plane, box, post, pipe"), ({"surface": "post"}, "needs a size; give 2"),
+        ({"size": (1.0, 1.0, 1.0)}, "a plane has no size"), ({"points": []}, "points is empty"),
+        ({"on": "deck"}, "no body 'deck'"), ({"on": "load"}, "body and on 'load'"),
         ({"stiffness": 1e5, "table": [(0.0, 0.0), (0.1, 1e3)]}, "a stiffness and a table"),
         ({"table": [(0.1, 0.0), (0.2, 1e3)]}, "both from 0"),
         ({"place": (0.0, 0.0, 9.3)}, "point 1 of 'load' starts 0.3 m inside 'ground'"),
     ],
-)
+)  # fmt: skip
 def test_bad_contacts_are_refused_by_name(given: dict[str, Any], told: str) -> None:
     scene = Scene(name="bad")
     scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, 9.0))

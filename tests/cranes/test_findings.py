@@ -31,12 +31,9 @@ Array = NDArray[np.float64]
 def runs() -> PaperRuns:
     with pytest.warns(LargeSwingWarning):  # of case 1
         return PaperRuns(
-            vessel=simulate(cases.vessel()),
-            vessel_without_memory=simulate(cases.vessel(memory="none")),
-            case1=simulate(cases.case1()),
-            case2=simulate(cases.case2()),
-            case3=simulate(cases.case3()),
-        )
+            vessel=simulate(cases.vessel()), vessel_without_memory=simulate(cases.vessel(memory="none")),
+            case1=simulate(cases.case1()), case2=simulate(cases.case2()), case3=simulate(cases.case3()),
+        )  # fmt: skip
 
 
 def motion(result: Result, name: str) -> Array:

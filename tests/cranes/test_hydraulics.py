@@ -67,21 +67,11 @@ def test_the_complete_parameter_set_follows_an_independent_stiff_solver(more: di
 
 
 EVERYTHING: dict[str, Any] = LEAKS | {
-    "air": 0.005,
-    "friction": 300.0,
-    "relief_pressure": 3.1e6,
-    "relief_pressure_rod": 4e6,
-    "relief_flow": 5e-4,
-    "counterbalance_pressure": 6e6,
-    "counterbalance_flow": 8e-4,
-    "makeup_flow": 4e-4,
-    "pump_check": True,
-    "accumulator_volume": 1e-3,
-    "accumulator_pressure": 1.5e6,
-    "accumulator_flow": 2e-4,
-    "rupture_time": 1.5,
-    "rupture_area": 3e-6,
-}
+    "air": 0.005, "friction": 300.0, "relief_pressure": 3.1e6, "relief_pressure_rod": 4e6,
+    "relief_flow": 5e-4, "counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4, "makeup_flow": 4e-4,
+    "pump_check": True, "accumulator_volume": 1e-3, "accumulator_pressure": 1.5e6, "accumulator_flow": 2e-4,
+    "rupture_time": 1.5, "rupture_area": 3e-6,
+}  # fmt: skip
 
 
 def test_oil_is_neither_lost_nor_made() -> None:
@@ -164,13 +154,11 @@ GAS = {"accumulator_volume": 1e-3, "accumulator_pressure": 15.0, "accumulator_fl
         ({"relief_pressure": 1e7}, "relief_pressure without relief_flow"),
         ({"accumulator_volume": 0.1}, "accumulator_pressure is 0"),
         (GAS, "accumulator_pressure is 15 Pa: .* 1 bar is 1e5"),
-        ({"tank_pressure": 8e6}, "not above the tank's"),
-        ({"rated_flow": 24.0}, "24 l/min are 0.0004"),
-        ({"hose_volume": 31.4}, "31.4 l are 0.0314"),
-        ({"pressure": 1e6}, "cannot hold the 9807 N"),
+        ({"tank_pressure": 8e6}, "not above the tank's"), ({"rated_flow": 24.0}, "24 l/min are 0.0004"),
+        ({"hose_volume": 31.4}, "31.4 l are 0.0314"), ({"pressure": 1e6}, "cannot hold the 9807 N"),
         ({"command": 0.5, "rated_flow": 0.0, "pump_pressure": 0.0}, "has a command and no spool"),
     ],
-)
+)  # fmt: skip
 def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=f"hydraulic cylinder 'ram': .*{message}"):
         raised(**wrong).compile()

@@ -34,14 +34,9 @@ def a_frame() -> JointedCrane:
 def fixed(crane: JointedCrane, payload: Payload | None = None, **coordinates: float) -> Scene:
     scene = Scene(name="fixed base")
     scene.add_crane(
-        crane,
-        base="ground",
-        foot=(0, 0, 0),
-        coordinates=coordinates,
-        payload=payload,
-        held=True,
+        crane, base="ground", foot=(0, 0, 0), coordinates=coordinates, payload=payload, held=True,
         damping=False,
-    )
+    )  # fmt: skip
     return scene
 
 
@@ -152,14 +147,12 @@ BAD = [
     (LATTICE, "EA = 60.0e6", "EA = -1.0", "EA is -1"),
     (LATTICE, "total_mass = 171000.0", "total_mass = 171.0", "bodies add up to 171000 kg"),
     (
-        LATTICE,
-        'first = { body = "house", point',
-        'first = { body = "boom", point',
+        LATTICE, 'first = { body = "house", point', 'first = { body = "boom", point',
         "first body must be before",
     ),
     (LATTICE, '"house"\nsecond = "boom"', '"boom"\nsecond = "house"', "nothing carries its first"),
     (A_FRAME, "[[closing_joints]]", "[[joints]]", r"'rod head' closes a loop.*\[\[closing"),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "old", "new", "says"), BAD)

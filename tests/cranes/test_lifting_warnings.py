@@ -61,12 +61,10 @@ def test_a_load_above_the_table_at_the_radius_where_it_comes_to_hang_warns(scale
 @pytest.mark.parametrize(
     ("link", "slew", "heading_deg", "warned"),
     [
-        (10.4, 0.0, 0.0, False),
-        (11.0, 0.0, 75.0, True),
-        (60.0, 0.0, 0.0, False),
+        (10.4, 0.0, 0.0, False), (11.0, 0.0, 75.0, True), (60.0, 0.0, 0.0, False),
         (20.0, -np.pi / 2, 0.0, False),
     ],
-)
+)  # fmt: skip
 def test_a_load_that_starts_in_the_hull_warns(
     link: float, slew: float, heading_deg: float, warned: bool
 ) -> None:

@@ -136,11 +136,8 @@ def deepest(stiffness: float) -> float:
 def test_a_method_does_not_leap_through_a_stop(integrator: str, stiffness: float) -> None:
     for rtol in (1e-3, 1e-5, 1e-7):
         how: dict[str, Any] = {
-            "t_end": 2.0,
-            "dt_out": 0.02,
-            "integrator": integrator,
-            "channels": ["position"],
-        }
+            "t_end": 2.0, "dt_out": 0.02, "integrator": integrator, "channels": ["position"],
+        }  # fmt: skip
         result = simulate(falling(stiffness), rtol=rtol, **how)
         height = result["position"][:, 0, 2]
         assert height.min() > -1.1 * deepest(stiffness)

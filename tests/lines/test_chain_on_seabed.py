@@ -131,13 +131,9 @@ def test_friction_holds_for_an_hour_without_creep(heading: float, formulation: s
     way = np.array([np.cos(heading), np.sin(heading), 0.0])
     scene.add_point_force(name="push", body="block", force=200.0 * way)
     result = simulate(
-        scene,
-        t_end=3600.0,
-        dt_out=300.0,
-        formulation=formulation,
-        integrator="rosenbrock",
+        scene, t_end=3600.0, dt_out=300.0, formulation=formulation, integrator="rosenbrock",
         channels=["position", "load_state"],
-    )
+    )  # fmt: skip
     away = np.asarray(result.select("position", body="block"))[1:] @ way
     assert away == pytest.approx(np.full(12, 2.0 / 3.0 * 1e-3), rel=1e-4)
     assert not np.any(result["load_state"])
@@ -164,13 +160,9 @@ def pulled(segments: int) -> float:
     scene = Scene(name="pulled", gravity=10.0)
     scene.add_body(name="sled", mass=100.0, inertia=(10.0,) * 3, position=(20.0, 0.0, -10.0 - sunk))
     scene.add_joint(
-        kind="prismatic",
-        name="rail",
-        first="ground",
-        second="sled",
-        point=(20.0, 0.0, -10.0 - sunk),
+        kind="prismatic", name="rail", first="ground", second="sled", point=(20.0, 0.0, -10.0 - sunk),
         axis=(1, 0, 0),
-    )
+    )  # fmt: skip
     scene.add_driver(joint="rail", curve=Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=0.013))
     scene.add_line(
         "line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0, 0.0),

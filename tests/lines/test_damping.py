@@ -16,7 +16,6 @@ from seacrane import Curve, Scene, SceneError, _core, cases, equilibrium, natura
 from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
-from seacrane.water import BoxPart
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -290,20 +289,3 @@ def test_all_that_hangs_on_a_hook_counts() -> None:
     period = 2.0 * np.pi * np.sqrt((LOAD + 500.0) * 20.0 / 3e7)
     heave = int(np.argmin(np.abs(modes.natural_period / period - 1.0)))
     assert modes.damping_ratio[heave] == pytest.approx(0.02, rel=0.05)
-
-
-def in_the_surface(seed: int | None) -> Scene:
-    scene = Scene(name="in the surface")
-    scene.add_body(name="load", mass=LOAD, inertia=(LOAD, LOAD, LOAD))
-    scene.add_immersed("load", parts=[BoxPart(size=(4.0, 3.0, 2.0), strips=(2, 2), fill=0.2)])
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 30), (0, 0, 0)], EA=2e7,
-                   tension_at_start=0.5 * LOAD * G)  # fmt: skip
-    if seed is not None:
-        scene.add_sea(vessel=None, hs=3.0, tp=8.0, seed=seed)
-    return scene
-
-
-def test_what_is_wet_in_a_wave_at_the_start_does_not_count() -> None:
-    still, *seas = (bounce(in_the_surface(seed)) for seed in (None, 1, 2, 3))
-    assert still[0] > 1.1 * LOAD
-    assert seas == [still] * 3

@@ -188,17 +188,14 @@ def test_a_python_controller_takes_the_place_of_the_compiled_one() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"winch": "rope"}, "no winch 'rope'"),
-        ({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
+        ({"winch": "rope"}, "no winch 'rope'"), ({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
         ({"actuator": "boom"}, "moves winch 'hoist' and actuator 'boom'"),
         ({"direction": (1, 0, 0)}, "'hoist' does not move the load"),
         ({"direction": (0, 0, 0), "ratio": 1.0}, "direction is zero"),
-        ({"lag_order": 3}, "lag_order is 3; choose 1 or 2"),
-        ({"ratio": 0.0}, "ratio is 0"),
-        ({"body": "boat"}, "no body 'boat'"),
-        ({"name": "second"}, "winch 'hoist' follows 'ahc' already"),
+        ({"lag_order": 3}, "lag_order is 3; choose 1 or 2"), ({"ratio": 0.0}, "ratio is 0"),
+        ({"body": "boat"}, "no body 'boat'"), ({"name": "second"}, "winch 'hoist' follows 'ahc' already"),
     ],
-)
+)  # fmt: skip
 def test_compensators_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
     scene = compensated() if "name" in given else hung()
     settings = {"name": "ahc", "body": "ship", "point": (0, 0, TIP), "winch": "hoist"} | given

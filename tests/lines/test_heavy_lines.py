@@ -139,14 +139,11 @@ def test_a_heavy_line_is_kept_in_files_and_told_once_by_its_whole_name(tmp_path:
         ({"bodies": ["ground", "ground"]}, "both ends are on 'ground'"),
         ({"bodies": ["ground", "crane"]}, "no body 'crane'"),
         ({"points": [(0, 0, -5), (0, 0, 0)]}, "points are both at"),
-        ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\)"),
-        ({"segments": 0}, "segments is 0"),
-        ({"segments": 2.5}, "segments is 2.5"),
-        ({"length": -1.0}, "length is -1.0"),
-        ({"EA": float("nan")}, "EA is nan"),
-        ({"length": 20.0}, "no rest shape"),
+        ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\)"), ({"segments": 0}, "segments is 0"),
+        ({"segments": 2.5}, "segments is 2.5"), ({"length": -1.0}, "length is -1.0"),
+        ({"EA": float("nan")}, "EA is nan"), ({"length": 20.0}, "no rest shape"),
     ],
-)
+)  # fmt: skip
 def test_what_makes_no_line_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -5.0))

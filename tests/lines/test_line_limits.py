@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, G
+from line_scenes import MASS, G, below
 from multibody_runs import momentum, record
 from numpy.typing import NDArray
 
@@ -18,18 +18,13 @@ FORMULATIONS = ["redundant", "recursive"]
 
 def pendulum(stiffness: float | None, *, damping: float = 0.3, **rung: Any) -> Scene:
     """2 t on 8 m, let go at 1 rad; the line is as long under its tension there as the rigid link."""
-    scene = Scene(name="pendulum")
     place = 8.0 * np.array([np.sin(1.0), 0.0, -np.cos(1.0)])
-    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
-    if stiffness is None:
-        scene.add_joint(
-            kind="distance", name="hoist", first="ground", second="load", point=(0, 0, 0), second_point=place
-        )
-    else:
-        scene.add_line(
-            name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=stiffness,
-            length=8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness), damping_ratio=damping, **rung,
-        )  # fmt: skip
+    if stiffness is not None:
+        length = 8.0 / (1.0 + 2e3 * G * np.cos(1.0) / stiffness)
+        return below(place, mass=2e3, EA=stiffness, length=length, damping_ratio=damping, **rung)
+    scene = below(place, mass=2e3)
+    ends = {"point": (0, 0, 0), "second_point": place}
+    scene.add_joint(kind="distance", name="hoist", first="ground", second="load", **ends)
     return scene
 
 
@@ -52,24 +47,13 @@ def test_motion_and_tension_tend_to_the_rigid_link_as_one_over_ea(rung: str, for
 
 def falling(speed: float, *, stiffness: float | None, ratio: float = 0.02, along: float = 0.0) -> Scene:
     """20 t that meets the end of its slack 10 m at a speed, downwards; sideways it goes at another."""
-    scene = Scene(name="falling")
-    slack = 0.02
-    scene.add_body(
-        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -10.0 + slack),
-        velocity=(along, 0.0, -np.sqrt(speed**2 - 2.0 * G * slack)),
-    )  # fmt: skip
-    if stiffness is None:
-        restitution = np.exp(-np.pi * ratio / np.sqrt(1.0 - ratio**2))
-        scene.add_joint(
-            kind="distance", name="rope", first="ground", second="load", point=(0, 0, 0),
-            second_point=(0.0, 0.0, -10.0 + slack), length=10.0,
-        )  # fmt: skip
-        scene.add_line(joint="rope", rung="rigid", restitution=restitution)
-    else:
-        scene.add_line(
-            name="rope", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=10.0 * stiffness,
-            length=10.0, damping_ratio=ratio,
-        )  # fmt: skip
+    place, velocity = (0.0, 0.0, -9.98), (along, 0.0, -np.sqrt(speed**2 - 2.0 * G * 0.02))
+    if stiffness is not None:
+        return below(place, velocity=velocity, EA=10.0 * stiffness, length=10.0, damping_ratio=ratio)
+    scene = below(place, velocity=velocity)
+    ends = {"point": (0, 0, 0), "second_point": place, "length": 10.0}
+    scene.add_joint(kind="distance", name="rope", first="ground", second="load", **ends)
+    scene.add_line(joint="rope", rung="rigid", restitution=np.exp(-np.pi * ratio / np.sqrt(1.0 - ratio**2)))
     return scene
 
 

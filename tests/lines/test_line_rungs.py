@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, case2_on_a_line, hung, on_deck, swinging
+from line_scenes import MASS, STIFFNESS, G, add_led, below, case2_on_a_line, hung, on_deck, swinging
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
@@ -43,15 +43,10 @@ Array = NDArray[np.float64]
 STIFF = 1e4 * STIFFNESS  # N, EA of 10 m
 
 
-def heaved(*, omega: float = 0.8, amplitude: float = 1.0, stiffness: float = STIFF) -> Scene:
+def heaved(*, stiffness: float = STIFF) -> Scene:
     """20 t below a block that moves up and down from rest, on 10 m of line that carries the weight."""
-    scene = Scene(name="heaved")
-    scene.add_body(name="block", mass=100.0, inertia=(10.0, 10.0, 10.0))
-    scene.add_joint(kind="prismatic", name="guide", first="ground", second="block", point=(0, 0, 0))
-    scene.add_driver(
-        joint="guide", curve=Curve.quintic(start_time=0.0, end_time=6.0 / omega, start=0.0, end=amplitude)
-    )
-    scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -10.0))
+    scene = below((0.0, 0.0, -10.0))
+    add_led(scene, "block", Curve.quintic(start_time=0.0, end_time=7.5, start=0.0, end=1.0))
     scene.add_line(
         name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), EA=stiffness,
         length=10.0 / (1.0 + MASS * G / stiffness), rung="auto",
@@ -61,17 +56,9 @@ def heaved(*, omega: float = 0.8, amplitude: float = 1.0, stiffness: float = STI
 
 def over_the_top() -> Scene:
     """A load at the lowest point of its circle, too slow to reach the highest with its line taut."""
-    scene = Scene(name="over the top")
     speed = np.sqrt(3.5 * G * 10.0)
-    tension = MASS * (G + speed**2 / 10.0)
-    scene.add_body(
-        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0), velocity=(speed, 0, 0)
-    )
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=STIFF,
-        length=10.0 / (1.0 + tension / STIFF), rung="auto",
-    )  # fmt: skip
-    return scene
+    length = 10.0 / (1.0 + MASS * (G + speed**2 / 10.0) / STIFF)
+    return below((0.0, 0.0, -10.0), velocity=(speed, 0, 0), EA=STIFF, length=length, rung="auto")
 
 
 def rung_of(scene: Scene, t_end: float = 1.0, **settings: Any) -> tuple[str, str]:
@@ -105,7 +92,7 @@ def test_the_error_that_it_names_is_that_of_the_run() -> None:
     omega = 2.0
     scene = heaved()
     wave = Curve.harmonic(offset=-0.2, amplitude=0.2, omega=omega)
-    scene.replace("guide.displacement", curve=wave)
+    scene.replace("lead", curve=wave)
     for stiffness in (6e7, 6e8):
         own = np.sqrt(stiffness / 10.0 / MASS)
         tension = []
@@ -183,11 +170,8 @@ def test_several_lines_are_near_the_elastic_ones(seeds: range, quasi: int) -> No
 
 def in_resonance(rung: str, omega: float) -> Scene:
     """180 t on 2,000 m of wire below a tip that heaves; its own frequency is 1.05 rad/s."""
-    scene = Scene(name="deep")
-    scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
-    scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
-    scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=0.2, omega=omega, phase=np.pi / 2))
-    scene.add_body(name="load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000.0))
+    scene = below((0.0, 0.0, -2000.0), mass=180e3)
+    add_led(scene, "tip", Curve.harmonic(amplitude=0.2, omega=omega, phase=np.pi / 2))
     scene.add_line(
         name="hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, damping_ratio=0.02,
         tension_at_start=180e3 * G, rung=rung, settling=0.02,
@@ -260,7 +244,7 @@ def shaken(rung: str = "auto") -> Scene:
     """A block whose short drop is faster than a load falls; the strain follows too late to go slack."""
     scene = heaved()
     drop = Curve.quintic(start_time=0.5, end_time=0.65, start=0.0, end=-0.1)
-    scene.replace("guide.displacement", curve=drop)
+    scene.replace("lead", curve=drop)
     scene.replace("hoist", rung=rung)
     return scene
 
@@ -292,17 +276,15 @@ def large() -> Scene:
 ELASTIC: dict[str, tuple[Callable[[], Scene], dict[str, Any]]] = {
     "it starts slack": (lambda: automatic(hung, stretch=-0.1), {}),
     "would ring from the start, by": (lambda: automatic(swinging), {}),
-    "starts slack": (lambda: automatic(on_deck), {}),
-    "more than 0.5 %": (lambda: heaved(stiffness=1e6), {}),
+    "starts slack": (lambda: automatic(on_deck), {}), "more than 0.5 %": (lambda: heaved(stiffness=1e6), {}),
     "a jump at t = 1 s would make": (lambda: stepped_winch(0.2), {}),
     "its winch has no lag": (lambda: stepped_winch(0.0), {}),
     "SoftStop 'buffer'": (lambda: stopped(hard=False), {}),
-    "limit 'stop' makes impacts": (lambda: stopped(hard=True), {}),
-    "a jump at t = 0.5 s": (shaken, {}),
+    "limit 'stop' makes impacts": (lambda: stopped(hard=True), {}), "a jump at t = 0.5 s": (shaken, {}),
     "'ida' has no accelerations": (heaved, {"integrator": "ida"}),
     "'generalized-alpha' has no accelerations": (heaved, {"integrator": "generalized-alpha"}),
     "states, more than 1500": (large, {}),
-}
+}  # fmt: skip
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, G, hung
+from line_scenes import MASS, G, below, hung
 
 from seacrane import (
     Lift,
@@ -127,12 +127,8 @@ DROP, SOFT = 30.0, 1e7  # m, N: the load stretches the line by 1.96 %
 TABLE = {"strains": [0.0, 0.05, 0.12, 0.3], "tensions": [0.0, 6e4, 2.5e5, 9e5]}
 
 
-def tied(load_at: float = DROP, **line: Any) -> Scene:
-    scene = Scene(name="hung")
-    scene.add_body(name="load", mass=MASS, inertia=MASS * np.eye(3), position=(0, 0, -load_at))
-    given = {"EA": SOFT} | line
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), **given)
-    return scene
+def tied(**line: Any) -> Scene:
+    return below((0.0, 0.0, -DROP), **{"EA": SOFT} | line)
 
 
 @pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
@@ -176,7 +172,8 @@ def test_the_length_is_that_of_the_path_and_falls_carry_half_each() -> None:
 
 
 def test_a_line_is_tied_above_the_center_of_a_body_with_a_size_else_to_its_origin() -> None:
-    scene = with_load(size=(2.0, 2.0, 4.0), center_of_mass=(0.1, 0.2, -0.3))
+    scene = below((0.0, 0.0, -10.0), size=(2.0, 2.0, 4.0))
+    scene.replace("load", center_of_mass=(0.1, 0.2, -0.3))
     scene.add_body(name="hook", mass=100.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, -3.0))
     lower = scene.add_line(name="lower", first="hook", second="load", EA=1e7)
     assert np.array_equal(lower.points, [(0.0, 0.0, 0.0), (0.1, 0.2, 1.7)])
@@ -186,20 +183,15 @@ def test_a_line_is_tied_above_the_center_of_a_body_with_a_size_else_to_its_origi
     assert np.array_equal(upper.points, [(0.0, 0.0, 1.0), (0.0, 0.0, 0.5)])
 
 
-def with_load(**body: Any) -> Scene:
-    scene = Scene()
-    given: dict[str, Any] = {"mass": 20e3, "inertia": (1e4, 1e4, 1e4), "position": (0.0, 0.0, -10.0)}
-    scene.add_body(name="load", **given | body)
-    return scene
-
-
 BETWEEN = {"name": "hoist", "first": "ground", "second": "load"}
 
 
 def test_what_is_returned_is_what_the_scene_holds() -> None:
-    scene = with_load()
+    scene = below((0.0, 0.0, -10.0))
     assert scene.add_line(**BETWEEN, EA=1e7) is scene.loads["hoist"]
-    segments = with_load().add_line(**BETWEEN, rung="with mass", EA=1e7, mass_per_length=10.0, segments=3)
+    segments = below((0.0, 0.0, -10.0)).add_line(
+        **BETWEEN, rung="with mass", EA=1e7, mass_per_length=10.0, segments=3
+    )
     assert [one.name for one in segments] == ["hoist.1", "hoist.2", "hoist.3"]
     scene = cases.case2()
     limit = scene.add_line(joint="link", rung="rigid")
@@ -212,29 +204,26 @@ def test_what_is_returned_is_what_the_scene_holds() -> None:
 THREE = {"first": None, "second": None, "bodies": ["ground", "load", "ground"], "points": np.zeros((3, 3))}
 
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    ({"rung": "stiff"}, "rung is 'stiff'"),
-    ({"rung": "rigid", "EA": 1e7}, "takes no EA"),
+    ({"rung": "stiff"}, "rung is 'stiff'"), ({"rung": "rigid", "EA": 1e7}, "takes no EA"),
     ({"rung": "rigid", "tension_at_start": 1e3}, "takes no tension_at_start"),
     ({"rung": "rigid", "radii": [0, 1, 0]}, "takes no radii"),
     ({"rung": "rigid", "length": _core.Curve.constant(value=9.0)}, "length is"),
     (THREE | {"rung": "rigid"}, "between two bodies"),
     ({"EA": 1e7, "restitution": 0.5}, "takes no restitution.*'rigid'"),
-    ({"EA": 1e7, "mass_per_length": 5.0}, "'with mass'"),
-    ({"EA": 1e7, "joint": "link"}, "takes no joint"),
+    ({"EA": 1e7, "mass_per_length": 5.0}, "'with mass'"), ({"EA": 1e7, "joint": "link"}, "takes no joint"),
     ({"rung": "with mass", "EA": 1e7, "strains": [0, 1], "tensions": [0, 1]}, "takes no strains"),
     ({"rung": "with mass", "EA": 1e7}, "mass_per_length is 0.0"),
     ({"EA": 1e7, "bodies": ["ground", "load"]}, "other words for its path"),
     ({"EA": 1e7, "length": 29.0, "tension_at_start": 1e5}, "a length and a tension_at_start"),
     ({"EA": 1e7, "tension_at_start": -1.0}, "tension_at_start is -1.0"),
     ({"EA": 1e7, "tension_at_start": "much"}, "tension_at_start"),
-    ({"EA": 1e7, "second": "hook"}, "body 'hook'"),
-    ({}, "has no EA"),
-]
+    ({"EA": 1e7, "second": "hook"}, "body 'hook'"), ({}, "has no EA"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("given", "message"), REFUSED)
 def test_what_a_rung_does_not_take_is_refused_by_name(given: dict[str, Any], message: str) -> None:
-    scene = with_load()
+    scene = below((0.0, 0.0, -10.0))
     words = {key: value for key, value in (BETWEEN | given).items() if value is not None}
     with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
         scene.add_line(**words)
@@ -242,7 +231,7 @@ def test_what_a_rung_does_not_take_is_refused_by_name(given: dict[str, Any], mes
 
 
 def test_a_winch_on_a_segment_of_a_line_with_mass_is_refused() -> None:
-    scene = with_load(position=(0.0, 0.0, -100.0))
+    scene = below((0.0, 0.0, -100.0))
     scene.add_line(**BETWEEN, rung="with mass", EA=1e8, length=100.0, mass_per_length=12.0, segments=4)
     with pytest.raises(SceneError, match=r"'hoist\.1': is a segment of line 'hoist'"):
         scene.add_winch(line="hoist.1", rate=0.1)

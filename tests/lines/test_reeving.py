@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import below
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
@@ -114,15 +115,9 @@ def test_a_quasi_static_stretch_takes_sheaves_and_friction(stiffness: float, for
 
 def corded(strain: float, *, last: float = 0.8) -> Scene:
     """A load on a shock cord of 4 m."""
-    scene = Scene(name="cord")
-    scene.add_body(
-        name="load", mass=60.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, -4.0 * (1.0 + strain))
-    )
-    scene.add_line(
-        name="cord", bodies=["ground", "load"], points=np.zeros((2, 3)), length=4.0, damping_ratio=0.0,
-        strains=[0.0, 0.1, 0.3, last], tensions=[0.0, 300.0, 700.0, 3000.0],
-    )  # fmt: skip
-    return scene
+    table = {"strains": [0.0, 0.1, 0.3, last], "tensions": [0.0, 300.0, 700.0, 3000.0]}
+    place = (0.0, 0.0, -4.0 * (1.0 + strain))
+    return below(place, mass=60.0, length=4.0, damping_ratio=0.0, **table)
 
 
 @pytest.mark.warns("LiftedStartWarning")
@@ -142,7 +137,7 @@ def test_a_shock_cord_follows_its_table() -> None:
 
 @pytest.mark.warns("LiftedStartWarning", "LineLengthWarning", "FleetAngleWarning", "WinchLimitWarning")
 def test_a_cord_beyond_its_table_and_a_line_out_of_its_groove_are_told() -> None:
-    with pytest.warns(LineTableWarning, match=r"'cord'.* 0\.6 at t = 0 s, .* ends at 0\.5"):
+    with pytest.warns(LineTableWarning, match=r"'hoist'.* 0\.6 at t = 0 s, .* ends at 0\.5"):
         simulate(corded(0.6, last=0.5), 0.1, dt_out=0.1)
     with pytest.warns(FleetAngleWarning, match=r"'hoist 3'.* degrees at t ="):
         simulate(slewing(), 0.5, dt_out=0.1)

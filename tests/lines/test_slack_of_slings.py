@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
-from seacrane import Scene, SceneError, simulate, summary
+from seacrane import Scene, SceneError, simulate
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.answers.lift_particulars import lift_rows
 from seacrane.water import BoxPart, Opening
 
 Array = NDArray[np.float64]
@@ -122,24 +121,3 @@ def test_the_margin_is_one_at_rest_and_none_of_a_slack_sling() -> None:
     tagged.add_line("tag", first="post", second="load", EA=1e6, tension_at_start=1e3)
     with pytest.raises(SceneError, match="'slack_margin' is unknown to this scene"):
         simulate(tagged, t_end=0.1, channels=["slack_margin"])
-
-
-def test_a_summary_has_the_margin_of_the_channel_the_depth_and_what_slam_took() -> None:
-    scene = rigged(-1.0)
-    scene.add_sea(vessel=None, hs=1.5, tp=6.0, direction_deg=0.0, seed=1)
-    channels = ["slack_margin", "line_tension", "hook_load", "position", "quaternion", "load_state"]
-    result = simulate(scene, t_end=4.0, dt_out=0.1, channels=channels, start="rest")
-    told = summary(result)
-    for name in ("sling 1", "wire"):
-        row = told[f"line tension {name}" if name != "wire" else "hoist tension wire"]
-        assert row.slack_margin == pytest.approx(
-            result.reached("slack_margin", weighed=name)[0].min(), rel=1e-9
-        )
-    lowest = result.select("position", body="load", axis="z") - 0.5 * VOLUME[2]
-    assert told["load depth"].maximum == pytest.approx(-lowest.min(), abs=1e-3)
-    assert told["load slam loss"].unit == "J"
-    assert told["load slam loss"].maximum == pytest.approx(result["load_state"].sum(axis=1).max(), rel=1e-12)
-    assert "under water" in str(told)
-    rows = lift_rows(result)
-    assert ("in water", "load, keeps 12 m3 dry") in rows
-    assert any(what == "coefficients in water" and "unverified" in words for what, words in rows)

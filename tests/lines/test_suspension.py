@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import below
 
 from seacrane import Frame, Result, Scene, shipped_database, simulate
 from seacrane.answers import load_chart, statics, summary
@@ -25,12 +26,9 @@ from seacrane.warnings import (
 G = 9.80665
 MASS, SIZE, LENGTH = 40e3, (3.0, 3.0, 2.0), 12.0
 RUNGS: Mapping[str, dict[str, Any]] = {
-    "rigid": {},
-    "quasi-static": {"EA": 4e8},
-    "elastic": {"EA": 4e8},
-    "auto": {"EA": 4e8},
+    "rigid": {}, "quasi-static": {"EA": 4e8}, "elastic": {"EA": 4e8}, "auto": {"EA": 4e8},
     "with mass": {"EA": 4e8, "mass_per_length": 20.0},
-}
+}  # fmt: skip
 QUICK = ["rod", *(rung for rung in RUNGS if rung != "with mass")]  # whose masses ring at steps of 0.1 ms
 
 
@@ -133,17 +131,10 @@ def test_a_line_with_mass_has_the_columns_and_the_chart_of_the_others_but_for_th
 
 def thrown(rung: str) -> Scene:
     """So fast from below its line of 5 m that it goes slack on its way round."""
-    scene = Scene(name=rung)
-    scene.add_body(
-        name="load", mass=MASS, size=SIZE, position=(0.0, 0.0, -6.0),
-        velocity=(np.sqrt(4.0 * 5.0 * G), 0.0, 0.0),
-    )  # fmt: skip
+    scene = below((0.0, 0.0, -6.0), mass=MASS, size=SIZE, velocity=(np.sqrt(4.0 * 5.0 * G), 0.0, 0.0))
     if rung == "rod":
-        here = Frame()
-        scene.add_joint(
-            kind="distance", name="hoist", first="ground", second="load", first_frame=here,
-            second_frame=here, length=6.0,
-        )  # fmt: skip
+        ends = {"first_frame": Frame(), "second_frame": Frame(), "length": 6.0}
+        scene.add_joint(kind="distance", name="hoist", first="ground", second="load", **ends)
         return scene
     taut = {} if rung == "rigid" else {"EA": 1e7, "tension_at_start": 5.0 * MASS * G}
     scene.add_line(name="hoist", first="ground", second="load", rung=rung, **taut)  # type: ignore[arg-type]

@@ -55,13 +55,9 @@ def heaving(count: int, t_end: float, **more: Any) -> Scene:
     scene.add_driver(joint="guide", curve=heave(t_end))
     line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
     scene.add_line(
-        name="line",
-        rung="with mass",
-        bodies=["ground", "end"],
-        points=[(0, 0, -300), (0, 0, 0)],
-        segments=count,
-        **line,
-    )
+        name="line", rung="with mass", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)],
+        segments=count, **line,
+    )  # fmt: skip
     return scene
 
 
@@ -76,13 +72,9 @@ def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any
         velocity=(velocity, 0.0, 0.0),
     )  # fmt: skip
     scene.add_line(
-        name="wire",
-        rung="with mass",
-        bodies=["ground", "load"],
-        points=np.zeros((2, 3)),
-        segments=count,
+        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), segments=count,
         **line,
-    )
+    )  # fmt: skip
     return scene
 
 

@@ -40,13 +40,9 @@ def swinging(**winch: Any) -> Scene:
     """A load that swings below a block on a winch."""
     scene = Scene(name="swinging")
     scene.add_body(
-        name="load",
-        mass=2e3,
-        inertia=(300.0, 400.0, 500.0),
-        position=(3.0, 0.5, -8.0),
-        velocity=(0.0, 0.8, 0.0),
-        angular_velocity=(0.1, 0.2, 0.3),
-    )
+        name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=(3.0, 0.5, -8.0),
+        velocity=(0.0, 0.8, 0.0), angular_velocity=(0.1, 0.2, 0.3),
+    )  # fmt: skip
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0.1, -0.2, 0.9)],
         EA=4e6, length=7.65,
@@ -138,3 +134,24 @@ def taut() -> Scene:
     scene.replace("tugger", length=length)
     scene.replace("hoist", length=13.7566)  # carries the load from the start
     return scene
+
+
+def below(
+    place: Any, *, mass: float = MASS, velocity: Any = (0.0, 0.0, 0.0), size: Any = None, **line: Any
+) -> Scene:
+    """A load at a place, on a line "hoist" from the origin of the ground; alone without words for a line."""
+    scene = Scene(name="below")
+    shape = {"inertia": 0.5 * mass * np.eye(3)} if size is None else {"size": size}
+    scene.add_body(name="load", mass=mass, position=place, velocity=velocity, **shape)
+    if line:
+        path = {"bodies": ["ground", "load"], "points": np.zeros((2, 3))}
+        scene.add_line(name="hoist", **path | line)
+    return scene
+
+
+def add_led(scene: Scene, name: str, curve: Curve, *, place: Any = (0.0, 0.0, 0.0), **joint: Any) -> None:
+    """A body on a slide along z that a curve leads; its joint is "guide", its driver "lead"."""
+    scene.add_body(name=name, mass=1e3, inertia=1e3 * np.eye(3), position=place)
+    way = {"kind": "prismatic", "first": "ground", "second": name, "point": place, "axis": (0, 0, 1)}
+    scene.add_joint(name="guide", **way | joint)
+    scene.add_driver(name="lead", joint="guide", curve=curve)

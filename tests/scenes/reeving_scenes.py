@@ -32,16 +32,11 @@ def tackle(*, falls: int = 6, guided: bool = True, strain: float | None = None, 
     bodies = ["ground", *np.where(at_hook, "hook", "ground").tolist(), "ground"]
     x = [centers[0] - RADIUS, *centers, centers[-1] + RADIUS]
     scene.add_line(
-        name="hoist",
-        bodies=bodies,
-        points=np.column_stack([x, np.zeros((len(x), 2))]),
-        EA=STIFFNESS,
-        length=path_of_tackle(falls) / (1.0 + taut),
-        mass=MASS / falls**2,
+        name="hoist", bodies=bodies, points=np.column_stack([x, np.zeros((len(x), 2))]), EA=STIFFNESS,
+        length=path_of_tackle(falls) / (1.0 + taut), mass=MASS / falls**2,
         radii=[0.0, *[RADIUS] * centers.size, 0.0],
-        axes=[(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)],
-        **line,
-    )
+        axes=[(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)], **line,
+    )  # fmt: skip
     return scene
 
 
