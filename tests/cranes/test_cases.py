@@ -1,4 +1,4 @@
-"""The three lift cases: counting, drift, energy, heel, balance, and driven simulation."""
+"""The three lift cases: counting, drift, energy, balance, driven runs, and feed-forward along curves."""
 
 from __future__ import annotations
 
@@ -8,23 +8,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Result, Run, Scene, balance, cases, simulate
-from seacrane.analysis import Evaluator, driven
+from seacrane import Curve, Result, Run, Scene, SceneError, balance, cases, simulate
+from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import spline_curve
-from seacrane.warnings import LargeSwingWarning
+from seacrane.warnings import LargeSwingWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
 G = 9.80665
 CASES: dict[str, Callable[..., Scene]] = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
-JOINT_ENDS = {  # first, second body of every joint, from the paper's topology
-    "deck": ("vessel", "tower"), "A": ("tower", "king"), "B": ("king", "main_barrel"),
-    "C": ("king", "main_jib"), "D": ("main_rod", "main_jib"), "E": ("main_jib", "knuckle_barrel"),
-    "F": ("main_jib", "knuckle_jib"), "G": ("knuckle_rod", "knuckle_jib"),
-    "main_cylinder": ("main_barrel", "main_rod"), "knuckle_cylinder": ("knuckle_barrel", "knuckle_rod"),
-    "link": ("knuckle_jib", "payload"),
-}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -41,23 +33,16 @@ def mass_scaled_singular_values(terms: dict[str, Array]) -> Array:
     return np.asarray(np.linalg.svd(scaled, compute_uv=False))
 
 
-def states_along(scene: Scene, times: list[float]) -> list[tuple[float, Array]]:
-    run = Run(scene, t_end=times[-1], dt_out=times[-1], channels=[])
-    out = [(run.start.time, np.array(run.start.values))]
-    for time in times:
-        run.advance(time)
-        out.append((time, np.array(run.core.state.values)))
-    return out
-
-
 def test_case2_has_60_coordinates_46_constraints_and_14_freedoms_and_keeps_its_equations() -> None:
     """Rank by NumPy along the motion; M a - D^T lambda = load and D a = gamma solved to rounding."""
     scene = cases.case2()
     model = scene.compile()
     evaluator = Evaluator(model)
     assert len(scene.bodies) == 10
-    for time, state in states_along(scene, [10.0, 20.0, 30.0, 45.0, 60.0]):
-        terms = evaluator.terms(time, state)
+    run = Run(scene, t_end=60.0, dt_out=60.0, channels=[])
+    for time in (0.0, 10.0, 20.0, 30.0, 45.0, 60.0):
+        run.advance(time)
+        terms = evaluator.terms(time, np.array(run.core.state.values))
         assert terms["jacobian"].shape == (46, 60) == (model.constraints, model.coordinates)
         values = mass_scaled_singular_values(terms)
         assert values[-1] > 1e-3 * values[0]
@@ -137,68 +122,6 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     assert abs(held.loads["slew"]) < 1e-3
 
 
-def loads_on_bodies(scene: Scene, run: Result) -> tuple[Array, Array]:
-    """Force and moment about the centre of mass (n, bodies, 3): weight, reactions, actuators."""
-    bodies, joints = list(run.coords["body"]), list(run.coords["joint"])
-    position = run["position"]
-    force, moment = np.zeros_like(position), np.zeros_like(position)
-    for k, name in enumerate(bodies):
-        if name != "vessel":
-            force[:, k, 2] -= scene.bodies[name].mass * scene.gravity
-
-    def apply(joint: str, f: Array, couple: Array, point: Array) -> None:
-        first, second = (bodies.index(body) for body in JOINT_ENDS[joint])
-        for body, sign in ((second, 1.0), (first, -1.0)):
-            force[:, body] += sign * f
-            moment[:, body] += sign * (couple + np.cross(point - position[:, body], f))
-
-    rotation = rotation_matrix(run["quaternion"])
-    for i, joint in enumerate(joints):
-        side = 0 if joint.endswith("_cylinder") else 1
-        described = scene.joints[joint]
-        frame = (described.first_frame, described.second_frame)[side]
-        body = bodies.index(JOINT_ENDS[joint][side])
-        arm = frame.point - scene.bodies[bodies[body]].center_of_mass
-        point = position[:, body] + rotation[:, body] @ arm
-        apply(joint, run["reaction_force"][:, i], run["reaction_moment"][:, i], point)
-    for i, actuator in enumerate(scene.actuators.values()):
-        first = bodies.index(JOINT_ENDS[actuator.joint][0])
-        frame = scene.joints[actuator.joint].first_frame
-        axis = rotation[:, first] @ frame.axes[:, 2]
-        load = run["actuator_force"][:, i, None] * axis
-        arm = frame.point - scene.bodies[bodies[first]].center_of_mass
-        point = position[:, first] + rotation[:, first] @ arm
-        slew = actuator.joint == "A"
-        apply(actuator.joint, 0.0 * load if slew else load, load if slew else 0.0 * load, point)
-    return force, moment
-
-
-def test_every_body_is_in_balance_in_waves_and_the_deck_takes_their_inertia() -> None:
-    """m a and J alpha + omega x J omega equal weight, reactions and actuators, from recorded channels."""
-    scene = cases.case2(hs=4.0)
-    channels = [*scene.compile().channel_names(), "acceleration", "angular_acceleration"]
-    with pytest.warns(LargeSwingWarning):
-        run = simulate(scene, t_end=60.0, dt_out=1.0, channels=channels)
-    force, moment = loads_on_bodies(scene, run)
-    rotation = rotation_matrix(run["quaternion"])
-    passed, total = np.zeros((run.time.size, 3)), 0.0
-    for k, name in enumerate(run.coords["body"]):
-        if name == "vessel":
-            continue
-        body = scene.bodies[name]
-        inertia = rotation[:, k] @ body.inertia @ rotation[:, k].transpose(0, 2, 1)
-        w, alpha = run["angular_velocity"][:, k], run["angular_acceleration"][:, k]
-        spin = np.einsum("tij,tj->ti", inertia, w)
-        rate = np.einsum("tij,tj->ti", inertia, alpha) + np.cross(w, spin)
-        weight = body.mass * G
-        np.testing.assert_allclose(force[:, k], body.mass * run["acceleration"][:, k], atol=1e-7 * weight)
-        np.testing.assert_allclose(moment[:, k] - rate, 0.0, atol=1e-6 * weight)
-        assert np.max(np.abs(run["acceleration"][:, k])) > 0.1
-        passed += body.mass * (run["acceleration"][:, k] + [0.0, 0.0, G])
-        total += weight
-    np.testing.assert_allclose(run.select("reaction_force", joint="deck"), passed, atol=1e-8 * total)
-
-
 def test_driven_forces_put_back_return_the_motion() -> None:
     """Forces that the motion needs in waves, fed forward at the same gains, give the same motion."""
     scene = cases.case2(hs=4.0)
@@ -216,3 +139,108 @@ def test_driven_forces_put_back_return_the_motion() -> None:
     assert np.max(np.abs(got["stroke"] - wanted["stroke"])) < 1e-7
     plain = simulate(scene, t_end=30.0, dt_out=0.02)
     assert np.max(np.abs(plain["stroke"] - wanted["stroke"])) > 1e-3
+
+
+STROKES = ("main", "knuckle")
+
+
+def on_the_ground(payload: Payload | None) -> Scene:
+    scene = Scene(name="crane on a quay")
+    scene.add_crane(base="ground", payload=payload)
+    for name, joint in cases.ACTUATORS.items():
+        scene.add_actuator(name=name, joint=joint)
+    return scene
+
+
+def moves() -> dict[str, Curve]:
+    ends = {"slew": cases.SLEW_END, "main": 3.0, "knuckle": 4.0}
+    return {n: Curve.quintic(start_time=2.0, end_time=20.0, start=0.0, end=end) for n, end in ends.items()}
+
+
+@pytest.mark.parametrize("payload", [None, Payload(mass=15e3)])
+def test_on_a_fixed_base_they_are_the_cranes_static_forces(payload: Payload | None) -> None:
+    """Virtual work on the crane's geometry, at poses on the way; a level slew bearing carries nothing."""
+    times = np.array([0.0, 6.0, 11.0, 15.0, 30.0])
+    loads = quasi_static_loads(on_the_ground(payload), times=times, references=moves())
+    for i, time in enumerate(times):
+        s1, s2 = (float(moves()[name].evaluate([time])[0, 0]) for name in STROKES)
+        mass = 0.0 if payload is None else payload.mass
+        forces = KnuckleBoomCrane.load().static_cylinder_forces(s1=s1, s2=s2, payload_mass=mass)
+        np.testing.assert_allclose([loads[name][i] for name in STROKES], forces, rtol=1e-7)
+        assert abs(loads["slew"][i]) < 1.0
+
+
+def test_afloat_they_are_what_a_driven_crane_comes_to_rest_with() -> None:
+    """Heel and trim included: mean loads of drivers that hold the end pose in calm water, without payload."""
+    scene = cases.case1(hs=0.0)
+    start, end = (quasi_static_loads(scene, times=[time]) for time in (0.0, 45.0))
+    assert start == pytest.approx(balance(scene).loads, rel=1e-6, abs=1.0)
+    run = simulate(driven(scene), t_end=700.0, dt_out=1.0)
+    late = run.time > 300.0  # two periods of the mooring
+    settled = np.append(run["slew_torque"][late].mean(), run["cylinder_force"][late].mean(axis=0))
+    np.testing.assert_allclose([end[name][0] for name in ("slew", "main", "knuckle")], settled, rtol=2e-3)
+    assert abs(end["slew"][0]) > 2e4  # the heel's
+
+
+@pytest.mark.parametrize("case", [cases.case2, cases.case3], ids=lambda case: case.__name__)
+def test_between_its_nodes_a_cases_curve_is_the_static_load(case: object) -> None:
+    """Within what moves a stroke by 0.5 mm; 5 mm in the oscillation of case 3 after its 100 s."""
+    scene = case(hs=0.0)  # type: ignore[operator]
+    times = np.array([2.4, 12.6, 23.1, 37.7, 47.0, 51.3, 53.05])
+    exact = quasi_static_loads(scene, times=times)
+    for name, actuator in scene.actuators.items():
+        curve = actuator.feed_forward
+        assert np.all(np.abs(curve.evaluate(times)[:, 0] - exact[name]) < 5e-4 * actuator.stiffness)
+        later = curve.evaluate(times[5:] + 150.0)[:, 0]
+        assert np.all(np.abs(later - exact[name][5:]) < 5e-3 * actuator.stiffness)
+
+
+def test_a_swing_goes_on_with_its_mean_and_first_harmonic() -> None:
+    """A weight on an arm, held by a torque: m g l cos(angle), expanded by quadrature."""
+    scene = Scene(name="arm")
+    scene.add_body(name="arm", mass=2.0, inertia=np.eye(3), position=(1.5, 0.0, 0.0))
+    scene.add_joint(kind="revolute", name="hinge", first="ground", second="arm", point=(0.0, 0.0, 0.0),
+                    axis=(0.0, -1.0, 0.0))  # fmt: skip
+    scene.add_actuator(name="motor", joint="hinge")
+    swing = Curve.harmonic(start_time=4.0, offset=0.5, amplitude=0.3, omega=2.0 * np.pi / 8.0)
+    reference = Curve.quintic(start_time=0.0, end_time=3.0, start=0.0, end=0.8).then(time=4.0, curve=swing)
+    times = np.append(np.linspace(0.0, 3.0, 7), np.linspace(3.25, 20.0, 68))
+    torque = feed_forward(scene, references={"motor": reference}, times=times, period=8.0)["motor"]
+    weight = 2.0 * scene.gravity * 1.5
+    exact = weight * np.cos(reference.evaluate(times)[:, 0])
+    np.testing.assert_allclose(torque.evaluate(times[:-1])[:, 0], exact[:-1], rtol=1e-9)
+    phase = 2.0 * np.pi * np.arange(400) / 400.0
+    over = weight * np.cos(0.5 + 0.3 * np.cos(phase))
+    first = 2.0 * np.mean(over * np.cos(phase))
+    later = np.linspace(20.0, 60.0, 41)
+    expected = np.mean(over) + first * np.cos(2.0 * np.pi * (later - 4.0) / 8.0)
+    np.testing.assert_allclose(torque.evaluate(later)[:, 0], expected, rtol=1e-6)
+    assert torque.breakpoints == []
+
+
+def test_what_makes_no_feed_forward_is_named() -> None:
+    scene, wanted = on_the_ground(None), moves()
+    for given, message in (
+        ({"times": [2.0, 6.0, 10.0]}, "'slew' moves at t = 10 s"),
+        ({"times": [2.0]}, "one time makes no curve"),
+        ({"times": [2.0, 20.0, 20.0]}, "times do not increase"),
+        ({"times": [2.0, 10.0, 16.0, 20.0], "period": 5.0}, "last period of 5 s holds 2"),
+        ({"times": [2.0, 20.0], "references": {"hoist": wanted["slew"]}}, "'hoist' does not exist"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            feed_forward(scene, **({"references": wanted} | given))
+    for times in ([-1.0, 20.0], [2.0, np.nan], [], [[2.0, 20.0]], "soon"):
+        with pytest.raises(SceneError, match=r"times|zero or later"):
+            quasi_static_loads(scene, references=wanted, times=times)
+    with pytest.raises(SceneError, match="no actuator to hold"):
+        quasi_static_loads(Scene(name="empty"), times=[0.0, 1.0])
+
+
+def test_a_load_that_the_vessel_cannot_carry_is_told_and_constant_loads_leave_strokes_short() -> None:
+    """A rest is found far over, at which no ship would float: the run says that it capsizes."""
+    with pytest.warns(UnstableRestWarning, match="capsizes"):
+        simulate(cases.case2(payload=Payload(mass=1.5e6)), t_end=0.1)
+    scene = cases.case2(payload=Payload(mass=1.5e6), feed_forward="start")
+    assert all(len(a.feed_forward.to_pieces()["starts"]) == 1 for a in scene.actuators.values())
+    short = 2.0 - simulate(cases.case2(hs=0.0, feed_forward="start"))["stroke"][-1]
+    np.testing.assert_allclose(short, [0.0151, 0.158], rtol=0.1)

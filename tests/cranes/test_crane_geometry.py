@@ -12,7 +12,6 @@ import numpy.typing as npt
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_cases import JOINT_ENDS
 
 from seacrane import Scene
 from seacrane.crane import BODIES, FOOT, KnuckleBoomCrane, Payload
@@ -26,6 +25,15 @@ CRANE = KnuckleBoomCrane.load()
 DATA, GEOMETRY = CRANE.data, CRANE.geometry
 STROKE = st.floats(0.0, 5.0)
 ANGLE = st.floats(-math.pi, math.pi)
+
+
+JOINT_ENDS = {  # first, second body of every joint, from the paper's topology
+    "deck": ("vessel", "tower"), "A": ("tower", "king"), "B": ("king", "main_barrel"),
+    "C": ("king", "main_jib"), "D": ("main_rod", "main_jib"), "E": ("main_jib", "knuckle_barrel"),
+    "F": ("main_jib", "knuckle_jib"), "G": ("knuckle_rod", "knuckle_jib"),
+    "main_cylinder": ("main_barrel", "main_rod"), "knuckle_cylinder": ("knuckle_barrel", "knuckle_rod"),
+    "link": ("knuckle_jib", "payload"),
+}  # fmt: skip
 
 
 def on_body(pose: dict[str, tuple[Array, Array]], name: str, point: tuple[float, float]) -> Array:

@@ -1,4 +1,4 @@
-"""Cranes whose cylinders are hydraulic: statics, compensation of heave, data files, lift files, cost."""
+"""Cranes whose cylinders are hydraulic: statics, heave compensation, data files; stages that move oil."""
 
 from __future__ import annotations
 
@@ -7,11 +7,23 @@ from typing import Any
 
 import numpy as np
 import pytest
-from element_runs import both_forms
-from hydraulic_scenes import RETRACTED, SET, START
+from element_runs import both_forms, goes_on
+from hydraulic_scenes import RETRACTED, SET, START, lifted, raised
+from line_scenes import add_led
 from multibody_runs import record
 
-from seacrane import Curve, Scene, SceneError, natural_modes, simulate, statics
+from seacrane import (
+    Curve,
+    Move,
+    Scene,
+    SceneError,
+    Stage,
+    Until,
+    natural_modes,
+    simulate,
+    simulate_stages,
+    statics,
+)
 from seacrane.crane import KnuckleBoomCrane, Payload, data_file, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
@@ -62,32 +74,19 @@ def test_a_crane_starts_at_rest_on_its_oil() -> None:
     result = simulate(scene, 2.0, dt_out=0.5, rtol=1e-8)
     assert np.ptp(result["hydraulic_stroke"], axis=0) == pytest.approx(0.0, abs=1e-6)
     assert result["cylinder_force"][0] == pytest.approx(expected, rel=1e-9)
-    by_scene = Scene(name="the same, from the scene's statics")
-    by_scene.add_crane(base="ground", payload=Payload(), held=True, hydraulics={"knuckle": OIL}, **POSE)
-    by_scene.remove("main_cylinder.displacement")
-    main = scene.loads["main_cylinder"]
-    given = {field.name: getattr(main, field.name) for field in type(main).FIELDS}
-    ram = by_scene.add_hydraulic_cylinder(**given | {"pressure": None, "pressure_rod": None})
-    assert ram.pressure == pytest.approx(main.pressure, rel=1e-9)
 
 
-@pytest.mark.parametrize("ramp", [0.0])
-def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
+def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea() -> None:
     """The ship's motion is at its start no rest, and with ramp=0 not the described pose."""
     found = []
     for in_a_sea in (False, True):
-        database, scene = shipped_database(), Scene(name="given")
-        scene.add_given_vessel(database, ramp=ramp)
-        crane = scene.add_crane(held=True, s1=2.0, s2=2.5, hydraulics={"main": OIL, "knuckle": OIL})
-        body, head = crane.tip
-        scene.add_body(
-            name="load", mass=20e3, inertia=(2e4, 2e4, 2e4),
-            position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
-        )  # fmt: skip
-        scene.add_line(
-            name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e8,
-            tension_at_start=20e3 * scene.gravity,
-        )  # fmt: skip
+        scene = Scene(name="given")
+        scene.add_given_vessel(shipped_database(), ramp=0.0)
+        body, head = scene.add_crane(held=True, s1=2.0, s2=2.5, hydraulics=BOTH).tip
+        place = scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0])
+        scene.add_body(name="load", mass=20e3, inertia=(2e4, 2e4, 2e4), position=place)
+        line = {"points": [head, (0, 0, 0)], "EA": 1e8, "tension_at_start": 20e3 * scene.gravity}
+        scene.add_line(name="hoist", bodies=[body, "load"], **line)
         if in_a_sea:
             scene.add_sea(hs=3.0, tp=7.0, seed=5)
         found.append([(one.pressure, one.pressure_rod) for one in scene.hold_pressures().values()])
@@ -97,21 +96,13 @@ def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
 def on_a_ship(*, compensated: bool, **more: Any) -> Scene:
     """A load on a cylinder on a deck that heaves by 30 mm in 4 s."""
     scene = Scene(name="deck")
-    scene.add_body(name="ship", mass=1e6, inertia=(1e6, 1e6, 1e6), position=(0, 0, 0))
-    scene.add_joint(
-        kind="prismatic", name="deck", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1)
-    )
     swell = Curve.harmonic(start_time=2.0, offset=0.03, amplitude=0.03, omega=0.5 * np.pi, phase=np.pi)
-    rise = Curve.constant(value=0.0).then(time=2.0, curve=swell)
-    scene.add_driver(joint="deck", curve=rise)
+    add_led(scene, "ship", Curve.constant(value=0.0).then(time=2.0, curve=swell))
     place = (0.0, 0.0, RETRACTED + START)
     scene.add_body(name="load", mass=1000.0, inertia=(10.0, 10.0, 10.0), position=place)
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ship", second="load", point=(0, 0, 0), axis=(0, 0, 1)
-    )
-    scene.add_hydraulic_cylinder(
-        name="ram", first="ship", second="load", **SET | {"gain": 20.0, "rate_gain": 12.0} | more
-    )
+    scene.add_joint(kind="prismatic", name="rail", first="ship", second="load", axis=(0, 0, 1))
+    oil = SET | {"gain": 20.0, "rate_gain": 12.0} | more
+    scene.add_hydraulic_cylinder(name="ram", first="ship", second="load", **oil)
     if compensated:
         scene.add_heave_compensation(name="ahc", body="ship", actuator="ram", ratio=-1.0, high_pass=0.0)
     return scene
@@ -250,3 +241,89 @@ def test_bad_hydraulics_of_a_crane_are_named(name: str | None, hydraulics: Any, 
             crane(hydraulics).compile()
         else:
             Scene(name="x").add_crane(load_crane(name), base="ground", hydraulics=hydraulics)
+
+
+FOLLOWS: dict[str, Any] = {"gain": 60.0, "rate_gain": 12.0, "spool_lag": 0.02}
+HOLE = 4e-6  # m2
+
+
+def test_a_stage_moves_the_reference_and_the_cylinder_follows() -> None:
+    up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
+    down = Stage(name="down", duration=3.0, commands={"ram.reference": Move(to=START, over=2.0)})
+    result = simulate_stages(raised(**FOLLOWS), [up, down], dt_out=0.1)
+    stroke = result["hydraulic_stroke"][:, 0]
+    assert stroke[result.time <= 3.0][-1] == pytest.approx(START + 0.1, abs=2e-4)
+    assert stroke[-1] == pytest.approx(START, abs=2e-4)
+    curve = Curve.quintic(start_time=0.0, end_time=2.0, start=START, end=START + 0.1)
+    whole = simulate(raised(reference=curve, **FOLLOWS), 3.0, dt_out=0.1)
+    np.testing.assert_allclose(stroke[: len(whole.time)], whole["hydraulic_stroke"][:, 0], atol=2e-6)
+
+
+@pytest.mark.warns("BoilingOilWarning")
+def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
+    """The instant is located; from there it is the run whose hose bursts at that time."""
+    shut = Curve.quintic(start_time=0.5, end_time=0.51, start=0.6, end=0.0)
+    curve = Curve.constant(value=0.6).then(time=0.5, curve=shut)
+    scene = raised(command=curve, viscous_friction=2e4, makeup_flow=4e-4)
+    bound = 1.02 * simulate(scene, 0.5)["hydraulic_pressure"][-1, 0, 1]
+    high = Until.channel("hydraulic_pressure", minimum=bound, hydraulic_cylinder="ram", chamber="rod")
+    stages = [
+        Stage(name="lift", until=high, maximum_duration=2.0),
+        Stage(name="burst", duration=1.0, commands={"ram.rupture": HOLE}),
+    ]
+    result = simulate_stages(scene, stages, dt_out=0.05, rtol=1e-8)
+    at = result.stages[0].end
+    assert 0.5 < at < 0.6
+    burst = ("ram.rupture", at)
+    assert [(event.name, event.time) for event in result.events].count(burst) == 1
+    again = scene.copy()
+    again.replace("ram", rupture_time=at, rupture_area=HOLE)
+    whole = simulate(again, at + 1.0, dt_out=0.05, rtol=1e-8)
+    assert burst in [(event.name, event.time) for event in whole.events]
+    for name in ("hydraulic_stroke", "hydraulic_spill"):
+        late = [one[name][one.time > at + 0.5][:9, 0] for one in (result, whole)]
+        np.testing.assert_allclose(*late, rtol=1e-6, atol=1e-12)
+    assert np.all(result["hydraulic_spill"][result.time <= at] == 0.0)
+    assert np.min(result["hydraulic_spill"][result.time > at + 0.01]) > 0.0
+
+
+@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
+def test_a_run_goes_on_bit_for_bit_across_a_burst(formulation: str) -> None:
+    burst = {"rupture_time": 1.5, "rupture_area": HOLE}
+    valve = {"counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4}
+    for stopped in (1.43, 1.5, 1.503):
+        goes_on(
+            lambda: lifted(**burst, **valve), 1.7, stopped, dt_out=0.1, rtol=1e-6, formulation=formulation
+        )
+
+
+def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load() -> None:
+    opened = simulate_stages(
+        raised(),
+        [Stage(name="open", duration=1.5, commands={"ram.command": 0.3}),
+         Stage(name="shut", duration=1.5, commands={"ram.command": Move(to=0.0, over=0.5)})],
+    )  # fmt: skip
+    spool = opened["hydraulic_spool"][:, 0]
+    assert np.max(spool) == pytest.approx(0.3, rel=1e-3) and spool[-1] == pytest.approx(0.0, abs=1e-6)
+    up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
+    alone = simulate_stages(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
+    np.testing.assert_allclose(alone["hydraulic_stroke"][:, 0], START + 0.1, atol=1e-6)
+    np.testing.assert_allclose(alone["hydraulic_force"][:, 0], 1000.0 * 9.80665, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "commands", "message"),
+    [
+        ({}, {"ram.reference": Move(by=0.1, over=1.0)}, "there are ram.command"),
+        ({"rated_flow": 0.0, "pump_pressure": 0.0}, {"ram.command": 0.1}, "there are ram.rupture"),
+        (FOLLOWS, {"ram.reference": 0.4}, "give Move"),
+        ({}, {"ram.rupture": 0.0}, "'ram.rupture' is 0 m2"),
+        ({}, {"ram.rupture": Move(to=1e-6, over=1.0)}, "a hose bursts at once"),
+        ({"rupture_time": 9.0, "rupture_area": HOLE}, {"ram.rupture": HOLE}, "not there"),
+        ({}, {"ram.rupture": HOLE}, "stage 'again': commands 'ram.rupture'"),
+    ],
+)
+def test_commands_that_cannot_be_are_told(settings: Any, commands: dict[str, Any], message: str) -> None:
+    stages = [Stage(name=name, duration=1.0, commands=commands) for name in ("s", "again")]
+    with pytest.raises(SceneError, match=message):
+        simulate_stages(raised(**settings), stages)

@@ -9,6 +9,7 @@ import pytest
 from contact_scenes import REBOUNDS
 from element_runs import FORMULATIONS
 from heavy_line_scenes import BED
+from line_scenes import add_led
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, _core, simulate
@@ -158,12 +159,8 @@ def pulled(segments: int) -> float:
     """Tension (N) over that at the start, of the end of 20 m of line on the seabed, drawn by 13 mm."""
     strain, sunk = 5e-5, 500.0 / 2e4
     scene = Scene(name="pulled", gravity=10.0)
-    scene.add_body(name="sled", mass=100.0, inertia=(10.0,) * 3, position=(20.0, 0.0, -10.0 - sunk))
-    scene.add_joint(
-        kind="prismatic", name="rail", first="ground", second="sled", point=(20.0, 0.0, -10.0 - sunk),
-        axis=(1, 0, 0),
-    )  # fmt: skip
-    scene.add_driver(joint="rail", curve=Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=0.013))
+    draw = Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=0.013)
+    add_led(scene, "sled", draw, place=(20.0, 0.0, -10.0 - sunk), axis=(1, 0, 0))
     scene.add_line(
         "line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0, 0.0),
         rung="with mass", EA=1e6, length=20.0 / (1.0 + strain), mass_per_length=50.0, segments=segments,

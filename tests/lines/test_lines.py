@@ -26,7 +26,6 @@ from seacrane import (
     natural_modes,
     simulate,
 )
-from seacrane.warnings import WinchLimitWarning
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)
@@ -95,17 +94,6 @@ def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
     assert_allclose(out["position"][:, 0], expected[:, :3], atol=2e-7)
     assert_allclose(out["load_state"], expected[:, 6:], atol=1e-8)
     assert_allclose(out["line_pay_out_rate"][:, 0], expected[:, 7], atol=1e-8)
-
-
-def test_hauling_in_stops_at_the_minimum_length_and_is_told() -> None:
-    scene = hung(length=3.0, damping=0.05)
-    scene.add_winch(line="hoist", rate=-0.6, maximum_rate=0.5, minimum_length=2.0)
-    with pytest.warns(WinchLimitWarning) as told:
-        out = simulate(scene, 4.0, rtol=1e-8, dt_out=0.05)
-    assert_allclose(out["load_state"][:, 0], np.maximum(3.0 - 0.5 * out.time, 2.0), atol=1e-7)
-    assert_allclose(out["line_pay_out_rate"][out.time > 2.05], 0.0)
-    words = " ".join(str(one.message) for one in told)
-    assert "t = 2 s" in words and "minimum_length" in words and "maximum_rate of 0.5 m/s" in words
 
 
 @pytest.mark.warns("LiftedStartWarning")
