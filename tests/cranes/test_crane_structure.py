@@ -17,6 +17,7 @@ from seacrane import (
     balance,
     cases,
     equilibrium,
+    shipped_database,
     simulate,
     simulate_stages,
     statics,
@@ -45,6 +46,20 @@ def test_hook_stiffness_is_that_of_rope_and_crane_in_series(rung: str, stiffness
     series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
     assert told["hook stiffness"] == pytest.approx(series, rel=1e-6 if stiffness is None else 0.01)
     assert f"{1e6 / told['hook stiffness']:.4g}  mm/kN" in str(told)
+
+
+@pytest.mark.parametrize("base", ["ground", "vessel"])
+def test_n_falls_count_by_their_square_at_the_hook_and_a_floating_ship_is_held(base: str) -> None:
+    """n^2 EA / l0; the block is the hook, and what hangs below it on slings counts for nothing."""
+    scene = Scene()
+    if base == "vessel":
+        scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(base=base, s1=1.5, s2=1.0)
+    slings = {"angle_deg": 60, "EA": 5e7}
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), length=10.0, EA=EA, falls=2, block_mass=1e3, slings=slings)
+    told = statics(scene)
+    rope = float(told["line unstretched length hoist"])
+    assert told["hook stiffness"] == pytest.approx(4.0 * EA / rope, rel=1e-6)
 
 
 def test_a_rod_and_a_rigid_wire_are_as_stiff_as_the_crane() -> None:

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 from element_runs import both_forms, goes_on
-from hydraulic_scenes import RETRACTED, SET, START, lifted, raised
+from hydraulic_scenes import FULL, RETRACTED, RING, SET, START, lifted, raised
 from line_scenes import add_led
 from multibody_runs import record
 
 from seacrane import (
     Curve,
+    Lift,
     Move,
     Scene,
     SceneError,
@@ -327,3 +328,25 @@ def test_commands_that_cannot_be_are_told(settings: Any, commands: dict[str, Any
     stages = [Stage(name=name, duration=1.0, commands=commands) for name in ("s", "again")]
     with pytest.raises(SceneError, match=message):
         simulate_stages(raised(**settings), stages)
+
+
+@pytest.mark.warns("BoilingOilWarning")
+def test_a_lift_file_commands_oil() -> None:
+    ram = {"name": "ram", "first": "ground", "second": "load", "full_area_m2": FULL, "rod_side_area_m2": RING,
+           "retracted_length_m": 1.05, "stroke_m": 0.6, "pump_pressure_Pa": 7.6e6,
+           "rated_flow_m3_per_s": 4e-4, "gain_per_m": 5}  # fmt: skip
+    up = {"name": "ram.reference", "by_m": 0.05, "over_s": 0.8}
+    burst = [{"name": "ram.rupture", "value_m2": 4e-6}, {"name": "ram.command", "value": -0.1}]
+    told: dict[str, Any] = {
+        "scene": {"name": "oil"}, "hydraulic_cylinder": [ram],
+        "body": [{"name": "load", "mass_kg": 1e3, "inertia_kg_m2": [10, 10, 10], "position_m": [0, 0, 1.35]}],
+        "joint": [{"kind": "prismatic", "name": "guide", "first": "ground", "second": "load"}],
+        "stage": [{"name": "up", "duration_s": 1, "commands": [up]},
+                  {"name": "burst", "duration_s": 1, "commands": burst}],
+    }  # fmt: skip
+    result = Lift(told).simulate()
+    assert ("ram.rupture", 1.0) in [(event.name, event.time) for event in result.events]
+    assert result["hydraulic_spill"][-1, 0] > 0.0
+    up["by_deg"] = up.pop("by_m")
+    with pytest.raises(FileFormatError, match=r"by_deg .* in m; give by_m"):
+        Lift(told).scene()

@@ -188,6 +188,32 @@ def test_what_a_crane_of_joints_cannot_do_is_told(lattice: JointedCrane, a_frame
             call()
 
 
+LIFT = """format = "seacrane lift"
+version = 2
+scene = { name = "lattice" }
+luffing_rope = { luff = "boom", rate_m_per_s = 0.1 }
+run = { t_end_s = 0.5 }
+[crane]
+crane = "crane.toml"
+base = "ground"
+foot_m = [0.0, 0.0, 0.0]
+held = true
+coordinates = [{ name = "boom", value_deg = 60.0 }]
+payload = { mass_kg = 20e3 }
+"""
+
+
+def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
+    (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
+    (tmp_path / "lift.toml").write_text(LIFT, encoding="utf-8")
+    result = seacrane.Lift.load(tmp_path / "lift.toml").simulate()
+    assert result["link_tension"][0] == pytest.approx(20e3 * G, rel=1e-2)
+    assert result["line_length"][-1, 0] > result["line_length"][0, 0]
+    (tmp_path / "lift.toml").write_text(LIFT.replace("value_deg = 60.0", "value_m = 1.0"), encoding="utf-8")
+    with pytest.raises(FileFormatError, match="'boom' is of a revolute joint; give value_deg or value_rad"):
+        seacrane.Lift.load(tmp_path / "lift.toml").simulate()
+
+
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
 BESIDE = (SHIPPED / "service_arm_5t.toml").read_text(encoding="utf-8")
 RECORDED = Path(__file__).parents[2] / "benchmarks" / "peers" / "references" / "service_arm.json"

@@ -146,6 +146,24 @@ def test_an_existing_body_stays_a_ship_turns_the_load_and_slings_take_a_rung() -
     assert pulls["quasi-static"] == pytest.approx(pulls["elastic"], rel=1e-3)
 
 
+def test_a_load_described_inside_or_below_its_deck_is_named() -> None:
+    """Height of its centre over the deck, along the deck's normal: the barge lies heeled by 10 deg."""
+    scene, deck = Scene(), np.array([3.0, 1.0, 5.0])
+    heeled = (np.cos(np.radians(5.0)), np.sin(np.radians(5.0)), 0.0, 0.0)
+    normal = np.array([0.0, -np.sin(np.radians(10.0)), np.cos(np.radians(10.0))])
+    scene.add_body("barge", mass=1e6, size=(40, 20, 4), position=(0, 0, 3), quaternion=heeled)
+    for name, over in (("good", 1.5), ("in", -0.5), ("under", -9.0)):
+        scene.add_body(name, mass=2e4, size=(4, 4, 3), position=deck + over * normal, quaternion=heeled)
+        scene.add_joint(name, kind="weld", first="barge", second=name, point=deck, axis=normal)
+    scene.add_seat("good")
+    for name, words in (
+        ("in", "inside 'barge', .* raise it by 2 m"),
+        ("under", "below .* raise it by 10.5 m"),
+    ):
+        with pytest.raises(SceneError, match=words):
+            scene.add_seat(name)
+
+
 def test_a_lift_file_has_it(tmp_path: Any) -> None:
     (tmp_path / "lift.toml").write_text(
         """format = "seacrane lift"

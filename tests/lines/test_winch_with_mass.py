@@ -139,6 +139,20 @@ def test_stages_command_it_and_wait_for_it() -> None:
     )
 
 
+def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
+    scene = Scene(name="hoist", gravity=G)
+    scene.add_crane(base="ground", slew=0.0, s1=1.0, s2=2.0, held=True)
+    load: dict[str, Any] = {"mass": 50e3, "size": (4, 4, 4), "rung": "with mass"}
+    for wire, message in (({"EA": 1.0}, "wire has 'EA'"), (None, "needs a smooth length")):
+        with pytest.raises(SceneError, match=message):
+            scene.add_hoist("wire", winch=True, wire=wire, **load)
+    wire = {"segments": 5, "medium": "sea", "diameter": 0.06}
+    how = {"length": 20.0, "EA": 1.5e8, "mass_per_length": 20.0, "winch": {"lag": 0.1}, "wire": wire}
+    scene.add_hoist("wire", **load, **how)
+    assert equilibrium(scene).load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
+    assert [one for one in scene.loads if one.endswith("water")] == [f"wire.{i} water" for i in range(1, 6)]
+
+
 def test_what_does_not_fit_is_refused_by_name() -> None:
     rest = Curve.constant(value=0.0)
     for given, message in (
