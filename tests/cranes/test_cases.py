@@ -91,7 +91,7 @@ def test_at_rest_in_calm_water_it_stays_and_the_deck_carries_its_weight(name: st
     assert np.max(np.abs(run["vessel_motion"])) < 1e-10
     assert np.max(np.ptp(run["position"], axis=0)) < 1e-8
     assert np.max(np.abs(run["velocity"])) < 1e-8
-    if name == "case1":
+    if name != "case2":
         return
     crane = KnuckleBoomCrane.load()
     tip = crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)

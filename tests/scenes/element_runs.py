@@ -23,6 +23,7 @@ def both_forms(
     Channels agree within the bounds given, and the energy balance closes; the redundant run is returned.
     """
     runs = [record(scene, t_end, formulation=name, **how) for name in FORMULATIONS]
+    assert set(within) <= set(runs[0])
     if merge:
         settings = {"dt_out": 0.05, "rtol": 1e-8} | how
         unmerged = Run(scene, t_end=t_end, model=scene.compile(merge=False), **settings)
