@@ -71,6 +71,8 @@ def test_every_kind_of_bound() -> None:
     assert states_of(10.0, None, [-1.0, 80.0]) == np.inf, "it has gone slack"
     assert states_of(None, -10.0, [-40.0, -20.0]) == pytest.approx(0.5)
     assert states_of(None, 100.0, [-20.0, -80.0]) == 0.0
+    with pytest.raises(FileFormatError, match="limit states are none that a run writes"):
+        states_of(None, None, [1.0])
 
 
 def test_one_word_asks_for_a_slack_margin_of_a_tenth() -> None:

@@ -46,6 +46,21 @@ def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
         simulate(hung(stretch=0.15), 0.05, dt_out=0.05, start=rest)
 
 
+@pytest.mark.parametrize(
+    ("length", "words"), [(0.71, "stage 'hook on': line 'tag' connects stretched"), (1.0, "")]
+)
+def test_a_stage_that_connects_a_line_too_short_is_told(length: float, words: str) -> None:
+    scene = hung()
+    path = {"bodies": ["ground", "load"], "points": [(1.0, 0, -10.0), (0, 0, 0)]}
+    scene.add_line(name="tag", EA=1e6, length=length, **path)
+    stages = [Stage(name="wait", duration=0.1), Stage(name="hook on", duration=0.1, connect=["tag"])]
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulate_stages(scene, stages)
+    found = [str(one.message) for one in caught if "connects" in str(one.message)]
+    assert [words in one and "by 0.29" in one for one in found] == ([True] if words else [])
+
+
 def moored() -> Scene:
     """A barge of 100 t that hangs between two lines: at rest these are stretched by a fifth."""
     scene = Scene(name="moored")

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from reeving_scenes import (
     HEIGHT,
     MASS,
+    RADIUS,
     G,
     belt,
     capstan,
@@ -26,6 +27,7 @@ from scipy.interpolate import PchipInterpolator
 
 from seacrane import Scene, SceneError, SimulationError, equilibrium, simulate
 from seacrane.description.line_path import described_poses, laid
+from seacrane.pictures.wires import wires_of
 from seacrane.warnings import FleetAngleWarning, LineTableWarning
 
 Array = NDArray[np.float64]
@@ -163,6 +165,17 @@ def test_a_line_that_leaves_its_sheave_ends_the_run_by_name() -> None:
     scene.replace("load", velocity=(14.0, 0.0, 0.0))
     with pytest.raises(SimulationError, match=r"line 'hoist': leaves the sheave at its point 1: its wrap"):
         simulate(scene, 5.0)
+
+
+def test_arcs_are_drawn() -> None:
+    scene = tackle(falls=2)
+    wires = wires_of(scene, list(scene.bodies))
+    assert [wire["name"] for wire in wires[:2]] == ["hoist 1", "hoist 2"]
+    arc = np.array([wire["from"][1:] for wire in wires[2:]] + [wires[-1]["to"][1:]])
+    assert len(arc) > 10
+    assert_allclose(np.linalg.norm(arc, axis=1), RADIUS, atol=1e-4)
+    assert_allclose(arc[[0, -1]], [(-RADIUS, 0, 0), (RADIUS, 0, 0)], atol=1e-12)
+    assert arc[:, 2].min() == pytest.approx(-RADIUS, rel=1e-2)
 
 
 GIVEN: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "length": 1.0}
