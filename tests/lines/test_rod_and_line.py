@@ -17,6 +17,7 @@ from seacrane import Result, Scene, Stage, ensemble, report, shipped_database, s
 from seacrane.answers import load_chart, statics, summary
 from seacrane.crane import Payload
 from seacrane.description.suspension import hung_loads
+from seacrane.lift.study_run import run_study
 from seacrane.operability import Criterion, allowable_hs
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.warnings import BallastWarning, LoadInHullWarning, MassUnitWarning
@@ -87,6 +88,43 @@ class Hung:
             warnings.simplefilter("always")
             simulate(self.scene(**given), 0.01, **HOW)
         return category in {one.category for one in caught}
+
+    def lift_file(self, folder: Path) -> None:
+        """The lift on the ground, in stages, and a study of it."""
+        given = [f"{key} = {text(value)}" for key, value in LIFTS[self.by].items() if key not in UNITS]
+        given += [f"{UNITS[key]} = {text(value)}" for key, value in LIFTS[self.by].items() if key in UNITS]
+        hung = [f"payload_mass_kg = {MASS}"] if self.by == "rod" else [
+            "[hoist]", 'load = "payload"', f"mass_kg = {MASS}", f"size_m = {list(SIZE)}", *given,
+        ]  # fmt: skip
+        crane = ["[[crane]]", 'base = "ground"', *hung]
+        lines = [*HEAD, *crane, *(f'[[stage]]\nname = "{one.name}"\nduration_s = 0.1' for one in STAGES)]
+        (folder / "lift.toml").write_text("\n".join(lines), encoding="utf-8")
+        (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+
+
+UNITS = {"EA": "EA_N", "mass_per_length": "mass_per_length_kg_per_m", "block_mass": "block_mass_kg"}
+HEAD = (
+    'format = "seacrane lift"', "version = 2", "[scene]", 'name = "hung"', "[method]",
+    'integrator = "rk4"', "dt_s = 5e-4", "[outputs]", "dt_out_s = 0.02",
+)  # fmt: skip
+STUDY = """format = "seacrane study"
+version = 2
+lift = "lift.toml"
+
+[over]
+"stages.up.duration" = [0.1, 0.2]
+
+[[keep]]
+name = "peak"
+channel = "hook_load[stage=up]"
+what = "maximum"
+"""
+
+
+def text(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{UNITS.get(key, key)} = {one}" for key, one in value.items()) + "}"
+    return f'"{value}"' if isinstance(value, str) else str(value)
 
 
 def weight(hung: Hung) -> float:
@@ -215,6 +253,14 @@ hung = lru_cache(Hung)
 @pytest.mark.parametrize(("by", "row"), ASKED)
 def test_whatever_it_hangs_on_has_it(by: str, row: str) -> None:
     assert ROWS[row](hung(by))
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("by", LIFTS)
+def test_a_study_file_of_its_stages_runs(by: str, tmp_path: Path) -> None:
+    hung(by).lift_file(tmp_path)
+    told = run_study(tmp_path / "study.toml", tmp_path / "out")
+    assert not told.failures and np.isfinite(told.dataset.peak).all()
 
 
 def test_the_document_shows_what_is_asked_for_here() -> None:
