@@ -59,7 +59,7 @@ def exudyn(rows: Array | None = None) -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"a mass lifted through an open valve, 1 s: {what}",
             reference="hydraulic actuator of Exudyn", difference=float(np.abs(difference).max()), unit=unit,
-            limit=limit, test="cranes/test_hydraulics_peer.py",
+            limit=limit, test="lines/test_exudyn_peer.py",
         )  # fmt: skip
 
 

@@ -54,7 +54,7 @@ def exudyn(rows: Array | None = None) -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"hook on a line over three sheaves, 4 s: {what}",
             reference="reeving of Exudyn", difference=float(np.abs(difference).max()), unit=unit, limit=limit,
-            test="lines/test_reeving_peer.py",
+            test="lines/test_exudyn_peer.py",
         )  # fmt: skip
 
 

@@ -22,7 +22,6 @@ from seacrane.analysis import driven
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.warnings import LargeSwingWarning, PushingLinkWarning
 
 Array = NDArray[np.float64]
 
@@ -57,13 +56,9 @@ def quick_case2() -> Scene:
     scene.actuators.clear()
     for name, actuator in actuators.items():
         scene.add_actuator(
-            name=name,
-            joint=actuator.joint,
-            stiffness=actuator.stiffness,
-            damping=actuator.damping,
-            feed_forward=actuator.feed_forward,
-            reference=engine_reference(name),
-        )
+            name=name, joint=actuator.joint, stiffness=actuator.stiffness, damping=actuator.damping,
+            feed_forward=actuator.feed_forward, reference=engine_reference(name),
+        )  # fmt: skip
     return scene
 
 
@@ -78,14 +73,12 @@ def wave_load(scene: Scene) -> Callable[[float], Array]:
 def body_records(scene: Scene) -> list[dict[str, Any]]:
     return [
         {
-            "name": body.name,
-            "mass": body.mass,
-            "inertia": body.inertia,
+            "name": body.name, "mass": body.mass, "inertia": body.inertia,
             "position": body.position + rotation_matrix(body.quaternion) @ body.center_of_mass,
             "quaternion": body.quaternion,
         }
         for body in scene.bodies.values()
-    ]
+    ]  # fmt: skip
 
 
 def joint_records(payload: Payload | None) -> list[dict[str, Any]]:
@@ -105,28 +98,22 @@ def vessel_record(scene: Scene) -> dict[str, Any]:
         for b in parameters.memory.blocks
     ]
     return {
-        "body": "vessel",
-        "added_mass": parameters.added_mass,
-        "damping": parameters.linear_damping,
-        "restoring": parameters.restoring,
-        "quadratic_roll_damping": parameters.quadratic_damping[3],
+        "body": "vessel", "added_mass": parameters.added_mass, "damping": parameters.linear_damping,
+        "restoring": parameters.restoring, "quadratic_roll_damping": parameters.quadratic_damping[3],
         "reference_point": [0.0, 0.0, 0.0],
         "station_keeping": {"stiffness": moored.mooring_stiffness, "damping": moored.mooring_damping},
         "memory": {"blocks": blocks},
-    }
+    }  # fmt: skip
 
 
 def actuator_records(scene: Scene) -> list[dict[str, Any]]:
     return [
         {
-            "joint": actuator.joint,
-            "stiffness": actuator.stiffness,
-            "damping": actuator.damping,
-            "feedforward": feed_forward_record(actuator.feed_forward),
-            "reference": reference_record(name),
+            "joint": actuator.joint, "stiffness": actuator.stiffness, "damping": actuator.damping,
+            "feedforward": feed_forward_record(actuator.feed_forward), "reference": reference_record(name),
         }
         for name, actuator in scene.actuators.items()
-    ]
+    ]  # fmt: skip
 
 
 def feed_forward_record(curve: Curve) -> dict[str, Any]:
@@ -143,85 +130,52 @@ def reference_system(scene: Scene, *, prescribed: bool = False) -> System:
     """The scene for the reference; `prescribed` replaces the controllers by drivers on their references."""
     balance = scene.point_forces["balance"]
     records = {
-        "gravity": [0.0, 0.0, -scene.gravity],
-        "bodies": body_records(scene),
-        "joints": joint_records(Payload()),
-        "actuators": [] if prescribed else actuator_records(scene),
+        "gravity": [0.0, 0.0, -scene.gravity], "bodies": body_records(scene),
+        "joints": joint_records(Payload()), "actuators": [] if prescribed else actuator_records(scene),
         "drivers": driver_records(scene) if prescribed else [],
         "point_forces": [{"body": "vessel", "point": balance.point, "force": balance.force}],
         "vessel": vessel_record(scene),
-    }
+    }  # fmt: skip
     return System.from_records(records, wave_loads=wave_load(scene))
 
 
-@pytest.fixture(scope="module")
-def both() -> tuple[Any, Any, System]:
+MOTION = ("time", "position", "velocity", "angular_velocity", "quaternion", "vessel_motion")
+
+
+@pytest.mark.parametrize("prescribed", [False, True])
+@pytest.mark.warns("LargeSwingWarning", "PushingLinkWarning")
+def test_a_run_agrees_with_the_reference(prescribed: bool) -> None:
+    """With strokes and slew prescribed, drivers' loads are the cylinder forces and the torque needed."""
     scene = quick_case2()
-    with pytest.warns((LargeSwingWarning, PushingLinkWarning)):
-        ours = simulate(scene, t_end=T_END, dt_out=0.5, rtol=1e-11)
-    system = reference_system(scene)
-    return ours, simulate_reference(system, T_END, ours.time, rtol=1e-9), system
-
-
-def relative(difference: float, values: Array) -> float:
-    return difference / float(np.max(np.abs(values)))
-
-
-def test_reference_counts_the_same(both: tuple[Any, Any, System]) -> None:
-    ours, _, system = both
-    assert MOVE_END < SWITCH < T_END
+    # Prescribed without an output at the step in acceleration, where loads have two values.
+    run = driven(scene) if prescribed else scene
+    ours = simulate(run, t_end=T_END, dt_out=0.4 if prescribed else 0.5, rtol=1e-11)
+    system = reference_system(scene, prescribed=prescribed)
+    theirs = simulate_reference(system, T_END, ours.time, rtol=1e-9)
+    within = 1e-7 if prescribed else 1e-8
+    channels = {n: ours.time if n == "time" else ours[n] for n in MOTION}
+    found = differences(theirs, channels, bodies=list(ours.coords["body"]))
+    assert max(found.values()) < within
+    if prescribed:
+        loads = np.column_stack([ours["slew_torque"], ours["cylinder_force"]])
+        pairs = [(loads, theirs["driver_load"])]
+    else:
+        pairs = [
+            (ours["actuator_force"], theirs["actuator_load"]),
+            (ours["wave_force"], theirs["wave_force"]),
+        ]
+    for one, other in pairs:
+        error = np.max(np.abs(one - other), axis=0) / np.max(np.abs(other), axis=0)
+        np.testing.assert_array_less(error, within)
+    if prescribed:
+        return
+    channels = {"time": ours.time} | {n: ours[n] for n in ("reaction_force", "reaction_moment")}
+    found = differences(theirs, channels, bodies=list(ours.coords["body"]), joints=list(ours.coords["joint"]))
+    for name in ("reaction_force", "reaction_moment"):
+        assert found[name] < 1e-8 * np.max(np.abs(theirs[name]))
     assert system.rows.count == system.rank == ours.stats["constraints"] == 46
     assert system.degrees_of_freedom == ours.stats["degrees_of_freedom"] == 14
-
-
-def test_run_moves_everything(both: tuple[Any, Any, System]) -> None:
-    """The comparison means something: payload, jibs and vessel go far in this run."""
-    ours, theirs, _ = both
-    travel = np.ptp(theirs["position"], axis=0)
+    travel = np.ptp(theirs["position"], axis=0)  # all goes far
     assert np.all(np.linalg.norm(travel[2:], axis=1) > 0.3)
     assert np.ptp(ours["vessel_motion"][:, 3]) > 0.01
     assert np.max(np.abs(theirs["memory_force"][:, 2])) > 5e4
-
-
-def test_motion_agrees(both: tuple[Any, Any, System]) -> None:
-    ours, theirs, _ = both
-    names = ("time", "position", "velocity", "angular_velocity", "quaternion", "vessel_motion")
-    found = differences(theirs, {n: ours.time if n == "time" else ours[n] for n in names},
-                        bodies=list(ours.coords["body"]))  # fmt: skip
-    assert found["position"] < 1e-8
-    assert found["attitude"] < 1e-8
-    assert found["velocity"] < 1e-8
-    assert found["angular_velocity"] < 1e-8
-    assert found["vessel_motion"] < 1e-8
-
-
-def test_reactions_agree(both: tuple[Any, Any, System]) -> None:
-    ours, theirs, _ = both
-    channels = {"time": ours.time, **{n: ours[n] for n in ("reaction_force", "reaction_moment")}}
-    found = differences(theirs, channels, bodies=list(ours.coords["body"]), joints=list(ours.coords["joint"]))
-    for name in ("reaction_force", "reaction_moment"):
-        assert relative(found[name], theirs[name]) < 1e-8
-
-
-def test_actuators_and_waves_agree(both: tuple[Any, Any, System]) -> None:
-    ours, theirs, _ = both
-    loads = ours["actuator_force"]
-    for found, expected in ((loads, theirs["actuator_load"]), (ours["wave_force"], theirs["wave_force"])):
-        error = np.max(np.abs(found - expected), axis=0) / np.max(np.abs(expected), axis=0)
-        np.testing.assert_array_less(error, 1e-8)
-
-
-@pytest.mark.warns("LargeSwingWarning", "PushingLinkWarning")
-def test_driven_run_agrees() -> None:
-    """Strokes and slew prescribed: the drivers' loads are the cylinder forces and the slew torque needed."""
-    scene = quick_case2()
-    # No output at the step in acceleration, where loads have two values.
-    ours = simulate(driven(scene), t_end=T_END, dt_out=0.4, rtol=1e-11)
-    theirs = simulate_reference(reference_system(scene, prescribed=True), T_END, ours.time, rtol=1e-9)
-    found = np.column_stack([ours["slew_torque"], ours["cylinder_force"]])
-    error = np.max(np.abs(found - theirs["driver_load"]), axis=0) / np.max(np.abs(found), axis=0)
-    np.testing.assert_array_less(error, 1e-7)
-    names = ("time", "position", "velocity", "angular_velocity", "quaternion", "vessel_motion")
-    channels = {n: ours.time if n == "time" else ours[n] for n in names}
-    motion = differences(theirs, channels, bodies=list(ours.coords["body"]))
-    assert max(motion.values()) < 1e-7

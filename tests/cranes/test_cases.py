@@ -1,32 +1,22 @@
-"""The three lift cases: counting, drift, energy, heel, balance, and driven simulation."""
+"""The three lift cases: counting, drift, energy, balance, driven runs, and feed-forward along curves."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Result, Run, Scene, balance, cases, simulate
-from seacrane.analysis import Evaluator, driven
+from seacrane import Curve, Result, Run, Scene, SceneError, balance, cases, simulate
+from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.hydro import shipped_database
-from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import spline_curve
-from seacrane.warnings import LargeSwingWarning
+from seacrane.warnings import LargeSwingWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
 G = 9.80665
 CASES: dict[str, Callable[..., Scene]] = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
-JOINT_ENDS = {  # first, second body of every joint, from the paper's topology
-    "deck": ("vessel", "tower"), "A": ("tower", "king"), "B": ("king", "main_barrel"),
-    "C": ("king", "main_jib"), "D": ("main_rod", "main_jib"), "E": ("main_jib", "knuckle_barrel"),
-    "F": ("main_jib", "knuckle_jib"), "G": ("knuckle_rod", "knuckle_jib"),
-    "main_cylinder": ("main_barrel", "main_rod"), "knuckle_cylinder": ("knuckle_barrel", "knuckle_rod"),
-    "link": ("knuckle_jib", "payload"),
-}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -43,33 +33,24 @@ def mass_scaled_singular_values(terms: dict[str, Array]) -> Array:
     return np.asarray(np.linalg.svd(scaled, compute_uv=False))
 
 
-def states_along(scene: Scene, times: list[float]) -> list[tuple[float, Array]]:
-    run = Run(scene, t_end=times[-1], dt_out=times[-1], channels=[])
-    out = [(run.start.time, np.array(run.start.values))]
-    for time in times:
-        run.advance(time)
-        out.append((time, np.array(run.core.state.values)))
-    return out
-
-
-def test_case2_has_60_coordinates_46_constraints_and_14_freedoms() -> None:
-    """Counted by NumPy's rank at the start and along the motion."""
+def test_case2_has_60_coordinates_46_constraints_and_14_freedoms_and_keeps_its_equations() -> None:
+    """Rank by NumPy along the motion; M a - D^T lambda = load and D a = gamma solved to rounding."""
     scene = cases.case2()
     model = scene.compile()
     evaluator = Evaluator(model)
     assert len(scene.bodies) == 10
-    for time, state in states_along(scene, [10.0, 20.0, 30.0, 45.0, 60.0]):
-        terms = evaluator.terms(time, state)
+    run = Run(scene, t_end=60.0, dt_out=60.0, channels=[])
+    for time in (0.0, 10.0, 20.0, 30.0, 45.0, 60.0):
+        run.advance(time)
+        terms = evaluator.terms(time, np.array(run.core.state.values))
         assert terms["jacobian"].shape == (46, 60) == (model.constraints, model.coordinates)
         values = mass_scaled_singular_values(terms)
         assert values[-1] > 1e-3 * values[0]
-        assert np.linalg.matrix_rank(terms["jacobian"]) == 46
-        assert 60 - int(np.sum(values > 1e-6 * values[0])) == 14 == model.degrees_of_freedom
-
-
-def test_a_locked_slew_bearing_shows_as_redundant() -> None:
-    """The count can fail: welding what a joint already holds adds rows but no rank."""
-    scene = cases.case2()
+        assert 60 - np.linalg.matrix_rank(terms["jacobian"]) == 14 == model.degrees_of_freedom
+        pull = terms["jacobian"].T @ terms["multipliers"]
+        load = terms["mass"] @ terms["acceleration"] - pull - terms["load"]
+        assert np.max(np.abs(load)) < 1e-10 * np.max(np.abs(terms["load"]))
+        assert np.max(np.abs(terms["jacobian"] @ terms["acceleration"] - terms["gamma"])) < 1e-10
     scene.add_joint(kind="revolute", name="A again", first="tower", second="king",
                     point=KnuckleBoomCrane.load().joints(foot=FOOT)[1].point)  # fmt: skip
     with pytest.warns(UserWarning, match="A again"):
@@ -77,59 +58,21 @@ def test_a_locked_slew_bearing_shows_as_redundant() -> None:
     assert (model.constraints, model.degrees_of_freedom) == (51, 14)
 
 
-def test_equations_of_motion_hold_along_the_run() -> None:
-    """Equation (9): M a - D^T lambda = load and D a = gamma, solved to rounding."""
-    scene = cases.case2()
-    evaluator = Evaluator(scene.compile())
-    for time, state in states_along(scene, [7.0, 21.0, 50.0]):
-        terms = evaluator.terms(time, state)
-        pull = terms["jacobian"].T @ terms["multipliers"]
-        load = terms["mass"] @ terms["acceleration"] - pull - terms["load"]
-        assert np.max(np.abs(load)) < 1e-10 * np.max(np.abs(terms["load"]))
-        kinematic = terms["jacobian"] @ terms["acceleration"] - terms["gamma"]
-        assert np.max(np.abs(kinematic)) < 1e-10
-
-
 @pytest.mark.parametrize("name", CASES)
-def test_constraints_stay_closed(runs: dict[str, Result], name: str) -> None:
+def test_constraints_stay_closed_and_so_does_the_energy_balance(runs: dict[str, Result], name: str) -> None:
     run = runs[name]
     assert run.time[-1] == 100.0 and len(run.time) == 1001
     assert np.max(run["constraint_error"]) < 1e-9
     assert np.max(run["constraint_rate_error"]) < 1e-9
     assert np.max(run["constraint_error_before_projection"]) == 0.0  # tree coordinates leave nothing open
-
-
-def test_projection_closes_what_steps_of_the_redundant_form_open() -> None:
-    run = simulate(cases.case2(), formulation="redundant", t_end=10.0)
-    assert run.stats["formulation"] == "redundant"
-    assert 0.0 < np.max(run["constraint_error_before_projection"]) < 1e-5
-    assert np.max(run["constraint_error"]) < 1e-9
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_energy_balance_closes(runs: dict[str, Result], name: str) -> None:
-    run = runs[name]
     assert np.max(np.abs(run["energy_balance"])) < 1e-6 * run["absolute_work"][-1]
     assert run["absolute_work"][-1] > 1e8
 
 
-def energy_error(scene: Scene, **settings: Any) -> tuple[float, float]:
-    """Evaluations, and the largest energy imbalance over the absolute work."""
-    run = simulate(scene, channels=["energy_balance", "absolute_work"], **settings)
-    error = np.max(np.abs(run["energy_balance"])) / run["absolute_work"][-1]
-    return float(run.stats["evaluations"]), float(error)
-
-
-def test_energy_error_falls_with_the_methods_order() -> None:
-    """Order 4 of rk4 over the step; order 5 of dopri5 over the evaluations that a tolerance costs."""
-    scene = cases.case2(evaluation="exact")
-    fixed = [energy_error(scene, integrator="rk4", dt=dt, t_end=60.0)[1] for dt in (0.1, 0.05, 0.025)]
-    orders = np.log2(np.array(fixed[:-1]) / fixed[1:])
-    assert np.all((orders > 3.5) & (orders < 5.0))
-    evaluations, errors = np.array([energy_error(scene, rtol=rtol) for rtol in (1e-5, 1e-6, 1e-7, 1e-8)]).T
-    slope = np.polyfit(np.log(evaluations), np.log(errors), 1)[0]
-    assert -7.0 < slope < -4.5
-    assert np.all(errors[1:] < 0.3 * errors[:-1])
+def test_projection_closes_what_steps_of_the_redundant_form_open() -> None:
+    run = simulate(cases.case2(), formulation="redundant", t_end=10.0)
+    assert 0.0 < np.max(run["constraint_error_before_projection"]) < 1e-5
+    assert np.max(run["constraint_error"]) < 1e-9
 
 
 def still(scene: Scene) -> Scene:
@@ -143,20 +86,20 @@ def still(scene: Scene) -> Scene:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_at_rest_in_calm_water_it_stays(name: str) -> None:
+def test_at_rest_in_calm_water_it_stays_and_the_deck_carries_its_weight(name: str) -> None:
     run = simulate(still(CASES[name](hs=0.0)), rtol=1e-10)
     assert np.max(np.abs(run["vessel_motion"])) < 1e-10
     assert np.max(np.ptp(run["position"], axis=0)) < 1e-8
     assert np.max(np.abs(run["velocity"])) < 1e-8
-
-
-@pytest.mark.warns("BallastWarning")
-def test_without_the_balancing_force_it_heels_by_several_degrees() -> None:
-    """The rest above means something: PITFALLS expects 6 to 8 deg from the unbalanced crane."""
-    scene = still(cases.case1(hs=0.0))
-    del scene.point_forces["balance"]
-    run = simulate(scene, t_end=300.0, dt_out=1.0)
-    assert 3.0 < abs(np.degrees(np.mean(run["vessel_motion"][200:, 3]))) < 10.0
+    if name != "case2":
+        return
+    crane = KnuckleBoomCrane.load()
+    tip = crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
+    force, moment = (run.select(f"reaction_{what}", joint="deck")[0] for what in ("force", "moment"))
+    np.testing.assert_allclose(force, [0.0, 0.0, (crane.mass + 10e3) * G], atol=1e-3)
+    assert run["link_tension"][0] == pytest.approx(10e3 * G, rel=1e-9)
+    arm = (crane.center_of_mass() - np.array(FOOT)) * crane.mass + tip * 10e3
+    np.testing.assert_allclose(moment, [arm[1] * G, -arm[0] * G, 0.0], atol=1e-2)
 
 
 @pytest.mark.parametrize("payload", [None, Payload()])
@@ -179,144 +122,6 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     assert abs(held.loads["slew"]) < 1e-3
 
 
-def heel_by_hand(payload: Payload | None, slew: float, s1: float, s2: float) -> float:
-    """Moved weight's moment over C44 less what the crane and payload weights high up take from it, rad.
-
-    The hanging payload acts at the tip. Body-fixed balancing force at waterline height under the start's
-    common centre of gravity.
-    """
-    crane = KnuckleBoomCrane.load()
-
-    def weight_moments(pose: dict[str, float]) -> tuple[float, float]:
-        center = crane.center_of_mass(**pose)
-        across, high = crane.mass * G * center[1], crane.mass * G * center[2]
-        if payload:
-            tip = np.array(FOOT) + crane.geometry.tip(**pose)
-            across, high = across + payload.mass * G * tip[1], high + payload.mass * G * tip[2]
-        return across, high
-
-    start, _ = weight_moments({"slew": 0.0, "s1": 0.0, "s2": 0.0})
-    end, high = weight_moments({"slew": slew, "s1": s1, "s2": s2})
-    c44 = shipped_database().restoring[3, 3]
-    assert 0.7 < 1.0 - high / c44 < 0.8
-    return -(end - start) / (c44 - high)
-
-
-@pytest.mark.warns(sometimes=["LargeSwingWarning"])
-@pytest.mark.parametrize("name", ["case1", "case2"])
-def test_mean_heel_after_the_swing_out(name: str) -> None:
-    """Within 5 % of the closed form, at the reached and at the commanded pose; in waves and in calm water."""
-    payload = Payload() if name == "case2" else None
-    alone = simulate(cases.vessel(), channels=["vessel_motion"])
-    run = simulate(CASES[name]())
-    late = run.time >= 50.0
-    moved = float(np.mean(run["vessel_motion"][late, 3] - alone["vessel_motion"][late, 3]))
-    s1, s2 = np.mean(run["stroke"][late], axis=0)
-    reached = heel_by_hand(payload, float(np.mean(run["slew_angle"][late])), float(s1), float(s2))
-    commanded = heel_by_hand(payload, -np.pi / 2.0, 2.0, 2.0)
-    assert moved == pytest.approx(reached, rel=0.05)
-    assert moved == pytest.approx(commanded, rel=0.05)
-    calm = simulate(CASES[name](hs=0.0), t_end=400.0, dt_out=50.0, channels=["vessel_motion"])
-    assert calm["vessel_motion"][-1, 3] == pytest.approx(reached, rel=0.01)
-    assert np.degrees(moved) < -3.0
-
-
-def test_payload_adds_its_share_of_heel() -> None:
-    heel = [float(simulate(CASES[n](hs=0.0), t_end=400.0, dt_out=50.0)["vessel_motion"][-1, 3])
-            for n in ("case1", "case2")]  # fmt: skip
-    expected = heel_by_hand(Payload(), -np.pi / 2, 2.0, 2.0) - heel_by_hand(None, -np.pi / 2, 2.0, 2.0)
-    assert heel[1] - heel[0] == pytest.approx(expected, rel=0.05)
-
-
-def loads_on_bodies(scene: Scene, run: Result) -> tuple[Array, Array]:
-    """Force and moment about the centre of mass (n, bodies, 3): weight, reactions, actuators."""
-    bodies, joints = list(run.coords["body"]), list(run.coords["joint"])
-    position = run["position"]
-    force, moment = np.zeros_like(position), np.zeros_like(position)
-    for k, name in enumerate(bodies):
-        if name != "vessel":
-            force[:, k, 2] -= scene.bodies[name].mass * scene.gravity
-
-    def apply(joint: str, f: Array, couple: Array, point: Array) -> None:
-        first, second = (bodies.index(body) for body in JOINT_ENDS[joint])
-        for body, sign in ((second, 1.0), (first, -1.0)):
-            force[:, body] += sign * f
-            moment[:, body] += sign * (couple + np.cross(point - position[:, body], f))
-
-    rotation = rotation_matrix(run["quaternion"])
-    for i, joint in enumerate(joints):
-        side = 0 if joint.endswith("_cylinder") else 1
-        described = scene.joints[joint]
-        frame = (described.first_frame, described.second_frame)[side]
-        body = bodies.index(JOINT_ENDS[joint][side])
-        arm = frame.point - scene.bodies[bodies[body]].center_of_mass
-        point = position[:, body] + rotation[:, body] @ arm
-        apply(joint, run["reaction_force"][:, i], run["reaction_moment"][:, i], point)
-    for i, actuator in enumerate(scene.actuators.values()):
-        first = bodies.index(JOINT_ENDS[actuator.joint][0])
-        frame = scene.joints[actuator.joint].first_frame
-        axis = rotation[:, first] @ frame.axes[:, 2]
-        load = run["actuator_force"][:, i, None] * axis
-        arm = frame.point - scene.bodies[bodies[first]].center_of_mass
-        point = position[:, first] + rotation[:, first] @ arm
-        slew = actuator.joint == "A"
-        apply(actuator.joint, 0.0 * load if slew else load, load if slew else 0.0 * load, point)
-    return force, moment
-
-
-@pytest.fixture(scope="module")
-def loads_in_waves() -> tuple[Scene, Result, Array, Array]:
-    scene = cases.case2(hs=4.0)
-    channels = [*scene.compile().channel_names(), "acceleration", "angular_acceleration"]
-    with pytest.warns(LargeSwingWarning):
-        run = simulate(scene, t_end=60.0, dt_out=1.0, channels=channels)
-    return scene, run, *loads_on_bodies(scene, run)
-
-
-def test_every_body_is_in_balance_in_waves(loads_in_waves: tuple[Scene, Result, Array, Array]) -> None:
-    """m a and J alpha + omega x J omega equal weight, reactions and actuators, from recorded channels."""
-    scene, run, force, moment = loads_in_waves
-    rotation = rotation_matrix(run["quaternion"])
-    for k, name in enumerate(run.coords["body"]):
-        if name == "vessel":
-            continue
-        body = scene.bodies[name]
-        inertia = rotation[:, k] @ body.inertia @ rotation[:, k].transpose(0, 2, 1)
-        w, alpha = run["angular_velocity"][:, k], run["angular_acceleration"][:, k]
-        spin = np.einsum("tij,tj->ti", inertia, w)
-        rate = np.einsum("tij,tj->ti", inertia, alpha) + np.cross(w, spin)
-        weight = body.mass * G
-        np.testing.assert_allclose(force[:, k], body.mass * run["acceleration"][:, k], atol=1e-7 * weight)
-        np.testing.assert_allclose(moment[:, k] - rate, 0.0, atol=1e-6 * weight)
-        assert np.max(np.abs(run["acceleration"][:, k])) > 0.1
-
-
-def test_crane_and_payload_pass_their_inertia_to_the_deck(
-    loads_in_waves: tuple[Scene, Result, Array, Array],
-) -> None:
-    """The deck's reaction is the rate of momentum of all nine bodies above it less their weight."""
-    scene, run, _, _ = loads_in_waves
-    above = [k for k, name in enumerate(run.coords["body"]) if name != "vessel"]
-    mass = np.array([scene.bodies[run.coords["body"][k]].mass for k in above])
-    expected = np.einsum("k,tki->ti", mass, run["acceleration"][:, above])
-    expected[:, 2] += float(np.sum(mass)) * G
-    deck = run.select("reaction_force", joint="deck")
-    np.testing.assert_allclose(deck, expected, atol=1e-8 * float(np.sum(mass)) * G)
-
-
-def test_base_reaction_at_rest_equals_the_weight() -> None:
-    scene = still(cases.case2(hs=0.0))
-    run = simulate(scene, t_end=0.1)
-    weight = (KnuckleBoomCrane.load().mass + 10e3) * G
-    np.testing.assert_allclose(run.select("reaction_force", joint="deck")[0], [0.0, 0.0, weight], atol=1e-3)
-    assert run["link_tension"][0] == pytest.approx(10e3 * G, rel=1e-9)
-    crane = KnuckleBoomCrane.load()
-    tip = crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
-    arm = (crane.center_of_mass() - np.array(FOOT)) * crane.mass + tip * 10e3
-    moment = run.select("reaction_moment", joint="deck")[0]
-    np.testing.assert_allclose(moment, [arm[1] * G, -arm[0] * G, 0.0], atol=1e-2)
-
-
 def test_driven_forces_put_back_return_the_motion() -> None:
     """Forces that the motion needs in waves, fed forward at the same gains, give the same motion."""
     scene = cases.case2(hs=4.0)
@@ -334,3 +139,108 @@ def test_driven_forces_put_back_return_the_motion() -> None:
     assert np.max(np.abs(got["stroke"] - wanted["stroke"])) < 1e-7
     plain = simulate(scene, t_end=30.0, dt_out=0.02)
     assert np.max(np.abs(plain["stroke"] - wanted["stroke"])) > 1e-3
+
+
+STROKES = ("main", "knuckle")
+
+
+def on_the_ground(payload: Payload | None) -> Scene:
+    scene = Scene(name="crane on a quay")
+    scene.add_crane(base="ground", payload=payload)
+    for name, joint in cases.ACTUATORS.items():
+        scene.add_actuator(name=name, joint=joint)
+    return scene
+
+
+def moves() -> dict[str, Curve]:
+    ends = {"slew": cases.SLEW_END, "main": 3.0, "knuckle": 4.0}
+    return {n: Curve.quintic(start_time=2.0, end_time=20.0, start=0.0, end=end) for n, end in ends.items()}
+
+
+@pytest.mark.parametrize("payload", [None, Payload(mass=15e3)])
+def test_on_a_fixed_base_they_are_the_cranes_static_forces(payload: Payload | None) -> None:
+    """Virtual work on the crane's geometry, at poses on the way; a level slew bearing carries nothing."""
+    times = np.array([0.0, 6.0, 11.0, 15.0, 30.0])
+    loads = quasi_static_loads(on_the_ground(payload), times=times, references=moves())
+    for i, time in enumerate(times):
+        s1, s2 = (float(moves()[name].evaluate([time])[0, 0]) for name in STROKES)
+        mass = 0.0 if payload is None else payload.mass
+        forces = KnuckleBoomCrane.load().static_cylinder_forces(s1=s1, s2=s2, payload_mass=mass)
+        np.testing.assert_allclose([loads[name][i] for name in STROKES], forces, rtol=1e-7)
+        assert abs(loads["slew"][i]) < 1.0
+
+
+def test_afloat_they_are_what_a_driven_crane_comes_to_rest_with() -> None:
+    """Heel and trim included: mean loads of drivers that hold the end pose in calm water, without payload."""
+    scene = cases.case1(hs=0.0)
+    start, end = (quasi_static_loads(scene, times=[time]) for time in (0.0, 45.0))
+    assert start == pytest.approx(balance(scene).loads, rel=1e-6, abs=1.0)
+    run = simulate(driven(scene), t_end=700.0, dt_out=1.0)
+    late = run.time > 300.0  # two periods of the mooring
+    settled = np.append(run["slew_torque"][late].mean(), run["cylinder_force"][late].mean(axis=0))
+    np.testing.assert_allclose([end[name][0] for name in ("slew", "main", "knuckle")], settled, rtol=2e-3)
+    assert abs(end["slew"][0]) > 2e4  # the heel's
+
+
+@pytest.mark.parametrize("case", [cases.case2, cases.case3], ids=lambda case: case.__name__)
+def test_between_its_nodes_a_cases_curve_is_the_static_load(case: object) -> None:
+    """Within what moves a stroke by 0.5 mm; 5 mm in the oscillation of case 3 after its 100 s."""
+    scene = case(hs=0.0)  # type: ignore[operator]
+    times = np.array([2.4, 12.6, 23.1, 37.7, 47.0, 51.3, 53.05])
+    exact = quasi_static_loads(scene, times=times)
+    for name, actuator in scene.actuators.items():
+        curve = actuator.feed_forward
+        assert np.all(np.abs(curve.evaluate(times)[:, 0] - exact[name]) < 5e-4 * actuator.stiffness)
+        later = curve.evaluate(times[5:] + 150.0)[:, 0]
+        assert np.all(np.abs(later - exact[name][5:]) < 5e-3 * actuator.stiffness)
+
+
+def test_a_swing_goes_on_with_its_mean_and_first_harmonic() -> None:
+    """A weight on an arm, held by a torque: m g l cos(angle), expanded by quadrature."""
+    scene = Scene(name="arm")
+    scene.add_body(name="arm", mass=2.0, inertia=np.eye(3), position=(1.5, 0.0, 0.0))
+    scene.add_joint(kind="revolute", name="hinge", first="ground", second="arm", point=(0.0, 0.0, 0.0),
+                    axis=(0.0, -1.0, 0.0))  # fmt: skip
+    scene.add_actuator(name="motor", joint="hinge")
+    swing = Curve.harmonic(start_time=4.0, offset=0.5, amplitude=0.3, omega=2.0 * np.pi / 8.0)
+    reference = Curve.quintic(start_time=0.0, end_time=3.0, start=0.0, end=0.8).then(time=4.0, curve=swing)
+    times = np.append(np.linspace(0.0, 3.0, 7), np.linspace(3.25, 20.0, 68))
+    torque = feed_forward(scene, references={"motor": reference}, times=times, period=8.0)["motor"]
+    weight = 2.0 * scene.gravity * 1.5
+    exact = weight * np.cos(reference.evaluate(times)[:, 0])
+    np.testing.assert_allclose(torque.evaluate(times[:-1])[:, 0], exact[:-1], rtol=1e-9)
+    phase = 2.0 * np.pi * np.arange(400) / 400.0
+    over = weight * np.cos(0.5 + 0.3 * np.cos(phase))
+    first = 2.0 * np.mean(over * np.cos(phase))
+    later = np.linspace(20.0, 60.0, 41)
+    expected = np.mean(over) + first * np.cos(2.0 * np.pi * (later - 4.0) / 8.0)
+    np.testing.assert_allclose(torque.evaluate(later)[:, 0], expected, rtol=1e-6)
+    assert torque.breakpoints == []
+
+
+def test_what_makes_no_feed_forward_is_named() -> None:
+    scene, wanted = on_the_ground(None), moves()
+    for given, message in (
+        ({"times": [2.0, 6.0, 10.0]}, "'slew' moves at t = 10 s"),
+        ({"times": [2.0]}, "one time makes no curve"),
+        ({"times": [2.0, 20.0, 20.0]}, "times do not increase"),
+        ({"times": [2.0, 10.0, 16.0, 20.0], "period": 5.0}, "last period of 5 s holds 2"),
+        ({"times": [2.0, 20.0], "references": {"hoist": wanted["slew"]}}, "'hoist' does not exist"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            feed_forward(scene, **({"references": wanted} | given))
+    for times in ([-1.0, 20.0], [2.0, np.nan], [], [[2.0, 20.0]], "soon"):
+        with pytest.raises(SceneError, match=r"times|zero or later"):
+            quasi_static_loads(scene, references=wanted, times=times)
+    with pytest.raises(SceneError, match="no actuator to hold"):
+        quasi_static_loads(Scene(name="empty"), times=[0.0, 1.0])
+
+
+def test_a_load_that_the_vessel_cannot_carry_is_told_and_constant_loads_leave_strokes_short() -> None:
+    """A rest is found far over, at which no ship would float: the run says that it capsizes."""
+    with pytest.warns(UnstableRestWarning, match="capsizes"):
+        simulate(cases.case2(payload=Payload(mass=1.5e6)), t_end=0.1)
+    scene = cases.case2(payload=Payload(mass=1.5e6), feed_forward="start")
+    assert all(len(a.feed_forward.to_pieces()["starts"]) == 1 for a in scene.actuators.values())
+    short = 2.0 - simulate(cases.case2(hs=0.0, feed_forward="start"))["stroke"][-1]
+    np.testing.assert_allclose(short, [0.0151, 0.158], rtol=0.1)

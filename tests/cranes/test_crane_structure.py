@@ -1,4 +1,4 @@
-"""A crane that gives: stiffness at the hook in series, snaps that follow it, at rest as described."""
+"""Cranes: one that gives, stiffness at the hook in series, snaps; two in one scene, roles of parts."""
 
 from __future__ import annotations
 
@@ -7,13 +7,23 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from seacrane import Lift, Scene, SceneError, Stage, equilibrium, simulate, simulate_stages, statics
-from seacrane.crane import load_crane
-from seacrane.crane.builder import FOOT, KnuckleBoomCrane
-from seacrane.crane.structure import leaning
-from seacrane.warnings import LineLengthWarning
+from seacrane import (
+    Curve,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    balance,
+    cases,
+    equilibrium,
+    shipped_database,
+    simulate,
+    simulate_stages,
+    statics,
+)
+from seacrane.crane import Payload, load_crane
+from seacrane.warnings import LargeSwingWarning, LineLengthWarning
 
 G = 9.80665
 STIFFNESS, EA, MASS, RATE = 4e6, 3e7, 200e3, 0.3
@@ -38,36 +48,23 @@ def test_hook_stiffness_is_that_of_rope_and_crane_in_series(rung: str, stiffness
     assert f"{1e6 / told['hook stiffness']:.4g}  mm/kN" in str(told)
 
 
-def test_n_falls_and_slings_count_and_a_ship_does_not() -> None:
-    """n falls of a rope: n^2 EA / l0 at the hook; the block is the hook, and a floating ship is held."""
-    from seacrane import shipped_database
-
-    told = []
-    for base in ("ground", "vessel"):
-        scene = Scene()
-        if base == "vessel":
-            scene.add_vessel(shipped_database(), memory="none")
-        scene.add_crane(base=base, s1=1.5, s2=1.0)
-        scene.add_hoist(mass=20e3, size=(4, 4, 3), length=10.0, EA=EA, falls=2, block_mass=1e3,
-                        slings={"angle_deg": 60, "EA": 5e7})  # fmt: skip
-        told.append(statics(scene))
-    for one in told:
-        rope = float(one["line unstretched length hoist"])
-        assert one["hook stiffness"] == pytest.approx(4.0 * EA / rope, rel=1e-6)
+@pytest.mark.parametrize("base", ["ground", "vessel"])
+def test_n_falls_count_by_their_square_at_the_hook_and_a_floating_ship_is_held(base: str) -> None:
+    """n^2 EA / l0; the block is the hook, and what hangs below it on slings counts for nothing."""
+    scene = Scene()
+    if base == "vessel":
+        scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(base=base, s1=1.5, s2=1.0)
+    slings = {"angle_deg": 60, "EA": 5e7}
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), length=10.0, EA=EA, falls=2, block_mass=1e3, slings=slings)
+    told = statics(scene)
+    rope = float(told["line unstretched length hoist"])
+    assert told["hook stiffness"] == pytest.approx(4.0 * EA / rope, rel=1e-6)
 
 
 def test_a_rod_and_a_rigid_wire_are_as_stiff_as_the_crane() -> None:
     assert statics(hung(None, rung="rigid", EA=None))["hook stiffness"] == np.inf
     assert statics(hung(rung="rigid", EA=None))["hook stiffness"] == pytest.approx(STIFFNESS, rel=0.02)
-
-
-def test_a_slack_line_has_no_stiffness_to_tell() -> None:
-    scene = Scene()
-    scene.add_crane(base="ground", s1=1.5, s2=1.0)
-    scene.add_hoist(mass=20e3, size=(4, 4, 3), EA=EA, on="ground", slack=0.3)
-    told = statics(scene)
-    assert np.isnan(told["hook stiffness"])
-    assert str(told).split("hook stiffness")[1].split()[:2] == ["-", "mm/kN"]
 
 
 def test_a_heavier_load_sags_by_what_the_stiffness_tells() -> None:
@@ -105,31 +102,12 @@ def snap(stiffness: float | None) -> tuple[float, float]:
     return float(result.curve("line_tension[hoist]").max()), 1e8 / length
 
 
-def two_masses(line: float, tip: float) -> float:
-    """The same by two masses and two springs: the crane's own mass at its tip, and the load, which stands."""
-    crane = KnuckleBoomCrane.load()
-    _, lean = leaning(crane.parts(foot=FOOT, slew=0.0, s1=1.5, s2=1.0))
-    damper = 0.02 * 2.0 * np.sqrt(line * MASS)
-
-    def rates(t: float, y: Any) -> list[float]:
-        sag, down, lift, up = y  # of the tip, and of the load over its deck
-        pull = max(0.0, line * (RATE * t - sag - lift) + damper * (RATE - down - up))
-        rise = max(pull / MASS - G, 0.0) if lift <= 0.0 else pull / MASS - G
-        return [down, (pull - tip * sag - lean.damping(tip) * down) / lean.inertia, up, rise]
-
-    solved = solve_ivp(rates, (0.0, 6.0), [0.0] * 4, max_step=0.002)
-    sag, down, lift, up = solved.y
-    return float(np.max(line * (RATE * solved.t - sag - lift) + damper * (RATE - down - up)))
-
-
 @pytest.mark.parametrize("stiffness", [None, STIFFNESS])
 def test_a_snap_follows_the_combined_stiffness(stiffness: float | None) -> None:
     """W + v sqrt(k m), to the dampers and the crane's own mass; by two masses and springs closer."""
     peak, line = snap(stiffness)
     series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
     assert peak == pytest.approx(MASS * G + RATE * np.sqrt(series * MASS), rel=0.02)
-    if stiffness is not None:
-        assert peak == pytest.approx(two_masses(line, stiffness), rel=0.005)
 
 
 @pytest.mark.parametrize("slew", [0.0, 1.2])
@@ -159,17 +137,111 @@ def test_a_crane_of_joints_gives_too(tmp_path: Path) -> None:
     assert Scene.load(tmp_path / "scene.json") == scene
 
 
-def test_radii_are_those_of_the_crane_upright() -> None:
-    told = statics(hung(), radius=[24.0, 22.0])
-    assert told["tip radius"] == pytest.approx([24.0, 22.0], abs=0.1)
+FEET = {"": (0.0, 0.0, 0.0), "aft ": (-60.0, 5.0, 0.0)}
+PARTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+ENDS = {"": (-0.6, 0.5, 0.3), "aft ": (0.4, 0.2, 0.6)}
+LOADS = {"": 10e3, "aft ": 25e3}
 
 
-def test_lift_files_have_it_and_nonsense_is_refused() -> None:
-    text = {
-        "format": "seacrane lift", "version": 2, "scene": {"name": "gives"},
-        "crane": [{"base": "ground", "s1_m": 1.5, "s2_m": 1.0, "stiffness_N_per_m": 4e6}],
-        "hoist": [{"mass_kg": 20e3, "size_m": [4, 4, 3], "length_m": 10, "EA_N": 3e7}],
-    }  # fmt: skip
-    assert Lift(text).scene() == hung()
-    with pytest.raises(SceneError, match=r"stiffness is 0.0 N/m; give a finite number above zero"):
-        hung(0.0)
+def cranes(*prefixes: str) -> Scene:
+    """Cranes on a fixed base, each with its own payload and its own swing-out."""
+    scene = Scene(name="cranes")
+    for prefix in prefixes:
+        payload = Payload(mass=LOADS[prefix])
+        scene.add_crane(base="ground", foot=FEET[prefix], payload=payload, prefix=prefix)
+        for name, joint in PARTS.items():
+            scene.record_coordinate(joint=prefix + joint)
+            scene.add_actuator(name=prefix + name, joint=prefix + joint)
+    loads = balance(scene).loads
+    like = cases.case2(hs=0.0, memory="none").actuators
+    for prefix in prefixes:
+        for name, end in zip(PARTS, ENDS[prefix], strict=True):
+            scene.replace(
+                prefix + name, kind="actuator", stiffness=like[name].stiffness, damping=like[name].damping,
+                feed_forward=loads[prefix + name],
+                reference=Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=end),
+            )  # fmt: skip
+    return scene
+
+
+RUN: dict[str, Any] = {"t_end": 3.0, "integrator": "rk4", "dt": 0.02}
+
+
+@pytest.fixture(scope="module")
+def both() -> Result:
+    with pytest.warns(LargeSwingWarning):
+        return simulate(cranes("", "aft "), **RUN)
+
+
+@pytest.mark.warns(sometimes=["LargeSwingWarning"])
+@pytest.mark.parametrize("prefix", FEET)
+def test_two_cranes_on_a_fixed_base_move_as_each_does_alone(both: Result, prefix: str) -> None:
+    alone = simulate(cranes(prefix), **RUN)
+    for body in alone.coords["body"]:
+        one, other = (run.select("position", body=body) for run in (both, alone))
+        np.testing.assert_allclose(one, other, atol=1e-9)
+    for channel, dim, labels, scale in (
+        ("stroke", "cylinder", ("main", "knuckle"), 1e-9),
+        ("stroke_rate", "cylinder", ("main", "knuckle"), 1e-9),
+        ("cylinder_force", "cylinder", ("main", "knuckle"), 1e-2), ("slew_angle", "slew", ("slew",), 1e-9),
+        ("slew_torque", "slew", ("slew",), 1e-2), ("link_tension", "hook", ("hook",), 1e-3),
+    ):  # fmt: skip
+        for label in labels:
+            one = both.select(channel, **{dim: prefix + label})
+            single = len(labels) == 1
+            other = alone[channel] if single else alone.select(channel, **{dim: prefix + label})
+            assert not single or alone.dims[channel] == ("time",)
+            np.testing.assert_allclose(one, other, atol=scale)
+    assert alone["stroke"][-1, 0] == pytest.approx(ENDS[prefix][1], rel=0.2)
+
+
+def test_two_cranes_are_told_apart_in_files_too(both: Result, tmp_path: Path) -> None:
+    again = Result.load(both.save(tmp_path / "both.nc"))
+    for result in (both, again):
+        assert result.coords["cylinder"] == ("main", "knuckle", "aft main", "aft knuckle")
+        assert result.coords["slew"] == ("slew", "aft slew") and result.coords["hook"] == ("hook", "aft hook")
+        assert result.dims["slew_angle"] == ("time", "slew")
+    np.testing.assert_array_equal(again["slew_angle"], both["slew_angle"])
+    scene = cranes("", "aft ")
+    scene.save(tmp_path / "two.json")
+    back = Scene.load(tmp_path / "two.json")
+    assert back == scene and dict(back.roles) == dict(scene.roles)
+    aft = back.roles["aft "]
+    assert aft.payload == "aft payload" and aft.cylinders["knuckle"] == "aft knuckle_cylinder"
+    with pytest.raises(SceneError, match="there is one with prefix ''"):
+        scene.add_crane(base="ground")
+    scene.add_crane(base="tower", foot=(5.0, 0.0, 0.0), prefix="upper ")
+    assert (scene.joints["upper deck"].first, scene.joints["upper deck"].second) == ("tower", "upper tower")
+
+
+def test_the_tip_is_known_without_a_payload() -> None:
+    bare, loaded = Scene(), Scene()
+    pose: dict[str, Any] = {"base": "ground", "slew": 0.3, "s1": 1.0, "s2": 2.0}
+    told, known = bare.add_crane(**pose), loaded.add_crane(**pose, payload=Payload())
+    assert told.link is None and told.payload is None and known.link == "link"
+    assert told.tip is not None and known.tip is not None and told.tip[0] == known.tip[0]
+    np.testing.assert_allclose(told.tip[1], known.tip[1], atol=1e-12)
+
+
+def falling_slide(name: str) -> Scene:
+    scene = Scene(name="slide")
+    scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint(kind="prismatic", name=name, first="ground", second="box")
+    scene.record_coordinate(joint=name)
+    return scene
+
+
+@pytest.mark.warns("FreeCraneWarning")
+def test_roles_of_a_crane_by_hand() -> None:
+    for name in ("A", "main_cylinder"):  # a name is no role
+        assert not {"slew_angle", "stroke"} & set(simulate(falling_slide(name), t_end=1.0))
+    scene = falling_slide("hoist")
+    with pytest.raises(SceneError, match="crane: its cylinder 'lift' is joint 'lost', which is not in"):
+        scene.add_roles(cylinders={"lift": "lost"})
+    with pytest.raises(SceneError, match="crane: link 'hoist' is a prismatic joint; give a distance joint"):
+        scene.add_roles(link="hoist")
+    scene.add_roles(cylinders={"lift": "hoist"})
+    result = simulate(scene, t_end=0.5)
+    np.testing.assert_array_equal(result.select("stroke", cylinder="lift"), result["coordinate"][:, 0])
+    with pytest.raises(SceneError, match="prefix '' is used twice"):
+        scene.add_roles(cylinders={"lift": "hoist"})

@@ -6,13 +6,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from element_runs import FORMULATIONS as FORMS
+from element_runs import goes_on
+from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
 from numpy.typing import NDArray
 
-from seacrane import Curve, Run, Scene, SeacraneError, _core, shipped_database, simulate
+from seacrane import Curve, Run, Scene, SceneError, SeacraneError, _core, shipped_database, simulate
+from seacrane.analysis import driven, inverse_dynamics, reflected_inertia
 from seacrane.run.lanes import module_of
 
 Array = NDArray[np.float64]
-FORMULATIONS = ("redundant", "recursive")
 DRIVEN = ("A.angle", "main_cylinder.displacement", "knuckle_cylinder.displacement")
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 
@@ -46,14 +49,8 @@ def given_ship() -> Scene:
     scene.add_joint("slew", kind="revolute", first="ship", second="jib", point=(0.0, 0.0, 10.0))
     scene.add_driver("slew", curve=moved(0.0, 0.8))
     scene.add_body("load", mass=3e4, inertia=(1e4, 1e4, 1e4), position=(16.0, 0.0, 2.0))
-    scene.add_joint(
-        "rod",
-        kind="distance",
-        first="jib",
-        second="load",
-        point=(16.0, 0.0, 12.0),
-        second_point=(16.0, 0.0, 2.0),
-    )
+    rod = {"point": (16.0, 0.0, 12.0), "second_point": (16.0, 0.0, 2.0)}
+    scene.add_joint("rod", kind="distance", first="jib", second="load", **rod)
     return scene
 
 
@@ -68,14 +65,8 @@ def reversed_slide() -> Scene:
     scene.add_driver("axle", curve=Curve.harmonic(amplitude=1.4, omega=1.1, phase=-0.5 * np.pi))
     scene.add_body("door", mass=30.0, inertia=(4.0, 4.0, 1.0), position=(0.8, 0.1, 0.5))
     for name, height in (("upper", 1.0), ("lower", 0.0)):
-        scene.add_joint(
-            name,
-            kind="revolute",
-            first="wheel",
-            second="door",
-            point=(0.3, 0.1, height),
-            axis=(0.1, 0.0, 1.0),
-        )
+        hinge = {"kind": "revolute", "point": (0.3, 0.1, height), "axis": (0.1, 0.0, 1.0)}
+        scene.add_joint(name, first="wheel", second="door", **hinge)
     return scene
 
 
@@ -102,14 +93,6 @@ SCENES = {
 }  # fmt: skip
 
 
-def recorded(scene: Scene, t_end: float, **settings: Any) -> dict[str, Any]:
-    model = scene.compile()
-    names = model.channel_names(defaults_only=False)
-    run = Run(scene, t_end=t_end, model=model, channels=names, **settings)
-    run.advance(t_end)
-    return dict(run.core.channels())
-
-
 def test_what_is_driven_is_told_and_chosen() -> None:
     model = lift().compile()
     assert sorted(model.tree["driven"]) == sorted(DRIVEN)
@@ -122,31 +105,24 @@ def test_what_is_driven_is_told_and_chosen() -> None:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_accelerations_at_the_same_state_are_those_of_rows(name: str) -> None:
+def test_accelerations_and_a_run_at_a_fixed_step_are_those_of_rows(name: str) -> None:
     scene = SCENES[name]()
     model = scene.compile()
-    y = model.initial_state
     for t in (0.0, 1.7, 3.1):
         run = Run(scene, t_end=t + 1e-9, model=model, formulation="redundant", rtol=1e-9)
         run.advance(t + 1e-9)
-        y = run.core.state.values
         found = [
-            _core.Evaluator(model, formulation).accelerations(t + 1e-9, y) for formulation in FORMULATIONS
+            _core.Evaluator(model, form).accelerations(t + 1e-9, run.core.state.values) for form in FORMS
         ]
-        scale = max(1e-3, np.abs(found[0]).max())
-        assert np.abs(found[0] - found[1]).max() < 1e-10 * scale
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_a_run_at_a_fixed_step_is_that_of_rows(name: str) -> None:
+        assert np.abs(found[0] - found[1]).max() < 1e-10 * max(1e-3, np.abs(found[0]).max())
     how = {"t_end": 3.0, "dt_out": 0.5, "integrator": "rk4", "dt": 0.00125}
-    rows, driven = (recorded(SCENES[name](), formulation=form, **how) for form in FORMULATIONS)
+    rows, led = (record(SCENES[name](), formulation=form, **how) for form in FORMS)
     for channel in ("position", "velocity", "acceleration", "driver_force"):
         scale = np.abs(rows[channel]).max()
-        assert np.abs(driven[channel] - rows[channel]).max() < 1e-8 * scale, channel
+        assert np.abs(led[channel] - rows[channel]).max() < 1e-8 * scale, channel
     work = np.abs(rows["absolute_work"]).max()
-    assert np.abs(driven["absolute_work"] - rows["absolute_work"]).max() < 1e-7 * work
-    assert np.abs(driven["energy_balance"]).max() < 1e-6 * work
+    assert np.abs(led["absolute_work"] - rows["absolute_work"]).max() < 1e-7 * work
+    assert np.abs(led["energy_balance"]).max() < 1e-6 * work
 
 
 def struck() -> Scene:
@@ -164,45 +140,6 @@ def struck() -> Scene:
     return scene
 
 
-def test_a_rate_that_jumps_strikes_the_others_by_its_impulse() -> None:
-    rows, driven = (
-        recorded(struck(), 2.0, formulation=form, integrator="rk4", dt=0.005, dt_out=0.25)
-        for form in FORMULATIONS
-    )
-    assert np.abs(rows["velocity"][4:, 1, 0]).max() > 0.5  # the bob is struck
-    for channel in ("position", "velocity"):
-        assert np.abs(driven[channel] - rows[channel]).max() < 1e-9, channel
-
-
-def test_a_run_cut_where_a_rate_jumps_is_struck_once() -> None:
-    settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-9, "dt_out": 0.25}
-    whole = recorded(struck(), 2.0, **settings)
-    run = Run(struck(), t_end=2.0, **settings)
-    for stop in (0.5, 1.0, 1.0, 1.25, 2.0):
-        run.advance(stop)
-    cut = dict(run.core.channels())
-    assert np.abs(cut["position"] - whole["position"]).max() < 1e-7
-    first = Run(struck(), t_end=1.0, **settings)
-    first.advance(1.0)
-    second = Run(struck(), t_end=2.0, start=first.core.state, **settings)
-    second.advance(2.0)
-    assert np.abs(dict(second.core.channels())["position"][-1] - whole["position"][-1]).max() < 1e-7
-
-
-def test_a_restart_has_the_bits_of_the_whole() -> None:
-    settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-6, "dt_out": 0.5}
-    whole = Run(lift(), t_end=3.0, **settings)
-    whole.advance(1.5)
-    whole.advance(3.0)
-    first = Run(lift(), t_end=1.5, **settings)
-    first.advance(1.5)
-    second = Run(lift(), t_end=3.0, start=first.core.state, **settings)
-    second.advance(3.0)
-    assert np.array_equal(
-        dict(second.core.channels())["position"][-1], dict(whole.core.channels())["position"][-1]
-    )
-
-
 def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
     scene = Scene(name="far")
     scene.add_vessel(shipped_database())
@@ -216,19 +153,34 @@ def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
         simulate(scene, 9.0, integrator="rk4", dt=0.05)
 
 
+def test_a_rate_that_jumps_strikes_the_others_by_its_impulse_and_once() -> None:
+    fixed: dict[str, Any] = {"integrator": "rk4", "dt": 0.005, "dt_out": 0.25}
+    rows, led = (record(struck(), 2.0, formulation=form, **fixed) for form in FORMS)
+    assert np.abs(rows["velocity"][4:, 1, 0]).max() > 0.5  # the bob is struck
+    for channel in ("position", "velocity"):
+        assert np.abs(led[channel] - rows[channel]).max() < 1e-9, channel
+    settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-9, "dt_out": 0.25}
+    whole = record(struck(), 2.0, **settings)["position"]
+    run, first = (Run(struck(), t_end=t_end, **settings) for t_end in (2.0, 1.0))
+    for stop in (0.5, 1.0, 1.0, 1.25, 2.0):
+        run.advance(stop)
+    assert np.abs(dict(run.core.channels())["position"] - whole).max() < 1e-7
+    first.advance(1.0)
+    second = Run(struck(), t_end=2.0, start=first.core.state, **settings)
+    second.advance(2.0)
+    assert np.abs(dict(second.core.channels())["position"][-1] - whole[-1]).max() < 1e-7
+    goes_on(lift, 3.0, 1.5, formulation="recursive", rtol=1e-6, dt_out=0.5)
+
+
 def test_a_stop_that_holds_leaves_one_unknown_less_and_the_same_motion() -> None:
-    scene = Scene(name="stop")
+    scene, across = Scene(name="stop"), {"kind": "revolute", "axis": (0.0, 1.0, 0.0)}
     scene.add_body("bar", mass=5.0, inertia=(1.0, 2.0, 1.0), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        "pin", kind="revolute", first="ground", second="bar", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("pin", first="ground", second="bar", point=(0.0, 0.0, 0.0), **across)
     scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(2.0, 0.0, -1.0))
-    scene.add_joint(
-        "knee", kind="revolute", first="bar", second="bob", point=(2.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("knee", first="bar", second="bob", point=(2.0, 0.0, 0.0), **across)
     scene.add_end_stop("pin", minimum=-3.0, maximum=0.4)
-    rows, driven = (recorded(scene, 2.0, formulation=form, rtol=1e-9, dt_out=0.25) for form in FORMULATIONS)
-    assert np.abs(driven["position"] - rows["position"]).max() < 1e-6
+    rows, led = (record(scene, 2.0, formulation=form, rtol=1e-9, dt_out=0.25) for form in FORMS)
+    assert np.abs(led["position"] - rows["position"]).max() < 1e-6
 
 
 @pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
@@ -243,3 +195,62 @@ def test_lanes_follow_drivers_too(name: str) -> None:
         state = start + 1e-3 * rng.normal(size=start.shape)
         alone = evaluator.scalar_derivative(t, state)
         assert np.abs(evaluator.derivative(t, state) - alone).max() < 1e-9 * np.abs(alone).max()
+
+
+def test_drivers_on_a_free_joint_prescribe_all_six_motions() -> None:
+    scene = Scene(gravity=9.81)
+    scene.add_body(name="ship", mass=5.0, inertia=(1.0, 2.0, 3.0), center_of_mass=(0.1, 0.0, -0.2))
+    scene.add_joint(kind="free", name="motion", first="ground", second="ship")
+    curves = {}
+    for i, motion in enumerate(("x", "y", "z", "roll", "pitch", "yaw")):
+        curves[motion] = Curve.harmonic(amplitude=0.2 + 0.05 * i, omega=1.0 + 0.3 * i, phase=0.5 * i)
+        scene.add_driver(joint="motion", coordinate=motion, curve=curves[motion])
+        scene.record_coordinate(joint="motion", coordinate=motion, name=motion)
+    assert scene.compile().degrees_of_freedom == 0
+    out = record(scene, 5.0)
+    for i, motion in enumerate(("x", "y", "z", "roll", "pitch", "yaw")):
+        expected = curves[motion].evaluate(out["time"])
+        np.testing.assert_allclose(out["coordinate"][:, i], expected[:, 0], atol=1e-11)
+        np.testing.assert_allclose(out["coordinate_rate"][:, i], expected[:, 1], atol=1e-11)
+    # Newton at the centre of mass: drivers along the inertial axes are the only supports.
+    force = 5.0 * (out["acceleration"][:, 0] + [0.0, 0.0, 9.81])
+    np.testing.assert_allclose(out["driver_force"][:, :3], force, atol=1e-9 * np.abs(force).max())
+
+
+def test_a_driven_hinge_goes_round_many_times() -> None:
+    scene = Scene()
+    scene.add_body(name="rotor", mass=1.0, inertia=(1, 1, 1))
+    scene.add_joint(kind="revolute", name="shaft", first="ground", second="rotor")
+    scene.add_driver(joint="shaft", curve=ramp(10.0))
+    scene.record_coordinate(joint="shaft")
+    out = record(scene, 5.0)
+    np.testing.assert_allclose(out["angular_velocity"][:, 0, 2], 10.0, atol=1e-10)
+    np.testing.assert_allclose(np.unwrap(out["coordinate"][:, 0]), 10.0 * out["time"], atol=1e-9)
+
+
+def test_inverse_dynamics_by_algebra_agrees_with_the_driven_simulation() -> None:
+    scene = crane_scene(payload=False, references=swing_out(4.0))
+    times = np.linspace(0.0, 4.0, 9)
+    loads = inverse_dynamics(scene, times=times)
+    out = record(driven(scene), 4.0, dt_out=0.5)
+    for i, name in enumerate(ACTUATORS):
+        np.testing.assert_allclose(
+            loads[name], out["driver_force"][:, i], rtol=1e-7, atol=1e-7 * np.abs(loads[name]).max()
+        )
+        assert np.ptp(loads[name]) > 1e3
+    with pytest.raises(SceneError, match=r"5 degree\(s\) of freedom are not prescribed"):
+        inverse_dynamics(crane_scene(payload=True, references=swing_out(4.0)), times=[0.0])
+
+
+def test_reflected_inertia_by_hand() -> None:
+    """Two links in line on hinges about z: parallel axes, and a cart that carries a mass on a lever."""
+    scene = Scene(gravity=9.81)
+    scene.add_body(name="inner", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.5, 0.0, 0.0))
+    scene.add_body(name="outer", mass=2.0, inertia=(0.2, 0.25, 0.4), position=(1.0, 0.6, 0.0))
+    scene.add_joint(kind="revolute", name="root", first="ground", second="inner", point=(0, 0, 0))
+    scene.add_joint(kind="revolute", name="elbow", first="inner", second="outer", point=(1, 0, 0))
+    scene.add_actuator(joint="root")
+    scene.add_actuator(joint="elbow")
+    inertia = reflected_inertia(scene)
+    assert inertia["elbow"] == pytest.approx(0.4 + 2.0 * 0.36, rel=1e-9)
+    assert inertia["root"] == pytest.approx(0.3 + 3.0 * 0.25 + 0.4 + 2.0 * (1.0 + 0.36), rel=1e-9)

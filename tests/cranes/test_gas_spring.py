@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from element_runs import both_forms
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SceneError, natural_modes, simulate
-from seacrane.description.outline import outline_of
-from seacrane.pictures.wires import wires_of
 
 G = 9.80665
 MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m
@@ -119,40 +117,21 @@ def swinging() -> Scene:
 
 
 def test_both_formulations_agree_and_energy_closes() -> None:
-    runs = [record(swinging(), 3.0, rtol=1e-9, formulation=f) for f in ("redundant", "recursive")]
-    assert_allclose(runs[1]["position"], runs[0]["position"], atol=1e-7)
-    for out in runs:
-        assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
-
-
-def test_it_is_drawn_and_kept_in_files(tmp_path: Path) -> None:
-    scene = swinging()
-    assert {"phc", "side"} <= {wire["name"] for wire in wires_of(scene, list(scene.bodies))}
-    assert [link[0] for link in outline_of(scene)["links"]] == ["ground", "ground"]
-    scene.save(tmp_path / "scene.json")
-    assert Scene.load(tmp_path / "scene.json") == scene
+    both_forms(swinging(), 3.0, {"position": 1e-7}, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"volume": None}, r"give pressure and volume, or force and stiffness, both of one pair"),
-        ({"force": 1e5, "stiffness": 1e4}, r"give pressure and volume, or force and stiffness"),
-        ({"pressure": -1.0}, r"pressure is -1.0; give a finite number above zero"),
-        ({"exponent": 3.0}, r"exponent is 3; give 1 to 2 \(.*1 slow, 1.4 nitrogen\)"),
-        ({"damping": -1.0}, r"damping is -1 N s/m; it must not be negative"),
-        ({"maximum": 7.0}, r"length is 8 m, and its stops are at 0 and 7 m"),
-        ({"maximum": 16.0}, r"the gas would have -0.01 m3 at the end of its stroke; give a larger volume"),
-        ({"stop_stiffness": 1e6}, r"has a stop_stiffness and no stop; give minimum or maximum"),
-        ({"maximum": 9.0, "stop_stiffness": 0.0}, r"has a minimum or a maximum and no stop_stiffness"),
+        ({"volume": None}, "give pressure and volume, or force and stiffness"),
+        ({"force": 1e5, "stiffness": 1e4}, "give pressure and volume, or force and stiffness"),
+        ({"exponent": 3.0}, "exponent is 3; give 1 to 2"),
+        ({"maximum": 7.0}, "length is 8 m, and its stops are at 0 and 7 m"),
+        ({"maximum": 16.0}, "would have -0.01 m3 at the end of its stroke"),
+        ({"stop_stiffness": 1e6}, "a stop_stiffness and no stop"),
+        ({"maximum": 9.0, "stop_stiffness": 0.0}, "no stop_stiffness"),
     ],
 )
 def test_gas_springs_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=f"gas spring 'phc': {message}"):
+    with pytest.raises(SceneError, match=f"gas spring 'phc': .*{message}"):
         hung(**given).compile()
-
-
-def test_a_gas_spring_needs_its_bodies() -> None:
-    scene = Scene(name="none")
-    with pytest.raises(SceneError, match=r"gas spring 'phc': there is no body 'load'; add it first"):
-        scene.add_gas_spring(name="phc", first="ground", second="load", area=1, pressure=1, volume=1)

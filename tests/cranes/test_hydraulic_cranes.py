@@ -1,4 +1,4 @@
-"""Cranes whose cylinders are hydraulic: statics, compensation of heave, data files, lift files, cost."""
+"""Cranes whose cylinders are hydraulic: statics, heave compensation, data files; stages that move oil."""
 
 from __future__ import annotations
 
@@ -7,11 +7,26 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import RETRACTED, SET, START
+from element_runs import both_forms, goes_on
+from hydraulic_scenes import FULL, RETRACTED, RING, SET, START, lifted, raised
+from line_scenes import add_led
 from multibody_runs import record
 
-from seacrane import Curve, Scene, SceneError, natural_modes, simulate, statics
-from seacrane.crane import KnuckleBoomCrane, Payload, data_file
+from seacrane import (
+    Curve,
+    Lift,
+    Move,
+    Scene,
+    SceneError,
+    Stage,
+    Until,
+    natural_modes,
+    simulate,
+    simulate_stages,
+    statics,
+)
+from seacrane.crane import KnuckleBoomCrane, Payload, data_file, load_crane
+from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.errors import FileFormatError
 from seacrane.hydro import shipped_database
@@ -60,98 +75,35 @@ def test_a_crane_starts_at_rest_on_its_oil() -> None:
     result = simulate(scene, 2.0, dt_out=0.5, rtol=1e-8)
     assert np.ptp(result["hydraulic_stroke"], axis=0) == pytest.approx(0.0, abs=1e-6)
     assert result["cylinder_force"][0] == pytest.approx(expected, rel=1e-9)
-    by_scene = Scene(name="the same, from the scene's statics")
-    by_scene.add_crane(base="ground", payload=Payload(), held=True, hydraulics={"knuckle": OIL}, **POSE)
-    by_scene.remove("main_cylinder.displacement")
-    main = scene.loads["main_cylinder"]
-    given = {field.name: getattr(main, field.name) for field in type(main).FIELDS}
-    ram = by_scene.add_hydraulic_cylinder(**given | {"pressure": None, "pressure_rod": None})
-    assert ram.pressure == pytest.approx(main.pressure, rel=1e-9)
 
 
-def test_statics_tell_what_hydraulic_cylinders_hold() -> None:
-    drawn = statics(crane())
-    ideal = Scene(name="ideal")
-    ideal.add_crane(base="ground", payload=Payload(), held=True, **POSE)
-    for name, value in statics(ideal).columns.items():
-        assert drawn.columns[name] == pytest.approx(value, rel=1e-9), name
-    assert abs(drawn.columns["cylinder force main"]) > 1e3
-
-
-@pytest.mark.parametrize("ramp", [20.0, 0.0])
-def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
+def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea() -> None:
     """The ship's motion is at its start no rest, and with ramp=0 not the described pose."""
     found = []
     for in_a_sea in (False, True):
-        database, scene = shipped_database(), Scene(name="given")
-        scene.add_given_vessel(database, ramp=ramp)
-        crane = scene.add_crane(held=True, s1=2.0, s2=2.5, hydraulics={"main": OIL, "knuckle": OIL})
-        body, head = crane.tip
-        scene.add_body(
-            name="load", mass=20e3, inertia=(2e4, 2e4, 2e4),
-            position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
-        )  # fmt: skip
-        scene.add_line(
-            name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e8,
-            tension_at_start=20e3 * scene.gravity,
-        )  # fmt: skip
+        scene = Scene(name="given")
+        scene.add_given_vessel(shipped_database(), ramp=0.0)
+        body, head = scene.add_crane(held=True, s1=2.0, s2=2.5, hydraulics=BOTH).tip
+        place = scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0])
+        scene.add_body(name="load", mass=20e3, inertia=(2e4, 2e4, 2e4), position=place)
+        line = {"points": [head, (0, 0, 0)], "EA": 1e8, "tension_at_start": 20e3 * scene.gravity}
+        scene.add_line(name="hoist", bodies=[body, "load"], **line)
         if in_a_sea:
             scene.add_sea(hs=3.0, tp=7.0, seed=5)
         found.append([(one.pressure, one.pressure_rod) for one in scene.hold_pressures().values()])
     assert found[1] == found[0]
 
 
-def test_both_formulations_move_a_hydraulic_crane_alike() -> None:
-    opens = {"command": Curve.quintic(start_time=0, end_time=1, start=0, end=0.2)}
-    scene = crane(BOTH | {"main": OIL | opens})
-    one, two = (record(scene, 2.0, rtol=1e-9, formulation=name) for name in ("redundant", "recursive"))
-    assert np.ptp(one["hydraulic_stroke"]) > 0.01
-    assert np.max(np.abs(one["hydraulic_stroke"] - two["hydraulic_stroke"])) < 1e-8
-    assert np.max(np.abs(one["hydraulic_pressure"] - two["hydraulic_pressure"])) < 1e-6 * OIL["pump_pressure"]
-    for run in (one, two):
-        assert np.max(np.abs(run["energy_balance"])) < 1e-6 * run["absolute_work"][-1]
-
-
-def test_a_crane_without_hydraulics_is_what_it_was() -> None:
-    plain = Scene(name="plain")
-    plain.add_crane(base="ground", payload=Payload(), **POSE)
-    none = Scene(name="plain")
-    none.add_crane(base="ground", payload=Payload(), hydraulics={}, **POSE)
-    assert plain == none
-    assert not any("hydraulic" in name for name in plain.compile().channel_names(defaults_only=False))
-
-
-def test_ideal_cylinders_are_the_rung_below() -> None:
-    """Stiff oil has the slow modes of a crane with locked cylinders."""
-    stiff = OIL | {"oil_modulus": 1e13, "hose_modulus": 1e13, "cylinder_modulus": 1e13, "gain": 0.0}
-    locked = Scene(name="locked")
-    locked.add_crane(base="ground", payload=Payload(), held=True, **POSE)
-    soft, ideal = (
-        natural_modes(scene).natural_period[:2]
-        for scene in (crane({"main": stiff, "knuckle": stiff}), locked)
-    )
-    assert soft == pytest.approx(ideal, rel=1e-4)
-    assert set(with_ideal_cylinders(crane()).actuators) == {"main_cylinder", "knuckle_cylinder"}
-
-
 def on_a_ship(*, compensated: bool, **more: Any) -> Scene:
     """A load on a cylinder on a deck that heaves by 30 mm in 4 s."""
     scene = Scene(name="deck")
-    scene.add_body(name="ship", mass=1e6, inertia=(1e6, 1e6, 1e6), position=(0, 0, 0))
-    scene.add_joint(
-        kind="prismatic", name="deck", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1)
-    )
     swell = Curve.harmonic(start_time=2.0, offset=0.03, amplitude=0.03, omega=0.5 * np.pi, phase=np.pi)
-    rise = Curve.constant(value=0.0).then(time=2.0, curve=swell)
-    scene.add_driver(joint="deck", curve=rise)
+    add_led(scene, "ship", Curve.constant(value=0.0).then(time=2.0, curve=swell))
     place = (0.0, 0.0, RETRACTED + START)
     scene.add_body(name="load", mass=1000.0, inertia=(10.0, 10.0, 10.0), position=place)
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ship", second="load", point=(0, 0, 0), axis=(0, 0, 1)
-    )
-    scene.add_hydraulic_cylinder(
-        name="ram", first="ship", second="load", **SET | {"gain": 20.0, "rate_gain": 12.0} | more
-    )
+    scene.add_joint(kind="prismatic", name="rail", first="ship", second="load", axis=(0, 0, 1))
+    oil = SET | {"gain": 20.0, "rate_gain": 12.0} | more
+    scene.add_hydraulic_cylinder(name="ram", first="ship", second="load", **oil)
     if compensated:
         scene.add_heave_compensation(name="ahc", body="ship", actuator="ram", ratio=-1.0, high_pass=0.0)
     return scene
@@ -172,52 +124,229 @@ def test_heave_is_compensated_by_oil_within_its_pressure_limits() -> None:
     assert np.max(limited["hydraulic_pressure"][:, 0, 0]) < 1.2 * ram.pressure + 6e5
 
 
-def test_a_compensator_finds_the_ratio_of_a_hydraulic_cylinder() -> None:
-    ideal = Scene(name="ideal")
-    ideal.add_crane(base="ground", s1=3.0, s2=3.8)
+def test_both_formulations_move_a_hydraulic_crane_alike() -> None:
+    opens = {"command": Curve.quintic(start_time=0, end_time=1, start=0, end=0.2)}
+    within = {"hydraulic_stroke": 1e-8, "hydraulic_pressure": 1e-6 * OIL["pump_pressure"]}
+    out = both_forms(crane(BOTH | {"main": OIL | opens}), 2.0, within, rtol=1e-9)
+    assert np.ptp(out["hydraulic_stroke"]) > 0.01
+
+
+def test_ideal_cylinders_are_the_rung_below() -> None:
+    """Stiff oil has the slow modes of a crane with locked cylinders, its statics and its ratio to the tip."""
+    stiff = OIL | {"oil_modulus": 1e13, "hose_modulus": 1e13, "cylinder_modulus": 1e13, "gain": 0.0}
+    locked = Scene(name="locked")
+    locked.add_crane(base="ground", payload=Payload(), held=True, **POSE)
+    hard = crane({"main": stiff, "knuckle": stiff})
+    soft, ideal = (natural_modes(scene).natural_period[:2] for scene in (hard, locked))
+    assert soft == pytest.approx(ideal, rel=1e-4)
+    assert set(with_ideal_cylinders(crane()).actuators) == {"main_cylinder", "knuckle_cylinder"}
+    drawn = statics(crane())
+    for name, value in statics(locked).columns.items():
+        assert drawn.columns[name] == pytest.approx(value, rel=1e-9), name
+    assert abs(drawn.columns["cylinder force main"]) > 1e3
+    pushed = Scene(name="pushed")
+    pushed.add_crane(base="ground", payload=Payload(), **POSE)
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
-        ideal.add_actuator(joint=joint)
-    oil = Scene(name="oil")
-    oil.add_crane(base="ground", s1=3.0, s2=3.8, held=True, hydraulics={"knuckle": OIL})
-    found = [
-        scene.add_heave_compensation(name="ahc", body="king", actuator="knuckle_cylinder").ratio
-        for scene in (ideal, oil)
-    ]
-    assert found[0] == pytest.approx(found[1], rel=1e-9)
+        pushed.add_actuator(joint=joint)
+    ratios = [scene.add_heave_compensation(name="ahc", body="king", actuator="knuckle_cylinder").ratio
+              for scene in (pushed, crane())]  # fmt: skip
+    assert ratios[0] == pytest.approx(ratios[1], rel=1e-9)
 
 
-def test_a_data_file_may_say_that_a_crane_is_hydraulic(tmp_path: Path) -> None:
-    keys = ("pump_pressure = 32e6", "rated_flow = 0.05", "rated_drop = 1e6", "pump_check = true")
-    table = "\n".join(("[main_cylinder.hydraulics]", *keys, ""))
-    text = data_file.DEFAULT_PATH.read_text(encoding="utf-8")
-    file = tmp_path / "crane.toml"
-    file.write_text(
-        text.replace("[[main_cylinder.barrel]]", table + "\n[[main_cylinder.barrel]]"), encoding="utf-8"
-    )
-    scene = Scene(name="of a file")
-    scene.add_crane(KnuckleBoomCrane.load(file), base="ground", held=True)
-    assert scene.loads["main_cylinder"].rated_flow == 0.05 and scene.loads["main_cylinder"].pump_check
-    assert set(scene.drivers) == {"A.angle", "knuckle_cylinder.displacement"}
-    file.write_text(
-        text.replace("[[main_cylinder.barrel]]", table + "colour = 1\n[[main_cylinder.barrel]]"),
-        encoding="utf-8",
-    )
-    with pytest.raises(FileFormatError, match=r"unknown key main_cylinder.hydraulics.colour"):
-        KnuckleBoomCrane.load(file)
+FRAME_OIL: dict[str, Any] = {
+    "pump_pressure": 25e6, "rated_flow": 0.01, "rated_drop": 1e6, "gain": 0.4, "spool_lag": 0.03,
+    "viscous_friction": 5e5,
+}  # fmt: skip
+
+LOAD = Payload(mass=15e3, size=(2.0, 2.0, 2.0), link_length=3.0)
+
+AREAS = {"full_area": 0.0154, "rod_side_area": 0.0104}
+
+
+def a_frame(*, base: str = "ground", tilt: float = 0.5, **oil: Any) -> Scene:
+    scene = Scene(name="A-frame")
+    if base == "vessel":
+        scene.add_vessel(shipped_database())
+    scene.add_crane(
+        load_crane("a_frame_40t"), base=base, foot=(-50.0, 0.0, 10.0), coordinates={"tilt": tilt},
+        payload=LOAD, held=True, hydraulics={"tilt": FRAME_OIL | oil},
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize("tilt", [-1.6, 0.5, 2.6])
+def test_an_a_frame_starts_at_rest_on_its_oil(tilt: float) -> None:
+    """Its own statics are those of the engine, at the ends of the stroke too."""
+    scene = a_frame(tilt=tilt)
+    ram = scene.loads["cylinder"]
+    assert (ram.first, ram.second, list(scene.drivers)) == ("barrel", "rod", [])
+    home = float(np.hypot(5.0, 5.2))
+    assert (ram.retracted_length, ram.stroke) == pytest.approx((home - 1.6, 4.2), rel=1e-12)
+    assert ram.full_area == pytest.approx(np.pi / 4.0 * 0.3**2)
+    assert ram.full_area - ram.rod_side_area == pytest.approx(np.pi / 4.0 * 0.2**2)
+    engine = scene.copy()
+    found = engine.hold_pressures()["cylinder"]
+    assert (ram.pressure, ram.pressure_rod) == pytest.approx((found.pressure, found.pressure_rod), rel=1e-6)
+    if tilt == 0.5:
+        result = simulate(scene, 1.0, dt_out=0.5, rtol=1e-8)
+        assert np.ptp(result["hydraulic_stroke"]) < 1e-6
+        told = float(statics(scene, coordinates={"tilt": 0.0})["cylinder force tilt"])
+        assert result["cylinder_force"][0, 0] == pytest.approx(told, rel=1e-5)
+
+
+KNUCKLE_FILE = data_file.DEFAULT_PATH.read_text(encoding="utf-8")
+FRAME_FILE = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
+PISTON = '\n[[pistons]]\ncylinder = "tilt"\n[pistons.hydraulics]\n'
+MAIN = "[main_cylinder.hydraulics]\n"
+KEYS = "pump_pressure = 32e6\nrated_flow = 0.05\nrated_drop = 1e6\n"
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("text", "ram", "driven", "key"),
     [
-        ({"boom": OIL}, "hydraulics are given of cylinder 'boom'; the cylinders are 'main', 'knuckle'"),
-        (True, "hydraulics are True; give {'main'"),
-        ({"main": {"colour": 1.0}}, "colour"),
-        (
-            {"main": OIL | {"relief_pressure": 1e6, "relief_flow": 0.1}},
-            "relief_pressure is .* below the holding",
-        ),
+        (KNUCKLE_FILE.replace("[[main_cylinder.barrel]]", f"{MAIN}{KEYS}\n[[main_cylinder.barrel]]"),
+         "main_cylinder", {"A.angle", "knuckle_cylinder.displacement"}, "main_cylinder.hydraulics.colour"),
+        (FRAME_FILE + PISTON + KEYS, "cylinder", set(), r"pistons\[0\].hydraulics.colour"),
+    ],
+    ids=["knuckle boom", "A-frame"],
+)  # fmt: skip
+def test_a_data_file_may_say_that_a_crane_is_hydraulic(
+    text: str, ram: str, driven: set[str], key: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "crane.toml"
+    file.write_text(text, encoding="utf-8")
+    scene = Scene(name="of a file")
+    scene.add_crane(load_crane(file), base="ground", held=True)
+    assert scene.loads[ram].rated_flow == 0.05 and set(scene.drivers) == driven
+    file.write_text(text.replace("rated_drop = 1e6", "colour = 1"), encoding="utf-8")
+    with pytest.raises(FileFormatError, match=f"unknown key {key}"):
+        load_crane(file)
+
+
+@pytest.mark.parametrize(
+    ("name", "hydraulics", "message"),
+    [
+        (None, {"boom": OIL}, "'boom'; the cylinders are 'main', 'knuckle'"),
+        (None, True, "hydraulics are True"),
+        (None, {"main": {"colour": 1.0}}, "colour"),
+        (None, {"main": OIL | {"relief_pressure": 1e6, "relief_flow": 0.1}}, "below the holding"),
+        ("service_arm_5t", {"jib": OIL}, "areas of the jib cylinder are not known"),
+        ("service_arm_5t", {"telescope": OIL | AREAS}, "'telescope': where it takes hold is not known"),
+        ("service_arm_5t", {"boom": OIL | AREAS}, "'boom'; the cylinders are 'jib', 'telescope'"),
+        ("lattice_boom_100t", {"boom": OIL}, "the cylinders are none"),
     ],
 )
-def test_bad_hydraulics_of_a_crane_are_named(given: Any, message: str) -> None:
+def test_bad_hydraulics_of_a_crane_are_named(name: str | None, hydraulics: Any, message: str) -> None:
     with pytest.raises((SceneError, TypeError), match=message):
-        crane(given).compile()
+        if name is None:
+            crane(hydraulics).compile()
+        else:
+            Scene(name="x").add_crane(load_crane(name), base="ground", hydraulics=hydraulics)
+
+
+FOLLOWS: dict[str, Any] = {"gain": 60.0, "rate_gain": 12.0, "spool_lag": 0.02}
+HOLE = 4e-6  # m2
+
+
+def test_a_stage_moves_the_reference_and_the_cylinder_follows() -> None:
+    up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
+    down = Stage(name="down", duration=3.0, commands={"ram.reference": Move(to=START, over=2.0)})
+    result = simulate_stages(raised(**FOLLOWS), [up, down], dt_out=0.1)
+    stroke = result["hydraulic_stroke"][:, 0]
+    assert stroke[result.time <= 3.0][-1] == pytest.approx(START + 0.1, abs=2e-4)
+    assert stroke[-1] == pytest.approx(START, abs=2e-4)
+    curve = Curve.quintic(start_time=0.0, end_time=2.0, start=START, end=START + 0.1)
+    whole = simulate(raised(reference=curve, **FOLLOWS), 3.0, dt_out=0.1)
+    np.testing.assert_allclose(stroke[: len(whole.time)], whole["hydraulic_stroke"][:, 0], atol=2e-6)
+
+
+@pytest.mark.warns("BoilingOilWarning")
+def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
+    """The instant is located; from there it is the run whose hose bursts at that time."""
+    shut = Curve.quintic(start_time=0.5, end_time=0.51, start=0.6, end=0.0)
+    curve = Curve.constant(value=0.6).then(time=0.5, curve=shut)
+    scene = raised(command=curve, viscous_friction=2e4, makeup_flow=4e-4)
+    bound = 1.02 * simulate(scene, 0.5)["hydraulic_pressure"][-1, 0, 1]
+    high = Until.channel("hydraulic_pressure", minimum=bound, hydraulic_cylinder="ram", chamber="rod")
+    stages = [
+        Stage(name="lift", until=high, maximum_duration=2.0),
+        Stage(name="burst", duration=1.0, commands={"ram.rupture": HOLE}),
+    ]
+    result = simulate_stages(scene, stages, dt_out=0.05, rtol=1e-8)
+    at = result.stages[0].end
+    assert 0.5 < at < 0.6
+    burst = ("ram.rupture", at)
+    assert [(event.name, event.time) for event in result.events].count(burst) == 1
+    again = scene.copy()
+    again.replace("ram", rupture_time=at, rupture_area=HOLE)
+    whole = simulate(again, at + 1.0, dt_out=0.05, rtol=1e-8)
+    assert burst in [(event.name, event.time) for event in whole.events]
+    for name in ("hydraulic_stroke", "hydraulic_spill"):
+        late = [one[name][one.time > at + 0.5][:9, 0] for one in (result, whole)]
+        np.testing.assert_allclose(*late, rtol=1e-6, atol=1e-12)
+    assert np.all(result["hydraulic_spill"][result.time <= at] == 0.0)
+    assert np.min(result["hydraulic_spill"][result.time > at + 0.01]) > 0.0
+
+
+@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
+def test_a_run_goes_on_bit_for_bit_across_a_burst(formulation: str) -> None:
+    burst = {"rupture_time": 1.5, "rupture_area": HOLE}
+    valve = {"counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4}
+    for stopped in (1.43, 1.5, 1.503):
+        goes_on(
+            lambda: lifted(**burst, **valve), 1.7, stopped, dt_out=0.1, rtol=1e-6, formulation=formulation
+        )
+
+
+def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load() -> None:
+    opened = simulate_stages(
+        raised(),
+        [Stage(name="open", duration=1.5, commands={"ram.command": 0.3}),
+         Stage(name="shut", duration=1.5, commands={"ram.command": Move(to=0.0, over=0.5)})],
+    )  # fmt: skip
+    spool = opened["hydraulic_spool"][:, 0]
+    assert np.max(spool) == pytest.approx(0.3, rel=1e-3) and spool[-1] == pytest.approx(0.0, abs=1e-6)
+    up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
+    alone = simulate_stages(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
+    np.testing.assert_allclose(alone["hydraulic_stroke"][:, 0], START + 0.1, atol=1e-6)
+    np.testing.assert_allclose(alone["hydraulic_force"][:, 0], 1000.0 * 9.80665, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "commands", "message"),
+    [
+        ({}, {"ram.reference": Move(by=0.1, over=1.0)}, "there are ram.command"),
+        ({"rated_flow": 0.0, "pump_pressure": 0.0}, {"ram.command": 0.1}, "there are ram.rupture"),
+        (FOLLOWS, {"ram.reference": 0.4}, "give Move"),
+        ({}, {"ram.rupture": 0.0}, "'ram.rupture' is 0 m2"),
+        ({}, {"ram.rupture": Move(to=1e-6, over=1.0)}, "a hose bursts at once"),
+        ({"rupture_time": 9.0, "rupture_area": HOLE}, {"ram.rupture": HOLE}, "not there"),
+        ({}, {"ram.rupture": HOLE}, "stage 'again': commands 'ram.rupture'"),
+    ],
+)
+def test_commands_that_cannot_be_are_told(settings: Any, commands: dict[str, Any], message: str) -> None:
+    stages = [Stage(name=name, duration=1.0, commands=commands) for name in ("s", "again")]
+    with pytest.raises(SceneError, match=message):
+        simulate_stages(raised(**settings), stages)
+
+
+@pytest.mark.warns("BoilingOilWarning")
+def test_a_lift_file_commands_oil() -> None:
+    ram = {"name": "ram", "first": "ground", "second": "load", "full_area_m2": FULL, "rod_side_area_m2": RING,
+           "retracted_length_m": 1.05, "stroke_m": 0.6, "pump_pressure_Pa": 7.6e6,
+           "rated_flow_m3_per_s": 4e-4, "gain_per_m": 5}  # fmt: skip
+    up = {"name": "ram.reference", "by_m": 0.05, "over_s": 0.8}
+    burst = [{"name": "ram.rupture", "value_m2": 4e-6}, {"name": "ram.command", "value": -0.1}]
+    told: dict[str, Any] = {
+        "scene": {"name": "oil"}, "hydraulic_cylinder": [ram],
+        "body": [{"name": "load", "mass_kg": 1e3, "inertia_kg_m2": [10, 10, 10], "position_m": [0, 0, 1.35]}],
+        "joint": [{"kind": "prismatic", "name": "guide", "first": "ground", "second": "load"}],
+        "stage": [{"name": "up", "duration_s": 1, "commands": [up]},
+                  {"name": "burst", "duration_s": 1, "commands": burst}],
+    }  # fmt: skip
+    result = Lift(told).simulate()
+    assert ("ram.rupture", 1.0) in [(event.name, event.time) for event in result.events]
+    assert result["hydraulic_spill"][-1, 0] > 0.0
+    up["by_deg"] = up.pop("by_m")
+    with pytest.raises(FileFormatError, match=r"by_deg .* in m; give by_m"):
+        Lift(told).scene()

@@ -1,33 +1,37 @@
-"""Hydraulic cylinders against closed forms, an independent stiff solver, volume and energy balances."""
+"""Hydraulic cylinders and valves against closed forms, an independent stiff solver, volume and energy."""
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, STROKE, lifted, own_solution, raised
+from element_runs import both_forms, goes_on
+from hydraulic_scenes import (
+    FULL,
+    HOLDING,
+    MASS,
+    RETRACTED,
+    RING,
+    SET,
+    START,
+    STROKE,
+    G,
+    closed_stiffness,
+    lifted,
+    own_solution,
+    raised,
+)
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import simpson
+from scipy.optimize import brentq
 
-from seacrane import Run, Scene, SceneError, natural_modes
+from seacrane import Curve, Scene, SceneError, natural_modes, simulate
+from seacrane.warnings import UnsteadyOilWarning
 
 LEAKS = {"internal_leakage": 2e-13, "external_leakage": 1e-13, "overlap": 0.05}
-
-
-def moduli(stroke: float) -> tuple[float, float]:
-    """Stiffness of each chamber over its area squared, Pa/m3, closed."""
-    out = []
-    for area, swept, hose in (
-        (FULL, FULL * stroke, SET["hose_volume"]),
-        (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
-    ):
-        compliance = (
-            (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
-        )
-        out.append(area**2 / compliance)
-    return out[0], out[1]
 
 
 def test_pressures_at_the_start_hold_the_load() -> None:
@@ -44,7 +48,7 @@ def test_pressures_at_the_start_hold_the_load() -> None:
 def test_the_hydraulic_frequency_is_that_of_both_closed_chambers(stroke: float) -> None:
     scene = raised(viscous_friction=0.0, retracted_length=1.35 - stroke)
     modes = natural_modes(scene)
-    expected = 2.0 * np.pi / np.sqrt(sum(moduli(stroke)) / MASS)
+    expected = 2.0 * np.pi / np.sqrt(closed_stiffness(stroke) / MASS)
     assert np.min(np.abs(modes.natural_period / expected - 1.0)) < 1e-6
 
 
@@ -66,34 +70,11 @@ def test_the_complete_parameter_set_follows_an_independent_stiff_solver(more: di
 
 
 EVERYTHING: dict[str, Any] = LEAKS | {
-    "air": 0.005,
-    "friction": 300.0,
-    "relief_pressure": 3.1e6,
-    "relief_pressure_rod": 4e6,
-    "relief_flow": 5e-4,
-    "counterbalance_pressure": 6e6,
-    "counterbalance_flow": 8e-4,
-    "makeup_flow": 4e-4,
-    "pump_check": True,
-    "accumulator_volume": 1e-3,
-    "accumulator_pressure": 1.5e6,
-    "accumulator_flow": 2e-4,
-    "rupture_time": 1.5,
-    "rupture_area": 3e-6,
-}
-
-
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
-def test_energy_closes_with_every_part(formulation: str) -> None:
-    out = record(lifted(**EVERYTHING), 2.0, dt_out=0.01, rtol=1e-8, formulation=formulation)
-    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
-    power = out["hydraulic_power"][:, 0]
-    assert np.max(power[:, 0]) > 0.0
-    for part, name in enumerate(
-        ("valve", "relief", "makeup", "leakage", "accumulator", "rupture", "friction")
-    ):
-        assert np.max(power[:, 2 + part]) < 1e-3 * np.max(np.abs(power)), name
-    assert np.min(power[:, 2 + 5]) < 0.0
+    "air": 0.005, "friction": 300.0, "relief_pressure": 3.1e6, "relief_pressure_rod": 4e6,
+    "relief_flow": 5e-4, "counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4, "makeup_flow": 4e-4,
+    "pump_check": True, "accumulator_volume": 1e-3, "accumulator_pressure": 1.5e6, "accumulator_flow": 2e-4,
+    "rupture_time": 1.5, "rupture_area": 3e-6,
+}  # fmt: skip
 
 
 def test_oil_is_neither_lost_nor_made() -> None:
@@ -146,56 +127,210 @@ def test_a_spool_without_lag_is_the_limit_of_a_quick_one() -> None:
     assert np.max(np.abs(strokes[1] - strokes[2])) > 2e-5
 
 
-@pytest.mark.parametrize("integrator", ["dopri5", "dopri5-stiff", "rosenbrock"])
-def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
-    scene = lifted(**EVERYTHING)
-    whole = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator)
-    whole.advance(0.83)
-    later = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator, start=whole.core.state)
-    for going in (whole, later):
-        going.advance(1.7)
-    assert np.array_equal(whole.core.state.values, later.core.state.values)
+def test_energy_closes_with_every_part_and_runs_go_on_bit_for_bit() -> None:
+    how: dict[str, Any] = {"dt_out": 0.01, "rtol": 1e-8}
+    out = both_forms(lifted(**EVERYTHING), 2.0, {"hydraulic_stroke": 1e-6}, **how)
+    power = out["hydraulic_power"][:, 0]
+    assert np.max(power[:, 0]) > 0.0
+    for part, name in enumerate(
+        ("valve", "relief", "makeup", "leakage", "accumulator", "rupture", "friction")
+    ):
+        assert np.max(power[:, 2 + part]) < 1e-3 * np.max(np.abs(power)), name
+    assert np.min(power[:, 2 + 5]) < 0.0
+    for integrator in ("dopri5", "dopri5-stiff", "rosenbrock"):
+        goes_on(lambda: lifted(**EVERYTHING), 1.7, 0.83, dt_out=0.1, rtol=1e-6, integrator=integrator)
+
+
+GAS = {"accumulator_volume": 1e-3, "accumulator_pressure": 15.0, "accumulator_flow": 1e-4}
 
 
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000 Pa; it must be positive"),
-        ({"pump_pressure": 0.0}, "has a spool and no pump; give pump_pressure"),
+        ({"pump_pressure": 0.0}, "has a spool and no pump"),
         ({"rod_side_area": 2 * FULL}, "rod_side_area is .* more than the full side's"),
-        (
-            {"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0},
-            "full_area is 50.3.* a piston .* m wide",
-        ),
-        ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "relief_pressure is .* below the holding pressure"),
-        ({"hose_volume": 0.0}, "hose_volume is 0 m3, and at an end of the stroke no oil is left"),
+        ({"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0}, "m wide"),
+        ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "below the holding pressure"),
+        ({"hose_volume": 0.0}, "no oil is left"),
         ({"stroke": 0.2}, "1.35 m apart as described, and it is 1.05 to 1.25 m long"),
-        ({"rupture_area": 1e-4}, "rupture_time is 1e\\+07 s and rupture_area 0.0001 m2; give both"),
-        ({"relief_pressure": 1e7}, "has relief_pressure without relief_flow"),
-        ({"accumulator_volume": 0.1}, "accumulator_pressure is 0 and accumulator_volume is 0.1"),
-        (
-            {"accumulator_volume": 1e-3, "accumulator_pressure": 15.0, "accumulator_flow": 1e-4},
-            "accumulator_pressure is 15 Pa: the holding pressure of .* squeeze its gas to .* 1 bar is 1e5",
-        ),
-        ({"air": 0.5}, "air is 0.5; give 0 to 0.1 .share of the volume"),
-        ({"spool_lag": -0.1}, "spool_lag is -0.1"),
-        ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),
-        ({"rated_flow": 24.0}, r"rated_flow is 24 m3/s, which moves the piston by .* 24 l/min are 0.0004"),
-        ({"hose_volume": 31.4}, r"hose_volume is 31.4 m3, and the piston sweeps .* 31.4 l are 0.0314"),
-        (
-            {"pressure": 1e6},
-            r"pressure is 1e\+06 Pa, which cannot hold the 9807 N .* than 1.951e\+06 Pa",
-        ),
+        ({"rupture_area": 1e-4}, "rupture_time is .*; give both"),
+        ({"relief_pressure": 1e7}, "relief_pressure without relief_flow"),
+        ({"accumulator_volume": 0.1}, "accumulator_pressure is 0"),
+        (GAS, "accumulator_pressure is 15 Pa: .* 1 bar is 1e5"),
+        ({"tank_pressure": 8e6}, "not above the tank's"), ({"rated_flow": 24.0}, "24 l/min are 0.0004"),
+        ({"hose_volume": 31.4}, "31.4 l are 0.0314"), ({"pressure": 1e6}, "cannot hold the 9807 N"),
         ({"command": 0.5, "rated_flow": 0.0, "pump_pressure": 0.0}, "has a command and no spool"),
     ],
-)
+)  # fmt: skip
 def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=f"hydraulic cylinder 'ram': .*{message}"):
         raised(**wrong).compile()
-
-
-def test_a_scene_off_its_rest_names_the_body() -> None:
     scene = Scene(name="falls")
     scene.add_body(name="load", mass=1.0, inertia=(1, 1, 1), position=(1.2, 0, 0))
     with pytest.raises(SceneError, match=r"'ram'.*body 'load' accelerates by 9.81"):
         scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET)
+
+
+SETTINGS: dict[str, Any] = {"viscous_friction": 2e3, "spool_lag": 1e-3, "reference": START + 0.005}
+
+
+def swings(gain: float) -> tuple[bool, list[str]]:
+    """Whether the pressure still swings after a step of the reference, and what is told."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = simulate(raised(gain=gain, **SETTINGS), 4.0, dt_out=5e-3)
+    late = result["hydraulic_pressure"][-200:, 0, 0]
+    return bool(np.std(late) > 1e4), [
+        str(one.message) for one in caught if one.category is UnsteadyOilWarning
+    ]
+
+
+def steady_gain() -> float:
+    """Routh, of a quick spool: gain times its speed < 2 zeta omega = friction / mass; of the mean slope."""
+    back = 0.1 * SET["pump_pressure"]
+    load = (HOLDING + back * RING) / FULL
+    conductance = SET["rated_flow"] / np.sqrt(SET["rated_drop"])
+    drops = (SET["pump_pressure"] - load, load - SET["tank_pressure"])
+    flow = conductance * 0.5 * sum(drop / (drop**2 + SET["laminar_drop"] ** 2) ** 0.25 for drop in drops)
+    return float(SETTINGS["viscous_friction"] / MASS / (flow / FULL))
+
+
+def test_a_gain_above_the_closed_form_is_told_and_swings_and_the_recommended_one_is_steady() -> None:
+    assert swings(0.6 * steady_gain()) == (False, [])
+    swinging, (told, *_) = swings(1.7 * steady_gain())
+    assert swinging and "hydraulic cylinder 'ram': with its gain of" in told
+    _, (told,) = swings(4.0 * steady_gain())
+    assert swings(float(told.partition("such as ")[2].split()[0])) == (False, [])
+
+
+CLOSED = {"viscous_friction": 0.0}
+BURST = {"rupture_time": 0.2, "rupture_area": 4e-6}  # m2, 2.3 mm wide
+HOLE = 0.6 * BURST["rupture_area"] * np.sqrt(2.0 / 870.0)  # m3/s/sqrt(Pa)
+HOLDING_VALVE = {"counterbalance_pressure": 5e6, "counterbalance_flow": 8e-4}
+AIR = 1e5  # Pa
+
+
+def conductance(flow: float) -> float:
+    return flow / float(np.sqrt(SET["rated_drop"]))
+
+
+def through(drop: float) -> float:
+    return drop / (drop**2 + SET["laminar_drop"] ** 2) ** 0.25
+
+
+def test_a_burst_hose_lowers_the_load_as_fast_as_the_orifice_lets_oil_out() -> None:
+    out = record(raised(makeup_flow=1e-2, **CLOSED, **BURST), 2.0, rtol=1e-8)
+    makeup = conductance(1e-2)
+
+    def left(v: float) -> float:
+        rod = brentq(lambda p: makeup * through(SET["tank_pressure"] - p) - RING * v, -1e8, 1e5)
+        return float(HOLE * through((HOLDING + rod * RING) / FULL - AIR) - FULL * v)
+
+    speed = brentq(left, 1e-6, 0.1)
+    assert -out["velocity"][-1, 0, 2] == pytest.approx(speed, rel=1e-5)
+    plain = (
+        0.6
+        * BURST["rupture_area"]
+        * np.sqrt(2.0 * (HOLDING / FULL - AIR * (1.0 - RING / FULL)) / 870.0)
+        / FULL
+    )
+    assert speed == pytest.approx(plain, rel=1e-2)
+    spilled = out["hydraulic_spill"][:, 0]
+    assert np.all(spilled[out["time"] < 0.2] == 0.0)
+    assert spilled[-1] == pytest.approx(FULL * speed, rel=1e-4)
+
+
+def test_a_load_holding_valve_holds_when_the_hose_bursts() -> None:
+    """Lifting then only spills what the pump gives."""
+    up = Curve.quintic(start_time=0.5, end_time=0.6, start=0.0, end=0.5)
+    out = record(raised(command=up, **HOLDING_VALVE, **BURST), 1.5, rtol=1e-8)
+    assert np.ptp(out["hydraulic_stroke"]) < 3e-4  # as the rod side lets its pressure go
+    assert out["hydraulic_spill"][-1, 0] == pytest.approx(out["hydraulic_pump_flow"][-1, 0], rel=1e-6)
+    assert out["hydraulic_pump_flow"][-1, 0] == pytest.approx(
+        0.5 * conductance(SET["rated_flow"]) * through(SET["pump_pressure"] - AIR), rel=1e-6
+    )
+    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+
+
+def test_a_load_holding_valve_lowers_by_its_pilot() -> None:
+    """At rest it is closed; the pump on the rod side opens it, and the load goes down steadily."""
+    down = Curve.quintic(start_time=0.1, end_time=0.3, start=0.0, end=-0.5)
+    out = record(
+        raised(command=down, pilot_ratio=3.0, counterbalance_range=4e7, **HOLDING_VALVE), 3.0, rtol=1e-8
+    )
+    v, (p, rod) = -out["velocity"][-1, 0, 2], out["hydraulic_pressure"][-1, 0]
+    y = min(max((p + 3.0 * rod - 5e6) / 4e7, 0.0), 1.0)
+    edge, valve = 0.5 * conductance(SET["rated_flow"]), conductance(8e-4) * y * y * (3.0 - 2.0 * y)
+    series = edge * valve / np.hypot(edge, valve)
+    assert 0.0 < y < 1.0
+    assert FULL * v == pytest.approx(series * through(p - SET["tank_pressure"]), rel=1e-4)
+    assert RING * v == pytest.approx(edge * through(SET["pump_pressure"] - rod), rel=1e-4)
+    assert v > 0.01
+
+
+def test_a_relief_valve_opens_at_its_pressure_and_passes_its_flow() -> None:
+    """The pump drives the piston against the end of its stroke: what comes in leaves by the relief valve."""
+    relief = {"relief_pressure": 5e6, "relief_flow": 1e-3, "relief_override": 1e6}
+    scene = raised(retracted_length=RETRACTED - 0.29, stop_stiffness=1e8, command=0.5, **relief)
+    result = simulate(scene, 1.5, dt_out=0.05, rtol=1e-8)
+    told = [event.name for event in result.events if event.kind == "limit"]
+    assert "ram.extended" in told and "ram.relief" in told
+    edge = 0.5 * conductance(SET["rated_flow"])
+    expected = brentq(lambda p: edge * through(SET["pump_pressure"] - p) - 1e-9 * (p - 5e6), 5e6, 7.6e6)
+    assert result["hydraulic_pressure"][-1, 0, 0] == pytest.approx(expected, rel=1e-6)
+    at = next(event.time for event in result.events if event.name == "ram.relief")
+    fine = simulate(scene, at, dt_out=at, rtol=1e-8)
+    assert fine["hydraulic_pressure"][-1, 0, 0] == pytest.approx(5e6, rel=1e-5)
+
+
+def test_an_accumulator_makes_the_cylinder_soft() -> None:
+    gas: dict[str, Any] = {
+        "accumulator_volume": 4e-3, "accumulator_pressure": 1e6, "accumulator_flow": 1.0,
+        "accumulator_exponent": 1.3,
+    }  # fmt: skip
+    scene = raised(**CLOSED, **gas)
+    ram = scene.loads["ram"]
+    volume = gas["accumulator_volume"] * (gas["accumulator_pressure"] / ram.pressure) ** (1.0 / 1.3)
+    full, ring = (
+        (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
+        for swept, hose in (
+            (FULL * START, SET["hose_volume"]), (RING * (STROKE - START), SET["hose_volume_rod"]),
+        )
+    )  # fmt: skip
+    soft = FULL**2 / (full + volume / (1.3 * ram.pressure)) + RING**2 / ring
+    modes = natural_modes(scene)
+    assert np.min(np.abs(modes.natural_period * np.sqrt(soft / MASS) / (2.0 * np.pi) - 1.0)) < 1e-3
+
+
+@pytest.mark.parametrize("air", [0.001, 0.02])
+def test_air_softens_the_oil_as_its_formula_says(air: float) -> None:
+    scene = raised(air=air, **CLOSED)
+    ram = scene.loads["ram"]
+    stiffness = 0.0
+    for p, area, swept, hose in (
+        (ram.pressure, FULL, FULL * START, SET["hose_volume"]),
+        (ram.pressure_rod, RING, RING * (STROKE - START), SET["hose_volume_rod"]),
+    ):
+        k = 1.0 / SET["oil_modulus"] + 1.0 / SET["cylinder_modulus"]
+        liquid, gas = np.exp(-k * p), air * (AIR / p) ** (1.0 / 1.4)
+        mixed = (liquid * k + gas / (1.4 * p)) / (liquid + gas)
+        hoses = 1.0 / SET["hose_modulus"] - 1.0 / SET["cylinder_modulus"]
+        stiffness += area**2 / (swept * mixed + hose * (mixed + hoses))
+    modes = natural_modes(scene)
+    period = 2.0 * np.pi / np.sqrt(stiffness / MASS)
+    assert np.min(np.abs(modes.natural_period / period - 1.0)) < 1e-6
+
+
+def test_a_valve_that_shuts_in_a_millisecond_leaves_the_load_swinging_on_its_oil() -> None:
+    """Force peaks by v sqrt(k m), and the run sees it whatever its tolerance."""
+    shut = Curve.constant(value=0.6).then(
+        time=0.5, curve=Curve.quintic(start_time=0.5, end_time=0.501, start=0.6, end=0.0)
+    )
+    for rtol in (1e-3, 1e-8):
+        out = record(raised(command=shut, spool_lag=1e-4, viscous_friction=2e3), 0.56, dt_out=5e-4, rtol=rtol)
+        before = out["time"] < 0.5
+        v, s = out["velocity"][before, 0, 2][-1], out["hydraulic_stroke"][before, 0][-1]
+        k = closed_stiffness(s)
+        push = out["hydraulic_force"][~before, 0]
+        assert np.max(np.abs(push - MASS * G)) == pytest.approx(v * np.sqrt(k * MASS), rel=0.05)
+        assert np.max(np.abs(out["energy_balance"])) < max(1e-6, rtol) * out["absolute_work"][-1]

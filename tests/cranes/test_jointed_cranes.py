@@ -1,59 +1,46 @@
-"""Cranes of bodies and joints: lattice boom, A-frame, their statics by hand and what a bad file says."""
+"""Cranes of bodies and joints, from data files and URDF: statics by hand, Pinocchio, what a bad file says."""
 
 from __future__ import annotations
 
+import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import seacrane
-from seacrane import Scene, SceneError, simulate
-from seacrane.crane import JointedCrane, KnuckleBoomCrane, Payload, load_crane, shipped_cranes
+from seacrane import Curve, Scene, SceneError, simulate
+from seacrane.crane import JointedCrane, Payload, load_crane
+from seacrane.crane.jointed_file import parse
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import UrdfWarning
 
 G = 9.80665
 LATTICE = (SHIPPED / "lattice_boom_100t.toml").read_text(encoding="utf-8")
 A_FRAME = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
 
 
-def jointed(name: str) -> JointedCrane:
-    crane = load_crane(name)
-    assert isinstance(crane, JointedCrane)
-    return crane
-
-
 @pytest.fixture(scope="module")
 def lattice() -> JointedCrane:
-    return jointed("lattice_boom_100t")
+    return load_crane("lattice_boom_100t")
 
 
 @pytest.fixture(scope="module")
 def a_frame() -> JointedCrane:
-    return jointed("a_frame_40t")
+    return load_crane("a_frame_40t")
 
 
 def fixed(crane: JointedCrane, payload: Payload | None = None, **coordinates: float) -> Scene:
     scene = Scene(name="fixed base")
     scene.add_crane(
-        crane,
-        base="ground",
-        foot=(0, 0, 0),
-        coordinates=coordinates,
-        payload=payload,
-        held=True,
+        crane, base="ground", foot=(0, 0, 0), coordinates=coordinates, payload=payload, held=True,
         damping=False,
-    )
+    )  # fmt: skip
     return scene
-
-
-def test_load_crane_reads_every_kind_that_comes_with_seacrane() -> None:
-    cranes = {name: load_crane(name) for name in shipped_cranes()}
-    assert {type(crane) for crane in cranes.values()} == {KnuckleBoomCrane, JointedCrane}
-    assert cranes["lattice_boom_100t"].mass == pytest.approx(171e3)
 
 
 def test_tip_of_the_lattice_boom_in_closed_form(lattice: JointedCrane) -> None:
@@ -63,7 +50,7 @@ def test_tip_of_the_lattice_boom_in_closed_form(lattice: JointedCrane) -> None:
         assert np.allclose(lattice.tip(coordinates={"slew": slew, "boom": boom}), expected, atol=1e-12)
 
 
-@pytest.mark.parametrize("degrees", [5.0, 35.0, 60.0, 80.0])
+@pytest.mark.parametrize("degrees", [5.0, 60.0])
 @pytest.mark.parametrize("load", [5e3, 80e3])
 def test_luffing_rope_force_by_moments_about_the_hinge(
     lattice: JointedCrane, degrees: float, load: float
@@ -94,20 +81,14 @@ def test_an_elastic_luffing_rope_takes_the_place_of_the_driver(lattice: JointedC
         tension = result["line_tension"][:, 0]
         assert np.allclose(tension, by_moment, rtol=1e-5)
         assert np.ptp(result["position"][:, -1, 2]) < 1e-5
+    hauled = fixed(lattice, boom=0.5)
+    hauled.add_point(name="head", body="boom", point=(-48.0, 0.0, 0.0))
+    hauled.add_luffing_rope(rate=-0.3)  # blocks come nearer by what is wound over the falls, stretch aside
+    head = simulate(hauled, t_end=10.0, channels=["point_position"])["point_position"][:, 0]
+    shrunk = np.ptp(np.linalg.norm(head - [6.0, 0.0, 28.0], axis=1))
+    assert shrunk == pytest.approx(3.0 / 12.0, rel=5e-3) and head[-1, 2] > head[0, 2]
     posed = seacrane.statics(scene, coordinates={"boom": 0.0})
     assert float(posed["rope tension boom"]) == pytest.approx(by_moment, rel=1e-9)
-
-
-def test_hauling_the_luffing_rope_raises_the_boom_by_its_length(lattice: JointedCrane) -> None:
-    """The distance of the blocks shrinks by what is wound over the falls, stretch aside."""
-    scene = fixed(lattice, boom=0.5)
-    scene.add_point(name="head", body="boom", point=(-48.0, 0.0, 0.0))
-    scene.add_luffing_rope(rate=-0.3)
-    result = simulate(scene, t_end=10.0, channels=["point_position", "line_tension"])
-    mast, head = np.array([6.0, 0.0, 28.0]), result["point_position"][:, 0]
-    shrunk = np.ptp(np.linalg.norm(head - mast, axis=1))
-    assert shrunk == pytest.approx(3.0 / 12.0, rel=5e-3)
-    assert head[-1, 2] > head[0, 2]
 
 
 def test_a_frame_cylinder_force_by_virtual_work(a_frame: JointedCrane) -> None:
@@ -117,7 +98,7 @@ def test_a_frame_cylinder_force_by_virtual_work(a_frame: JointedCrane) -> None:
     def potential(stroke: float) -> float:
         parts = a_frame.parts(foot=(0, 0, 0), coordinates={"tilt": stroke})
         height = sum(
-            body.mass * (body.position + _turn(body.quaternion) @ body.center_of_mass)[2]
+            body.mass * (body.position + rotation_matrix(body.quaternion) @ body.center_of_mass)[2]
             for body in parts.bodies
         )
         return G * (height + payload.mass * parts.tip[1][2])
@@ -141,171 +122,235 @@ def test_loops_of_a_frame_close_and_keep_the_triangle(a_frame: JointedCrane) -> 
         assert np.allclose(a_frame.tip(coordinates={"tilt": stroke}), tip, atol=1e-8)
 
 
-def _turn(quaternion: np.ndarray) -> np.ndarray:
-    return rotation_matrix(quaternion)
-
-
-@pytest.mark.parametrize("name", ["lattice_boom_100t", "a_frame_40t"])
-def test_scenes_go_to_files_and_back(name: str, tmp_path: Path) -> None:
-    scene = fixed(jointed(name), Payload(size=(2.0, 2.0, 2.0)))
-    scene.save(tmp_path / "scene.json")
-    again = Scene.load(tmp_path / "scene.json")
-    assert again.roles == scene.roles
-    assert again.ranges == scene.ranges
-
-
-def test_both_are_drawn_by_their_members(lattice: JointedCrane) -> None:
-    from seacrane.pictures.drawn_bodies import crane_shapes
-
-    scene = fixed(lattice, boom=0.7)
-    shapes = crane_shapes(scene, None)
-    assert {name: len(parts) for name, parts in shapes.items()} == {"pedestal": 1, "house": 6, "boom": 44}
-
-
-def test_a_load_chart_of_a_frame_that_does_not_slew_is_refused_by_name(a_frame: JointedCrane) -> None:
-    scene = fixed(a_frame, Payload(size=(2.0, 2.0, 2.0)))
-    with pytest.raises(SceneError, match=r"crane '' has no slew drive, from whose axis radii are counted"):
-        seacrane.load_chart(scene, radii=[5.0], limits={"cylinder force tilt": 500.0})
-
-
-def test_a_study_varies_the_boom_of_a_crane(lattice: JointedCrane) -> None:
-    """A heavier boom takes more tension, by its weight's lever arm over that of the falls."""
+def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: JointedCrane) -> None:
+    """A heavier boom takes more moment, by its weight's lever arm."""
     scene = fixed(lattice, Payload(mass=20e3, size=(2.0, 2.0, 2.0)), boom=1.0)
-    masses = [20e3, 30e3]
+    found = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])
+    assert np.allclose(found["tip radius"], [[20.0, 40.0]] * 2, atol=1e-6)
+    assert found.pose_units == {"slew": "rad", "radius": "m"}
     told = []
-    for mass in masses:
+    for mass in (20e3, 30e3):
         scene.replace("boom", mass=mass)
         told.append(float(seacrane.statics(scene, coordinates={"boom": 0.0})["luff moment boom"]))
     center = lattice.mass_properties["boom"].center_of_mass
     arm = math.hypot(center[0], center[2]) * math.cos(1.0 + math.atan2(center[2], -center[0]))
-    assert told[1] - told[0] == pytest.approx(G * (masses[1] - masses[0]) * arm, rel=1e-6)
-    study = seacrane.ensemble(
-        scene, over={"bodies.boom.mass": masses}, keep={"moment": _largest_moment}, t_end=0.2, dt_out=0.1
-    )
-    moments = np.asarray(study.dataset["moment"])
-    assert moments[1] - moments[0] == pytest.approx((told[1] - told[0]), rel=1e-6)
+    assert told[1] - told[0] == pytest.approx(G * 10e3 * arm, rel=1e-6)
 
 
-def _largest_moment(result: seacrane.Result) -> float:
-    return float(np.abs(result.select("driver_force", driver="boom hinge.angle")).max())
+BAD = [
+    (LATTICE, 'kind = "jointed"', 'kind = "lattice"', "kind is 'lattice'"),
+    (LATTICE, 'second = "boom"\npoint', 'second = "bom"\npoint', "its second body is 'bom'"),
+    (LATTICE, 'kind = "revolute"\nfirst = "house"', 'kind = "gear"\nfirst = "house"', "kind is 'gear'"),
+    (LATTICE, "axis = [0.0, 1.0, 0.0]", "axis = [0.0, 0.0, 0.0]", "is all zero"),
+    (LATTICE, "range_deg = [0.0, 82.0]", "range_deg = [82.0, 0.0]", "the lower end first"),
+    (LATTICE, "range_deg = [0.0", "range_dge = [0.0", r"unknown key joints\[1\] \(boom hinge\).range_dge"),
+    (LATTICE, 'luffs = { boom = "boom hinge" }', 'luffs = { boom = "slw" }', "no revolute joint"),
+    (LATTICE, 'luff = "boom"', 'luff = "jib"', "holds luff 'jib'"),
+    (LATTICE, "falls = 12", "falls = 2.5", "a whole number"),
+    (LATTICE, "EA = 60.0e6", "EA = -1.0", "EA is -1"),
+    (LATTICE, "total_mass = 171000.0", "total_mass = 171.0", "bodies add up to 171000 kg"),
+    (
+        LATTICE, 'first = { body = "house", point', 'first = { body = "boom", point',
+        "first body must be before",
+    ),
+    (LATTICE, '"house"\nsecond = "boom"', '"boom"\nsecond = "house"', "nothing carries its first"),
+    (A_FRAME, "[[closing_joints]]", "[[joints]]", r"'rod head' closes a loop.*\[\[closing"),
+]  # fmt: skip
 
 
-def test_radius_is_found_by_luffing(lattice: JointedCrane) -> None:
-    scene = fixed(lattice, Payload(size=(2.0, 2.0, 2.0)), boom=1.0)
-    told = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])
-    assert np.allclose(told["tip radius"], [[20.0, 40.0]] * 2, atol=1e-6)
-    assert told.pose_units == {"slew": "rad", "radius": "m"}
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "says"),
-    [
-        ('kind = "jointed"', 'kind = "lattice"', 'kind is \'lattice\'; write "knuckle-boom", "jointed" or'),
-        ('second = "boom"\npoint', 'second = "bom"\npoint', "its second body is 'bom'; there are pedestal"),
-        ('kind = "revolute"\nfirst = "house"', 'kind = "gear"\nfirst = "house"', "kind is 'gear'; write one"),
-        ("axis = [0.0, 1.0, 0.0]", "axis = [0.0, 0.0, 0.0]", "is all zero; write a direction"),
-        ("range_deg = [0.0, 82.0]", "range_deg = [82.0, 0.0]", "write the lower end first"),
-        (
-            "range_deg = [0.0, 82.0]",
-            "range_dge = [0.0, 82.0]",
-            "unknown key joints[1] (boom hinge).range_dge",
-        ),
-        ('luffs = { boom = "boom hinge" }', 'luffs = { boom = "slw" }', "which is no revolute joint"),
-        ('luff = "boom"', 'luff = "jib"', "holds luff 'jib'; the luffs are 'boom'"),
-        ("falls = 12", "falls = 2.5", "write a whole number"),
-        ("EA = 60.0e6", "EA = -1.0", "EA is -1; it must be greater than zero"),
-        ("total_mass = 171000.0", "total_mass = 171.0", "the bodies add up to 171000 kg"),
-        (
-            'first = { body = "house", point',
-            'first = { body = "boom", point',
-            "its first body must be before",
-        ),
-        ('first = "house"\nsecond = "boom"', 'first = "boom"\nsecond = "house"', "nothing carries its first"),
-    ],
-)
-def test_a_bad_file_names_the_item(tmp_path: Path, old: str, new: str, says: str) -> None:
-    assert LATTICE.count(old) == 1
+@pytest.mark.parametrize(("text", "old", "new", "says"), BAD)
+def test_a_bad_file_names_the_item(tmp_path: Path, text: str, old: str, new: str, says: str) -> None:
+    assert text.count(old) == 1
     path = tmp_path / "mine.toml"
-    path.write_text(LATTICE.replace(old, new), encoding="utf-8")
-    with pytest.raises(FileFormatError) as caught:
-        load_crane(path)
-    assert says in str(caught.value)
-    assert "mine.toml" in str(caught.value)
-
-
-def test_a_loop_in_the_tree_is_asked_to_be_a_closing_joint(tmp_path: Path) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(A_FRAME.replace("[[closing_joints]]", "[[joints]]"), encoding="utf-8")
-    with pytest.raises(FileFormatError, match=r"'rod head' closes a loop.*write it as one of \[\[closing"):
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(FileFormatError, match=f"mine.toml.*{says}"):
         load_crane(path)
 
 
-def test_poses_out_of_range_and_labels_that_are_not_there(
-    lattice: JointedCrane, a_frame: JointedCrane
-) -> None:
-    with pytest.raises(SceneError, match=r"boom is 1.5 rad, outside its range of 0 to 1.43117"):
-        fixed(lattice, boom=1.5)
-    with pytest.raises(SceneError, match="has no coordinate 'bom'; it has 'slew', 'boom'"):
-        fixed(lattice, bom=0.5)
-    scene = Scene(name="x")
-    with pytest.raises(SceneError, match="slew are those of a knuckle boom; give coordinates"):
-        scene.add_crane(lattice, base="ground", slew=0.5)
-    with pytest.raises(SceneError, match="give a knuckle boom slew, s1, s2"):
-        scene.add_crane(base="ground", coordinates={"slew": 0.5})
-    wide = A_FRAME.replace("range_m = [-1.6, 2.6]", "range_m = [-1.6, 9.0]")
-    from seacrane.crane.jointed_file import parse
-
-    with pytest.raises(SceneError, match="its loops stay open by"):
-        JointedCrane(parse(wide)).tip(coordinates={"tilt": 8.5})
-
-
-def test_a_rope_cannot_push_and_a_moving_driver_stays(lattice: JointedCrane) -> None:
-    scene = fixed(lattice, boom=1.0)
-    with pytest.raises(SceneError, match="luff is 'jib'; the hinges with a rope are 'boom'"):
-        scene.add_luffing_rope(luff="jib")
-    del scene.drivers["boom hinge.angle"]
-    scene.add_driver(
-        joint="boom hinge", curve=seacrane.Curve.quintic(start_time=0, end_time=9, start=0, end=0.1)
-    )
-    with pytest.raises(
-        SceneError, match=r"driver 'boom hinge.angle' leads its hinge; take the driver out first"
+def test_what_a_crane_of_joints_cannot_do_is_told(lattice: JointedCrane, a_frame: JointedCrane) -> None:
+    size, scene = (2.0, 2.0, 2.0), Scene(name="x")
+    framed, roped, moved = fixed(a_frame, Payload(size=size)), fixed(lattice, boom=1.0), fixed(lattice)
+    moved.remove("boom hinge.angle")
+    moved.add_driver(joint="boom hinge", curve=seacrane.Curve.table([0, 9], [0, 0.1]))
+    wide = JointedCrane(parse(A_FRAME.replace("range_m = [-1.6, 2.6]", "range_m = [-1.6, 9.0]")))
+    limits = {"cylinder force tilt": 500.0}
+    for call, words in (
+        (lambda: fixed(lattice, boom=1.5), "boom is 1.5 rad, outside its range"),
+        (lambda: fixed(lattice, bom=0.5), "no coordinate 'bom'; it has 'slew', 'boom'"),
+        (lambda: scene.add_crane(lattice, base="ground", slew=0.5), "give coordinates"),
+        (lambda: scene.add_crane(base="ground", coordinates={"slew": 0.5}), "slew, s1, s2"),
+        (lambda: wide.tip(coordinates={"tilt": 8.5}), "its loops stay open by"),
+        (lambda: seacrane.load_chart(framed, radii=[5.0], limits=limits), "crane '' has no slew drive"),
+        (lambda: roped.add_luffing_rope(luff="jib"), "luff is 'jib'"),
+        (moved.add_luffing_rope, "'boom hinge.angle' leads its hinge"),
     ):
-        scene.add_luffing_rope()
+        with pytest.raises(SceneError, match=words):
+            call()
 
 
-def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
-    (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
-    text = """
-format = "seacrane lift"
+LIFT = """format = "seacrane lift"
 version = 2
-
-[scene]
-name = "lattice"
-
+scene = { name = "lattice" }
+luffing_rope = { luff = "boom", rate_m_per_s = 0.1 }
+run = { t_end_s = 0.5 }
 [crane]
 crane = "crane.toml"
 base = "ground"
 foot_m = [0.0, 0.0, 0.0]
 held = true
-
-[[crane.coordinates]]
-name = "boom"
-value_deg = 60.0
-
-[crane.payload]
-mass_kg = 20e3
-
-[luffing_rope]
-luff = "boom"
-rate_m_per_s = 0.1
-
-[run]
-t_end_s = 0.5
+coordinates = [{ name = "boom", value_deg = 60.0 }]
+payload = { mass_kg = 20e3 }
 """
-    (tmp_path / "lift.toml").write_text(text, encoding="utf-8")
+
+
+def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
+    (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
+    (tmp_path / "lift.toml").write_text(LIFT, encoding="utf-8")
     result = seacrane.Lift.load(tmp_path / "lift.toml").simulate()
     assert result["link_tension"][0] == pytest.approx(20e3 * G, rel=1e-2)
     assert result["line_length"][-1, 0] > result["line_length"][0, 0]
-    (tmp_path / "wrong.toml").write_text(text.replace("value_deg = 60.0", "value_m = 1.0"), encoding="utf-8")
+    (tmp_path / "lift.toml").write_text(LIFT.replace("value_deg = 60.0", "value_m = 1.0"), encoding="utf-8")
     with pytest.raises(FileFormatError, match="'boom' is of a revolute joint; give value_deg or value_rad"):
-        seacrane.Lift.load(tmp_path / "wrong.toml").simulate()
+        seacrane.Lift.load(tmp_path / "lift.toml").simulate()
+
+
+URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
+BESIDE = (SHIPPED / "service_arm_5t.toml").read_text(encoding="utf-8")
+RECORDED = Path(__file__).parents[2] / "benchmarks" / "peers" / "references" / "service_arm.json"
+REFERENCE = json.loads(RECORDED.read_text(encoding="utf-8"))
+
+
+def arm() -> JointedCrane:
+    crane = load_crane("service_arm_5t")
+    assert isinstance(crane, JointedCrane)
+    return crane
+
+
+def opened(crane: JointedCrane) -> JointedCrane:
+    """Without its loop, every joint a coordinate."""
+    kinds = {joint.name: joint.kind for joint in crane.data.joints}
+    hinges = {name: name for name, kind in kinds.items() if kind == "revolute" and name != "slew"}
+    slides = {name: name for name, kind in kinds.items() if kind == "prismatic"}
+    joints = tuple(replace(joint, range=None) for joint in crane.data.joints)
+    return JointedCrane(replace(crane.data, joints=joints, closing_joints=(), luffs=hinges, cylinders=slides))
+
+
+@pytest.mark.parametrize("state", REFERENCE["states"])
+@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
+def test_accelerations_are_those_of_pinocchio(state: dict[str, dict[str, float]], formulation: str) -> None:
+    """Drivers that lead all joints with its rates and accelerations have nothing to do."""
+    crane = opened(arm())
+    scene = Scene(name="arm")
+    scene.add_crane(crane, base="ground", foot=(0, 0, 0), coordinates=state["positions"])
+    for name, rate in state["rates"].items():
+        motion = [0.0, rate, 0.5 * state["accelerations"][name], 0.0, 0.0, 0.0]
+        scene.add_driver(joint=name, curve=Curve.pieces(starts=[0.0], coefficients=[motion]))
+    result = simulate(scene, t_end=1e-3, dt_out=1e-3, formulation=formulation)
+    still = Scene(name="still")
+    still.add_crane(crane, base="ground", foot=(0, 0, 0), coordinates=state["positions"], held=True)
+    weight = np.abs(simulate(still, t_end=1e-3, formulation=formulation)["driver_force"][0])
+    assert np.abs(result["driver_force"][0]).max() < 1e-9 * weight.max()
+
+
+def test_links_without_mass_are_frames_of_what_they_are_fixed_to() -> None:
+    crane = arm()
+    assert crane.data.root == "deck"
+    assert [body.name for body in crane.data.bodies] == [
+        "pedestal", "column", "jib", "stinger", "trunnion", "barrel", "rod",
+    ]  # fmt: skip
+    assert crane.data.tip[0] == "stinger"
+    assert np.allclose(crane.tip(), (0.3 + 4.5 + 2.0, 0.0, 3.8), atol=1e-12)
+    assert crane.mass == pytest.approx(5475.0)
+
+
+def test_the_cylinder_raises_the_jib_by_the_law_of_cosines() -> None:
+    crane = arm()
+    foot, head = np.array([0.6 - 0.3, 0.2 - 1.8]), np.array([2.0, -0.35])
+    a, b = np.linalg.norm(foot), np.linalg.norm(head)
+    for stroke in (-0.2, 0.0, 0.5):
+        length = float(np.linalg.norm(head - foot)) + stroke
+        opening = math.acos((a**2 + b**2 - length**2) / (2.0 * a * b))
+        angle = opening + math.atan2(foot[1], foot[0]) - math.atan2(head[1], head[0])
+        tip = crane.tip(coordinates={"jib": stroke})
+        assert np.allclose(tip, (0.3 + 6.5 * math.cos(angle), 0.0, 3.8 + 6.5 * math.sin(angle)), atol=1e-9)
+
+
+def written(folder: Path, urdf: str = URDF, beside: str = BESIDE) -> Path:
+    (folder / "service_arm_5t.urdf").write_text(urdf, encoding="utf-8")
+    path = folder / "arm.toml"
+    path.write_text(beside, encoding="utf-8")
+    return path
+
+
+def test_inertia_is_turned_by_the_frames_of_link_and_inertial(tmp_path: Path) -> None:
+    """A rod along x of the jib, which is itself turned about y: I along the rod stays, by hand."""
+    crane = arm()
+    barrel = crane.mass_properties["barrel"]
+    pitch = math.atan2(1.25 + 0.35 - 0.35, 1.7)
+    along = np.array([math.cos(pitch), 0.0, math.sin(pitch)])
+    assert along @ barrel.inertia @ along == pytest.approx(0.5 * 160.0 * 0.11**2, rel=1e-5)
+    assert np.trace(barrel.inertia) == pytest.approx(
+        0.5 * 160 * 0.11**2 + 160 / 6 * (3 * 0.11**2 + 1.4**2), rel=1e-5
+    )
+    assert np.allclose(barrel.center_of_mass, 0.7 * along, atol=1e-9)
+
+
+def test_a_mesh_in_millimetres_is_refused_by_name(tmp_path: Path) -> None:
+    stl = "solid x\n" + "".join(
+        f"facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {a} 200 0\nvertex {a} 0 300\nendloop\n"
+        "endfacet\n"
+        for a in (100, 600)
+    )
+    (tmp_path / "jib.stl").write_text(stl + "endsolid x\n", encoding="utf-8")
+    shape = '<cylinder radius="0.25" length="6"/>'
+    path = written(tmp_path, URDF.replace(shape, '<mesh filename="package://jib.stl"/>'))
+    with pytest.raises(
+        SceneError, match=r"mesh 'jib': spans 600 m, and the joints of its crane .* in mm: give"
+    ):
+        Scene(name="x").add_crane(load_crane(path), base="ground")
+    scaled = '<mesh filename="jib.stl" scale="0.001 0.001 0.001"/>'
+    scene = Scene(name="y")
+    scene.add_crane(load_crane(written(tmp_path, URDF.replace(shape, scaled))), base="ground")
+    assert np.ptp(scene.meshes["jib"].vertices, axis=0).max() == pytest.approx(0.6)
+
+
+SLEWING = '<axis xyz="0 0 1"/>\n  </joint>\n  <link name="jib">'
+SLIDING = '    <axis xyz="1 0 0"/>\n    <limit lower="0" upper="3"'
+TELESCOPE = 'type="prismatic">\n    <parent link="jib"/>'
+KINDS = "seacrane reads revolute, continuous, prismatic, fixed"
+LOOP = '<joint name="rod_head" type="continuous"><parent link="rod"/><child link="jib"/></joint></robot>'
+BAD_URDF = [
+    ('<parent link="jib"/>', '<parent link="jibb"/>', "'telescope' names link 'jibb'; there are deck"),
+    (TELESCOPE, TELESCOPE.replace("prismatic", "floating"), f"joint 'telescope' is 'floating'; {KINDS}"),
+    ('<mass value="1400"/>', '<mass value="-1400"/>', "'jib' has mass -1400 kg; give one above zero"),
+    ('<mass value="1400"/>', "", "link 'jib' has no value; give it"),
+    (SLEWING, SLEWING.replace("0 0 1", "0 0 0"), "joint 'slew' has an axis of zeros"),
+    ('lower="-0.2" upper="1.2"', 'lower="1.2" upper="-0.2"', "'jib_hinge' has limits 1.2 to -0.2"),
+    ('xyz="4.5 0 0"', 'xyz="4.5 0"', "<origin> of telescope: xyz is '4.5 0'; write three numbers"),
+    ('xyz="4.5 0 0"', 'xyz="4.5 nan 0"', "is 'nan'; write a finite number"),
+    ("<robot name", "<mujoco name", "not valid XML"),
+    ('<?xml version="1.0"?>', '<!DOCTYPE x [<!ENTITY a "b">]>', "has a document type of its own"),
+    (SLIDING, '    <mimic joint="slew"/>\n' + SLIDING, "joint 'telescope' mimics another"),
+    ('<cylinder radius="0.25" length="6"/>', "<capsule/>", "visual 'jib' is a <capsule>"),
+    ('<inertia ixx="4221.88"', '<inertia ixx="42218.8"', "none above the sum of the others"),
+    ("</robot>", LOOP, "'jib' is carried by joints 'jib_hinge' and 'rod_head': a loop"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "says"), BAD_URDF)
+def test_a_bad_urdf_names_the_item(tmp_path: Path, old: str, new: str, says: str) -> None:
+    assert old in URDF
+    with pytest.raises(FileFormatError, match=r"service_arm_5t\.urdf") as caught:
+        load_crane(written(tmp_path, URDF.replace(old, new, 1)))
+    assert says in str(caught.value)
+
+
+def test_what_is_not_taken_over_or_missing_is_told(tmp_path: Path) -> None:
+    rubbing = URDF.replace('<axis xyz="1 0 0"/>', '<axis xyz="1 0 0"/><dynamics damping="50"/>', 1)
+    dae = URDF.replace('<cylinder radius="0.25" length="6"/>', '<mesh filename="jib.dae"/>')
+    for text, words in ((rubbing, "'telescope' has damping or friction"), (dae, "'jib.dae', .* not drawn")):
+        with pytest.warns(UrdfWarning, match=words):
+            load_crane(written(tmp_path, text))
+    (tmp_path / "service_arm_5t.urdf").unlink()
+    with pytest.raises(FileFormatError, match=r"URDF file .*service_arm_5t.urdf cannot be read"):
+        load_crane(tmp_path / "arm.toml")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from element_runs import both_forms, goes_on
+from line_scenes import MASS as LOAD
+from line_scenes import STIFFNESS, hung
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
-from seacrane import Curve, Run, Scene, SceneError, _core, cases, natural_modes, simulate
+from seacrane import Curve, Scene, SceneError, _core, cases, equilibrium, natural_modes, simulate
 from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
-from seacrane.warnings import CompassDirectionWarning
+from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -55,15 +56,6 @@ def test_a_point_mass_swings_with_that_ratio_of_critical_damping(ratio: float, f
         1e-3 * decay(result.time, ratio), abs=1e-8
     )  # sin: 1e-6 of the angle in the period
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
-
-
-def test_two_maxima_have_the_logarithmic_decrement_of_the_ratio() -> None:
-    scene = pendulum()
-    scene.add_pendulum_damping(name="swing", first="ground", second="load", ratio=0.03)
-    period = 2.0 * np.pi / np.sqrt(G / LENGTH) / np.sqrt(1.0 - 0.03**2)
-    result = simulate(scene, t_end=3.0 * period, dt_out=period, rtol=1e-10)
-    decrement = np.log(swing(result)[:-1] / swing(result)[1:])
-    assert decrement == pytest.approx(np.full(3, 2.0 * np.pi * 0.03 / np.sqrt(1.0 - 0.03**2)), rel=1e-4)
 
 
 def test_the_default_of_a_crane_s_payload_is_a_mode_of_that_ratio() -> None:
@@ -144,26 +136,27 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
 
 
+KINDS = ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
+
+
 @pytest.mark.warns(sometimes=["UnitWarning"])
-@pytest.mark.parametrize(
-    "kind", ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
-)
-def test_the_jacobian_is_exact_and_both_formulations_agree(kind: str) -> None:
-    scene = Scene(name="two")
-    rng = np.random.default_rng(5)
-    for name in ("first", "second"):
-        scene.add_body(
-            name=name, mass=2.0, inertia=(1.0, 2.0, 2.5), position=rng.normal(size=3),
-            velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3), gravity=False,
-        )  # fmt: skip
-    scene.add_load(_core.LOAD_KINDS[kind].example())
-    model = scene.compile()
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_jacobian_is_exact_and_both_formulations_agree_to_the_bits_of_a_restart(kind: str) -> None:
+    def make() -> Scene:
+        scene, rng = Scene(name="two"), np.random.default_rng(5)
+        for name in ("first", "second"):
+            scene.add_body(
+                name=name, mass=2.0, inertia=(1.0, 2.0, 2.5), position=rng.normal(size=3),
+                velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3), gravity=False,
+            )  # fmt: skip
+        scene.add_load(_core.LOAD_KINDS[kind].example())
+        return scene
+
+    model = make().compile()
     for seed in (1, 2):
         assert largest_error(model, 0.0, moving(model, seed), step=3e-4) < 1e-7
-    ends = [simulate(scene, t_end=2.0, rtol=1e-10, formulation=one) for one in ("redundant", "recursive")]
-    assert ends[0]["position"][-1] == pytest.approx(ends[1]["position"][-1], abs=1e-8)
-    for result in ends:
-        assert np.abs(result["energy_balance"]).max() < 1e-7 * result["absolute_work"][-1]
+    both_forms(make(), 2.0, {"position": 1e-8}, rtol=1e-10)
+    goes_on(make, 2.0, 1.0)
 
 
 def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
@@ -179,96 +172,120 @@ def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
     assert found == pytest.approx(expected, abs=2e-5 * 0.5 * 1.226 * 2.0 * 100.0 * 20.0)
 
 
-def test_still_air_against_the_waves_is_no_wind() -> None:
-    scene = cases.case2(hs=2.0, wave_direction_deg=180.0)
-    scene.add_air_drag(body="payload", frontal_area=24.0, lateral_area=24.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", CompassDirectionWarning)
-        simulate(scene, t_end=0.1)
-
-
-def test_without_damping_a_crane_is_as_before_to_the_bit() -> None:
-    """And so is one whose numbers are zero: nothing is added."""
+def test_a_crane_without_damping_has_none_and_a_payload_of_each_has_its_own() -> None:
     scenes = []
     for payload, damping in (
-        (Payload(), False), (Payload(swing_damping_ratio=0.0, drag_coefficient=0.0), True)
+        (Payload(), False), (Payload(swing_damping_ratio=0.0, drag_coefficient=0.0), True), (Payload(), True)
     ):  # fmt: skip
         scene = Scene(name="crane")
         scene.add_crane(base="ground", payload=payload, damping=damping)
-        assert not scene.loads
         scenes.append(scene)
-    assert scenes[0] == scenes[1]
-    damped = Scene(name="crane")
-    damped.add_crane(base="ground", payload=Payload())
-    assert list(damped.loads) == ["payload swing", "payload drag"]
-    for name in list(damped.loads):
-        damped.remove(name)
-    assert damped == scenes[0]
+    bare, zero, damped = scenes
+    assert bare == zero and not bare.loads and list(damped.loads) == ["payload swing", "payload drag"]
+    damped.add_crane(base="ground", foot=(0.0, 30.0, 0.0), prefix="aft ", payload=Payload())
+    assert list(damped.loads)[2:] == ["aft payload swing", "aft payload drag"]
+    assert damped.loads["aft payload swing"].first == "aft knuckle_jib"
+    assert not any(case().loads for case in (cases.case1, cases.case2, cases.case3))
 
 
-def test_the_paper_s_cases_have_none() -> None:
-    for case in (cases.case1, cases.case2, cases.case3):
-        assert not case().loads
-
-
-def test_each_payload_of_two_cranes_has_its_own() -> None:
-    scene = Scene(name="tandem")
-    for prefix, y in (("", 0.0), ("aft ", 30.0)):
-        scene.add_crane(base="ground", foot=(0.0, y, 0.0), prefix=prefix, payload=Payload())
-    assert list(scene.loads) == [
-        "payload swing", "payload drag", "aft payload swing", "aft payload drag"
-    ]  # fmt: skip
-    swings = [scene.loads[name] for name in ("payload swing", "aft payload swing")]
-    assert [one.first for one in swings] == ["knuckle_jib", "aft knuckle_jib"]
-
-
-def test_a_damped_scene_comes_back_from_its_file_and_goes_on_to_the_bit(tmp_path: Path) -> None:
-    scene = pendulum(0.1)
-    scene.add_pendulum_damping(name="swing", first="ground", second="load")
-    scene.add_air_drag(body="load", frontal_area=10.0, lateral_area=12.0)
-    scene.save(tmp_path / "scene.json")
-    again = Scene.load(tmp_path / "scene.json")
-    assert again == scene
-    whole, half = (Run(one, t_end=2.0) for one in (scene, again))
-    for run in (whole, half):
-        run.advance(1.0)
-    whole.advance(2.0)
-    rest = Run(again, t_end=2.0, start=half.state)
-    rest.advance(2.0)
-    assert rest.state == whole.state
+SWING: dict[str, Any] = {"name": "swing", "first": "ground", "second": "load"}
+DRAG: dict[str, Any] = {"body": "load", "frontal_area": 1.0, "lateral_area": 1.0}
 
 
 @pytest.mark.parametrize(
-    ("call", "given", "message"),
+    ("given", "message"),
     [
-        ("add_pendulum_damping", {"ratio": -0.1}, "pendulum damping 'swing': ratio is -0.1"),
-        (
-            "add_pendulum_damping",
-            {"ratio": 20.0},
-            "ratio is 20; give 0 to 10 .of critical damping of the swing",
-        ),
-        ("add_pendulum_damping", {"second": "hook"}, "pendulum damping 'swing': there is no body 'hook'"),
-        ("add_pendulum_damping", {"first": "load"}, "joins 'load' to itself"),
-        ("add_pendulum_damping", {"mass": "1e3"}, "mass is '1e3'; give a number"),
-        ("add_air_drag", {"drag_coefficient": -1.0}, "drag_coefficient is -1.0; give a finite number"),
-        ("add_air_drag", {"body": "hook"}, "air drag 'hook drag': there is no body 'hook'"),
-        ("add_air_drag", {"frontal_area": -2.0}, "frontal_area is -2 m2; it must not be negative"),
-        ("add_air_drag", {"point": (0.0, 0.0)}, r"point has shape \(2,\); give \(3,\)"),
+        (SWING | {"ratio": 20.0}, "'swing': ratio is 20"),
+        (SWING | {"second": "hook"}, "'swing': there is no body 'hook'"),
+        (SWING | {"first": "load"}, "joins 'load' to itself"),
+        (DRAG | {"drag_coefficient": -1.0}, "drag_coefficient is -1.0"),
+        (DRAG | {"body": "hook"}, "'hook drag': there is no body 'hook'"),
+        (DRAG | {"frontal_area": -2.0}, "frontal_area is -2"),
+        ({"swing_damping_ratio": -0.1}, "payload: swing_damping_ratio is"),
+        ({"drag_coefficient": float("nan")}, "payload: drag_coefficient is"),
     ],
 )
-def test_wrong_damping_is_refused_by_name(call: str, given: dict[str, Any], message: str) -> None:
-    usual: dict[str, dict[str, Any]] = {
-        "add_pendulum_damping": {"name": "swing", "first": "ground", "second": "load"},
-        "add_air_drag": {"body": "load", "frontal_area": 1.0, "lateral_area": 1.0},
-    }
+def test_wrong_damping_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = pendulum()
     with pytest.raises(SceneError, match=message):
-        getattr(scene, call)(**usual[call] | given)
+        if "name" in given:
+            scene.add_pendulum_damping(**given)
+        elif "body" in given:
+            scene.add_air_drag(**given)
+        else:
+            Payload(**given)
         scene.compile()
 
 
-@pytest.mark.parametrize("key", ["swing_damping_ratio", "drag_coefficient"])
-@pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])
-def test_a_payload_s_damping_is_not_negative(key: str, value: float) -> None:
-    with pytest.raises(SceneError, match=f"payload: {key} is"):
-        Payload(**{key: value})
+def below_a_ship(order: int) -> Scene:
+    scene = Scene(name="order")
+    scene.add_vessel(shipped_database())
+    scene.add_body(name="load", mass=LOAD, inertia=(LOAD, LOAD, LOAD), position=(0, 40, 5))
+    scene.add_line(
+        name="hoist", bodies=["vessel", "load"][::order], points=[(0, 40, 25), (0, 0, 0)][::order],
+        EA=2e7, tension_at_start=0.8 * LOAD * G,
+    )  # fmt: skip
+    return scene
+
+
+def bounce(scene: Scene, name: str = "hoist") -> tuple[float, float, float]:
+    """Mass (kg), frequency (rad/s) and ratio."""
+    return scene.compile().line_bounces[name]
+
+
+def test_the_order_of_the_ends_does_not_matter() -> None:
+    there, back = (bounce(below_a_ship(order)) for order in (1, -1))
+    assert there == pytest.approx(back, rel=1e-12)
+    assert 0.8 * LOAD < there[0] < LOAD and there[2] == pytest.approx(0.02)
+    left = []
+    for order in (1, -1):
+        result = simulate(below_a_ship(order), 8.0, dt_out=0.01, rtol=1e-7)
+        left.append(np.ptp(result["line_tension"][600:, 0]))
+    assert left[0] == pytest.approx(left[1], rel=1e-3)
+
+
+@pytest.mark.parametrize("falls", [1, 3])
+def test_falls_count_and_a_mass_that_is_given_is_taken(falls: int) -> None:
+    scene = hung(falls=falls, damping=0.02)
+    scene.replace("hoist", mass=0.0)
+    mass, omega, ratio = bounce(scene)
+    assert mass == pytest.approx(LOAD / falls**2, rel=1e-9)
+    assert omega == pytest.approx(np.sqrt(STIFFNESS / LOAD), rel=1e-9)
+    assert ratio == pytest.approx(0.02)
+    modes = natural_modes(scene, state=equilibrium(scene))
+    assert np.max(modes.damping_ratio) == pytest.approx(0.02, rel=1e-2)
+    scene.replace("hoist", mass=100.0 * LOAD / falls**2)
+    assert bounce(scene)[2] == pytest.approx(0.2)
+    assert "damped by 20 % of critical" in dict(scene.report()["lines"])["hoist"]
+    seated = Scene(name="deck")
+    seated.add_body(name="load", mass=LOAD, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
+    seated.add_joint(kind="weld", name="deck", first="ground", second="load")
+    seated.add_seat(joint="deck")
+    seated.add_line(name="hoist", bodies=["ground", "load"] * falls, points=np.zeros((2 * falls, 3)), EA=5e7)
+    assert bounce(seated)[0] == pytest.approx(LOAD / (2 * falls - 1) ** 2, rel=1e-9)  # as if lifted
+
+
+def on_slings(**line: Any) -> Scene:
+    """20 t on four stiff slings below a hook of 500 kg on a soft hoist."""
+    scene = Scene(name="slings")
+    scene.add_body(name="hook", mass=500.0, inertia=(50.0, 50.0, 50.0), position=(0, 0, -20.0))
+    scene.add_body(name="box", mass=LOAD, inertia=(4e4, 4e4, 6e4), position=(0, 0, -25.0))
+    scene.add_bridle(
+        name="sling", hook="hook", load="box", EA=2e8,
+        points=[(2, 1, 1), (-2, 1, 1), (-2, -1, 1), (2, -1, 1)],
+    )  # fmt: skip
+    scene.add_line(
+        name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=3e7,
+        tension_at_start=(LOAD + 500.0) * G, **line,
+    )  # fmt: skip
+    return scene
+
+
+def test_all_that_hangs_on_a_hook_counts() -> None:
+    mass, _, ratio = bounce(on_slings())
+    assert mass == pytest.approx(LOAD + 500.0, rel=0.05)
+    assert ratio == pytest.approx(0.02, rel=0.05)
+    modes = natural_modes(on_slings(), state=equilibrium(on_slings()))
+    period = 2.0 * np.pi * np.sqrt((LOAD + 500.0) * 20.0 / 3e7)
+    heave = int(np.argmin(np.abs(modes.natural_period / period - 1.0)))
+    assert modes.damping_ratio[heave] == pytest.approx(0.02, rel=0.05)

@@ -8,23 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from heavy_line_scenes import (
-    CATENARY_H,
-    CATENARY_V,
-    G,
-    hanging,
-    heaving,
-    slung,
-    string,
-    weights_of_shape,
-)
+from heavy_line_scenes import CATENARY_H, CATENARY_V, G, hanging, slung, string, weights_of_shape
 from numpy.typing import NDArray
 
-from seacrane import Curve, Result, Scene, SceneError, equilibrium, natural_modes, simulate
+from seacrane import Result, Scene, SceneError, natural_modes, simulate
 from seacrane.analysis import fastest_mode
-from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import heavy_line_tension
-from seacrane.scene.chain_shape import Chain
 from seacrane.warnings import LineLengthWarning, StiffWarning
 
 
@@ -48,12 +37,8 @@ def test_the_shape_at_rest_tends_to_the_elastic_catenary_with_second_order() -> 
     errors = [np.subtract(weights_of_shape(n), (CATENARY_H, CATENARY_V)) for n in (20, 40, 80, 160)]
     orders = np.log2(np.abs(errors[:-1]) / np.abs(errors[1:]))
     assert orders == pytest.approx(np.full((3, 2), 2.0), abs=0.01)
+    assert np.ptp(simulate(slung(12), t_end=2.0, rtol=1e-8)["position"], axis=0).max() < 1e-6
     assert np.abs(errors[-1]).max() < 2e-5 * CATENARY_H
-
-
-def test_a_slung_line_starts_at_rest() -> None:
-    result = simulate(slung(12), t_end=2.0, rtol=1e-8)
-    assert np.ptp(result["position"], axis=0).max() < 1e-6
 
 
 def test_the_first_transverse_period_of_a_taut_string_converges_with_second_order() -> None:
@@ -75,19 +60,6 @@ def test_a_plucked_string_moves_as_its_mode_and_turns_no_node(formulation: str) 
     middle = result.select("position", body="line.4")[:, 2]
     assert middle == pytest.approx(0.01 / omega * np.sin(omega * result.time), abs=2e-6)
     assert np.abs(result["angular_velocity"]).max() < 1e-12
-
-
-def test_energy_of_a_line_that_heaves_is_accounted_for() -> None:
-    result = simulate(heaving(10, 3.0), t_end=3.0, rtol=1e-8)
-    assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
-
-
-def test_the_fastest_mode_is_what_the_document_says() -> None:
-    """2 n / L sqrt(EA / m), from below: two neighbours against each other."""
-    for count in (4, 16):
-        bound = 2.0 * count / (50.0 / 1.01) * np.sqrt(1e6 / 2.02)
-        mode = fastest_mode(string(count).compile())
-        assert mode == pytest.approx(bound * np.cos(0.5 * np.pi / count), rel=0.02)
 
 
 def test_a_stiff_line_warns_of_its_mode_and_a_quasi_static_one_is_cheap() -> None:
@@ -122,30 +94,6 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
             assert speed[-1] == pytest.approx(-final * np.tanh(5.0 * G / final), rel=1e-6)
 
 
-@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
-def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(rung: str) -> None:
-    """Described with its unstretched length; tension and stretch are those of the weights."""
-    scene = Scene(name="deep")
-    tip, point = scene.add_crane(base="ground", s1=2.0, s2=2.0).tip  # type: ignore[misc]
-    for joint in ("A", "main_cylinder", "knuckle_cylinder"):
-        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
-    jib = scene.bodies[tip]
-    top = jib.position + rotation_matrix(jib.quaternion) @ np.array(point)
-    scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=top - [0.0, 0.0, 1000.0])
-    scene.add_line(
-        name="wire", rung="with mass", bodies=[tip, "load"], points=[point, (0, 0, 0)], EA=2e8, length=1000.0,
-        mass_per_length=12.0, segments=20, segment_rung=rung,
-    )  # fmt: skip
-    start = equilibrium(scene)
-    runs = [simulate(scene, t_end=1.0, start=start, formulation=one) for one in ("redundant", "recursive")]
-    for run in runs:
-        tension = heavy_line_tension(run, line="wire")[-1]
-        assert tension == pytest.approx([32e3 * G, 20e3 * G], rel=1e-5)
-        stretched = 1000.0 + (20e3 + 6e3) * G * 1000.0 / 2e8
-        assert run.select("position", body="load")[-1, 2] == pytest.approx(top[2] - stretched, abs=1e-5)
-        assert np.abs(run["velocity"]).max() < 1e-5
-
-
 def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
     """A load that swings and bounces on 30 m of wire, undamped, with 5 % to 0.6 % of its mass in the wire."""
 
@@ -165,66 +113,42 @@ def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([1.0] * 3, abs=0.03)
 
 
-def test_half_masses_are_carried_by_the_ends() -> None:
-    """The load of a heavy line weighs what hangs below the first segment."""
-    scene = hanging(4)
+def test_a_heavy_line_is_kept_in_files_and_told_once_by_its_whole_name(tmp_path: Path) -> None:
+    """Half its masses are carried by the ends; neighbours against each other are its fastest mode."""
+    scene = hanging(4, diameter=0.03)
     assert scene.bodies["wire.last"].mass == pytest.approx(625.0)
     total = sum(body.mass for name, body in scene.bodies.items() if name.startswith("wire"))
     assert total == pytest.approx(5000.0 - 625.0)  # the other half is on the ground
-
-
-def test_a_whole_line_that_contradicts_its_path_is_told_once() -> None:
-    with pytest.warns(LineLengthWarning) as caught:
-        simulate(hanging(6), t_end=0.1)
-    assert len(caught) == 1
-    assert "line 'wire': starts stretched" in str(caught[0].message)
-
-
-def test_a_scene_with_a_heavy_line_comes_back_from_its_file(tmp_path: Path) -> None:
-    scene = hanging(3, diameter=0.03)
+    bound = 2.0 * 16 / (50.0 / 1.01) * np.sqrt(1e6 / 2.02)
+    assert fastest_mode(string(16).compile()) == pytest.approx(bound * np.cos(0.5 * np.pi / 16), rel=0.02)
     scene.save(tmp_path / "scene.json")
     assert Scene.load(tmp_path / "scene.json") == scene
-
-
-def test_tensions_come_from_a_saved_result_by_name(tmp_path: Path) -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", LineLengthWarning)
-        result = simulate(hanging(3), t_end=0.2)
+    with pytest.warns(LineLengthWarning, match="line 'wire': starts stretched") as caught:
+        result = simulate(scene, t_end=0.1)
+    assert len(caught) == 1
     again = Result.load(result.save(tmp_path / "one.nc"))
     assert np.array_equal(heavy_line_tension(again, line="wire"), heavy_line_tension(result, line="wire"))
     with pytest.raises(SceneError, match=r"heavy line 'rope': is not in the result.*wire\.1"):
         heavy_line_tension(result, line="rope")
 
 
-def test_a_chain_without_a_rest_shape_is_none() -> None:
-    """One end above the other, and longer than that: it would fold."""
-    chain = Chain(span=np.array([0.0, 0.0, -10.0]), segment=3.0, stiffness=1e6, weights=np.full(4, 10.0))
-    assert chain.forces() is None
-
-
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"bodies": ["ground"]}, "bodies has 1 names; give those of its two ends"),
-        ({"bodies": ["ground", "ground"]}, "both ends are on 'ground'; name two bodies"),
-        ({"bodies": ["ground", "crane"]}, "there is no body 'crane'; add it first"),
+        ({"bodies": ["ground"]}, "bodies has 1 names"),
+        ({"bodies": ["ground", "ground"]}, "both ends are on 'ground'"),
+        ({"bodies": ["ground", "crane"]}, "no body 'crane'"),
         ({"points": [(0, 0, -5), (0, 0, 0)]}, "points are both at"),
-        ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\); give \(2, 3\)"),
-        ({"segments": 0}, "segments is 0; give 1 to 1000"),
-        ({"segments": 2.5}, "segments is 2.5; give a whole number"),
-        ({"length": -1.0}, "length is -1.0; give a finite number above zero"),
-        ({"mass_per_length": 0.0}, "mass_per_length is 0.0; give a finite number above"),
-        ({"EA": float("nan")}, "EA is nan; give a finite number"),
-        ({"length": 20.0}, "length is 20 m over a span of 5 m, and it has no rest shape; give it less"),
+        ({"points": np.zeros((3, 3))}, r"points has shape \(3, 3\)"), ({"segments": 0}, "segments is 0"),
+        ({"segments": 2.5}, "segments is 2.5"), ({"length": -1.0}, "length is -1.0"),
+        ({"EA": float("nan")}, "EA is nan"), ({"length": 20.0}, "no rest shape"),
     ],
-)
+)  # fmt: skip
 def test_what_makes_no_line_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -5.0))
-    line: dict[str, Any] = {
-        "bodies": ["ground", "load"], "points": np.zeros((2, 3)), "EA": 1e6, "length": 5.0,
-        "mass_per_length": 3.0, "segments": 4,
-    }  # fmt: skip
-    with pytest.raises(SceneError, match=f"line 'wire': {message}"):
-        scene.add_line(name="wire", rung="with mass", **line | given)
+    line: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "segments": 4}
+    line |= {"EA": 1e6, "length": 5.0, "mass_per_length": 3.0} | given
+    with pytest.raises(SceneError, match=f"line 'wire': .*{message}"):
+        scene.add_line(name="wire", rung="with mass", **line)
     assert list(scene.bodies) == ["load"]

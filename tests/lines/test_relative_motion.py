@@ -1,4 +1,4 @@
-"""Relative motion, angles of bodies, hooks and winches against quaternions by hand and differences."""
+"""Relative motion, angles, hooks and clearances by quaternions, differences and geometry; their refusals."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
-from seacrane import FileFormatError, Result, Scene, SceneError, simulate
+from seacrane import FileFormatError, Result, Scene, SceneError, simulate, summary
+from seacrane.description.clearances import distance_from_box
 from seacrane.description.file import scene_digest
 
 Array = NDArray[np.float64]
@@ -106,62 +107,105 @@ def test_wire_and_hook_of_a_winch() -> None:
     )
 
 
-def test_place_of_any_point_after_a_run(tmp_path: Path) -> None:
-    result = simulate(tumbling(), 2.0)
-    edge = result.place_of("hull", EDGE)
-    assert edge.shape == (result.time.size, 3)
-    assert_allclose(edge, result.select("point_position", point="edge"), atol=1e-12)
-    assert_allclose(result.place_of("ground", (1, 2, 3)), np.tile([1.0, 2.0, 3.0], (len(edge), 1)))
-    result.save(tmp_path / "run.nc")
-    assert np.array_equal(Result.load(tmp_path / "run.nc").place_of("hull", EDGE), edge)
-    with pytest.raises(
-        SceneError, match=r"there is no body .ship., the scene has .load., .hull., and points"
-    ):
-        result.place_of("ship")
-    with pytest.raises(SceneError, match="point"):
-        result.place_of("hull", (1.0, 2.0))
-    with pytest.raises(SceneError, match="channel 'quaternion' was not recorded; ask for it"):
-        simulate(tumbling(), 0.1, channels=["position"]).place_of("hull")
-
-
-def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
+def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> None:
     scene = tumbling()
     digest = scene_digest(scene)
-    scene.save(tmp_path / "without.json")
-    assert not Scene.load(tmp_path / "without.json").relatives
+    result = simulate(scene, 2.0)
+    edge = result.place_of("hull", EDGE)
+    assert_allclose(edge, result.select("point_position", point="edge"), atol=1e-12)
+    assert_allclose(result.place_of("ground", (1, 2, 3)), np.tile([1.0, 2.0, 3.0], (len(edge), 1)))
+    assert np.array_equal(Result.load(result.save(tmp_path / "run.nc")).place_of("hull", EDGE), edge)
     scene.add_relative(name="over deck", point="corner", to="edge", axes="hull")
     assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
     scene.save(tmp_path / "scene.json")
     assert Scene.load(tmp_path / "scene.json").relatives == scene.relatives
     text = (tmp_path / "scene.json").read_text().replace('"to": "edge"', '"to": "brink"')
     (tmp_path / "scene.json").write_text(text)
-    with pytest.raises(FileFormatError, match="there is no point 'brink'"):
+    with pytest.raises(FileFormatError, match="no point 'brink'"):
         Scene.load(tmp_path / "scene.json")
+    for name in ("edge", "hull"):
+        with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
+            scene.remove(name)
 
 
-def test_what_it_needs_is_not_removed() -> None:
-    scene = tumbling()
-    scene.add_relative("over deck", point="corner", to="edge", axes="hull")
-    with pytest.raises(SceneError, match="point 'edge': relative 'over deck' refer to it"):
-        scene.remove("edge")
-    with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
-        scene.remove("hull")
-    scene.remove("over deck")
-    with pytest.raises(SceneError, match="'relative_velocity' is unknown to this scene; it needs two points"):
-        simulate(scene, 0.1, channels=["relative_velocity"])
-    with pytest.raises(SceneError, match="'wire_spare' is unknown to this scene"):
-        simulate(scene, 0.1, channels=["wire_spare"])
+def test_what_makes_no_sense_is_told() -> None:
+    for given, message in (
+        ({"point": "top"}, "no point 'top'"), ({"to": "hull"}, "no point 'hull'"),
+        ({"axes": "barge"}, "no body 'barge'"), ({"name": ""}, "name is empty"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            tumbling().add_relative(**({"name": "a", "point": "corner", "to": "edge"} | given))
+    for channel in ("relative_velocity", "wire_spare"):
+        with pytest.raises(SceneError, match=f"'{channel}' is unknown to this scene"):
+            simulate(tumbling(), 0.1, channels=[channel])
+
+
+G = 9.80665
+
+
+def falling(*, turned: float = 0.0) -> Scene:
+    """A block that falls past a box on a body that is turned about z."""
+    scene = Scene(name="falling", gravity=G)
+    scene.add_body(name="block", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(3.0, 0.0, 10.0))
+    scene.add_point(name="left", body="block", point=(-1.0, 0.0, 0.0))
+    scene.add_point(name="right", body="block", point=(1.0, 0.0, 0.0))
+    quaternion = (np.cos(0.5 * turned), 0.0, 0.0, np.sin(0.5 * turned))
+    scene.add_body(
+        name="house", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 0.0), quaternion=quaternion,
+        gravity=False,
+    )  # fmt: skip
+    return scene
+
+
+def test_distances_from_a_box() -> None:
+    points = np.array([(0, 0, 0), (0, 0, 0.9), (3, 0, 0), (4, 6, 0), (2, 3, 5), (1, 0, 0)], dtype=float)
+    expected = [-1.0, -0.1, 2.0, 5.0, np.sqrt(1 + 1 + 16), 0.0]
+    assert_allclose(distance_from_box(points, (2.0, 4.0, 2.0)), expected, atol=1e-15)
+    assert_allclose(distance_from_box(points[3], (0.0, 0.0, 0.0)), np.hypot(4.0, 6.0))
+
+
+@pytest.mark.parametrize("turned", [0.0, np.pi / 2.0])
+def test_a_block_falls_past_a_box(turned: float) -> None:
+    """The box is 2 m by 8 m by 4 m high; turned, its long side lies below the block."""
+    scene = falling(turned=turned)
+    scene.add_clearance(name="house", points=["left", "right"], body="house", size=(2.0, 8.0, 4.0))
+    result = simulate(scene, 1.2, dt_out=0.1)
+    height = 10.0 - 0.5 * G * result.time**2
+    above, aside = np.maximum(np.abs(height) - 2.0, 0.0), 1.0 if turned == 0.0 else 0.0
+    expected = np.hypot(above, aside)
+    inside = (np.abs(height) < 2.0) & (turned > 0.0)
+    expected[inside] = np.maximum(np.abs(height[inside]) - 2.0, -1.0)
+    found = result.select("clearance", gap="house")
+    assert_allclose(found[~inside], expected[~inside], atol=1e-6)
+    assert np.all(found[inside] < 0.0)
+
+
+def test_it_has_a_limit_state_and_a_row_and_is_kept_in_files(tmp_path: Path) -> None:
+    scene = falling()
+    digest = scene_digest(scene)
+    scene.add_clearance(name="deck", points="left", center=(2.0, 0.0, 0.0))
+    assert scene_digest(scene) == digest
+    scene.add_limit_state(channel="clearance", minimum=6.0, names={"gap": "deck"})
+    result = simulate(scene, 1.0, dt_out=0.25)
+    lowest = 10.0 - 0.5 * G
+    (used,) = result.utilisation
+    assert used.utilisation == pytest.approx(6.0 / lowest, rel=1e-6)
+    assert summary(result)["clearance deck"].minimum == pytest.approx(lowest, rel=1e-6)
+    scene.save(tmp_path / "scene.json")
+    again = Scene.load(tmp_path / "scene.json")
+    assert again == scene and again.clearances == scene.clearances
+    with pytest.raises(SceneError, match="clearance 'deck' refer to it"):
+        scene.remove("left", kind="point")
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"point": "top"}, "relative 'a': there is no point 'top'; add_point it first"),
-        ({"to": "hull"}, "there is no point 'hull'; add_point it first, the scene has 'corner', 'edge'"),
-        ({"axes": "barge"}, "there is no body 'barge'"),
-        ({"name": ""}, "relative: name is empty"),
+        ({"points": []}, "no points"), ({"points": "top"}, "no point 'top'"),
+        ({"body": "ship"}, "no body 'ship'"), ({"size": (1.0, -1.0, 1.0)}, "not negative"),
+        ({"center": (np.nan, 0.0, 0.0)}, "three finite numbers"),
     ],
-)
-def test_what_makes_no_sense_is_told(given: dict[str, Any], message: str) -> None:
+)  # fmt: skip
+def test_what_makes_no_clearance_is_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
-        tumbling().add_relative(**({"name": "a", "point": "corner", "to": "edge"} | given))
+        falling().add_clearance(**({"name": "gap", "points": "left"} | given))

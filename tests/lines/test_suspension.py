@@ -1,7 +1,8 @@
-"""What hangs on what: a lift by any rung, and by the paper's rod, is told alike."""
+"""What hangs on what: a lift by any rung, and by the paper's rod, is told alike and pulls alike."""
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
@@ -9,17 +10,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import below
+from numpy.testing import assert_allclose
 
-from seacrane import Frame, Result, Scene, shipped_database, simulate, view
-from seacrane.answers import load_chart, statics, summary
-from seacrane.crane import Payload
+from seacrane import Frame, Lift, Result, Scene, SceneError, shipped_database, simulate, summary
+from seacrane.answers import load_chart, statics
+from seacrane.crane import Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import Slings
 from seacrane.warnings import (
     BallastWarning,
     LargeHeelWarning,
-    LoadInHullWarning,
-    MassUnitWarning,
     MeanPositionWarning,
     OverloadWarning,
 )
@@ -27,14 +28,10 @@ from seacrane.warnings import (
 G = 9.80665
 MASS, SIZE, LENGTH = 40e3, (3.0, 3.0, 2.0), 12.0
 RUNGS: Mapping[str, dict[str, Any]] = {
-    "rigid": {},
-    "quasi-static": {"EA": 4e8},
-    "elastic": {"EA": 4e8},
-    "auto": {"EA": 4e8},
+    "rigid": {}, "quasi-static": {"EA": 4e8}, "elastic": {"EA": 4e8}, "auto": {"EA": 4e8},
     "with mass": {"EA": 4e8, "mass_per_length": 20.0},
-}
-EVERY = ["rod", *RUNGS]
-QUICK = [rung for rung in EVERY if rung != "with mass"]  # whose masses ring at steps of 0.1 ms
+}  # fmt: skip
+QUICK = ["rod", *(rung for rung in RUNGS if rung != "with mass")]  # whose masses ring at steps of 0.1 ms
 
 
 def lift(
@@ -55,10 +52,6 @@ def lift(
             **RUNGS[rung],
         )  # fmt: skip
     return scene
-
-
-def at_once(scene: Scene) -> Result:
-    return simulate(scene, 0.01, dt_out=0.01, integrator="rk4", dt=1e-4)
 
 
 @pytest.fixture(scope="module")
@@ -97,22 +90,6 @@ def test_statics_and_charts_have_the_same_columns(rung: str) -> None:
     assert charts[1].allowable == pytest.approx(charts[0].allowable, rel=1e-5)
 
 
-@pytest.mark.parametrize("rung", EVERY)
-def test_the_same_slips_are_told(rung: str) -> None:
-    """A load in the hull, a ship out of balance, tonnes for kg, a load beyond the crane's table."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        at_once(lift(rung, base="vessel", slew=-0.5 * np.pi, mass=400e3))
-        at_once(lift(rung, base="vessel", length=18.0))
-    assert {LoadInHullWarning, BallastWarning} <= {one.category for one in caught}
-    with pytest.warns(MassUnitWarning):
-        lift(rung, mass=40.0)
-    heavy = lift(rung, mass=400e3)
-    heavy.roles[""] = replace(heavy.roles[""], capacity=((10.0, 100e3), (40.0, 50e3)))
-    with pytest.warns(OverloadWarning, match="of 40[0-9] t, with what holds it"):
-        at_once(heavy)
-
-
 @pytest.mark.warns("BallastWarning")
 @pytest.mark.parametrize("rung", QUICK)
 def test_lead_and_swing_are_those_of_the_recorded_poses(runs: dict[str, Result], rung: str) -> None:
@@ -138,44 +115,28 @@ def test_lead_and_swing_are_those_of_the_recorded_poses(runs: dict[str, Result],
     assert again["sling_angle"][:, 0] == pytest.approx(0.5 * np.pi - swing, abs=1e-6)
 
 
-def test_a_line_with_mass_has_the_columns_of_the_others() -> None:
-    """At its upper end its own weight is on it too."""
+def test_a_line_with_mass_has_the_columns_and_the_chart_of_the_others_but_for_the_wire() -> None:
+    """At its upper end its own weight is on it too; in poses metres away what hangs is led along."""
     rod, told = (statics(lift(one)) for one in ("rod", "with mass"))
     assert [name for name in told.columns if not name.startswith("line ")] == list(rod.columns)
-    wire = 20.0 * LENGTH * G
-    assert told["hoist tension"] - told["hook load"] == pytest.approx(wire, rel=2e-3)
+    wire = 20.0 * LENGTH
+    assert told["hoist tension"] - told["hook load"] == pytest.approx(wire * G, rel=2e-3)
     assert told["hook load"] == pytest.approx(MASS * G, rel=1e-6)
-
-
-def test_a_chart_of_a_line_with_mass_is_the_rod_s_but_for_the_wire() -> None:
-    """In poses metres away: what hangs is led along with the tip."""
-    rod, told = (load_chart(lift(one), radii=[14.0], limits={"cylinder force main": 9e6})
-                 for one in ("rod", "with mass"))  # fmt: skip
-    assert told.allowable + 20.0 * LENGTH == pytest.approx(rod.allowable, rel=2e-5)
-
-
-def test_auto_is_elastic_where_a_load_stands_on_a_deck() -> None:
-    """A lift-off has a peak that a quasi-static stretch does not know."""
-    scene = Scene(name="on deck")
-    scene.add_crane(base="ground", s1=1.5, s2=1.0)
-    scene.add_hoist(mass=MASS, size=SIZE, EA=1e9, rung="auto", on="ground", winch={"lag": 0.2})
-    told = simulate(scene, 0.2).stats["line_rungs"]
-    assert told.startswith("hoist: elastic")
+    charts = [load_chart(lift(one), radii=[14.0], limits={"cylinder force main": 9e6})
+              for one in ("rod", "with mass")]  # fmt: skip
+    assert charts[1].allowable + wire == pytest.approx(charts[0].allowable, rel=2e-5)
+    heavy = lift("elastic", mass=400e3)
+    heavy.roles[""] = replace(heavy.roles[""], capacity=((10.0, 100e3), (40.0, 50e3)))
+    with pytest.warns(OverloadWarning, match="of 40[0-9] t, with what holds it"):
+        simulate(heavy, 0.01, dt_out=0.01, integrator="rk4", dt=1e-4)
 
 
 def thrown(rung: str) -> Scene:
     """So fast from below its line of 5 m that it goes slack on its way round."""
-    scene = Scene(name=rung)
-    scene.add_body(
-        name="load", mass=MASS, size=SIZE, position=(0.0, 0.0, -6.0),
-        velocity=(np.sqrt(4.0 * 5.0 * G), 0.0, 0.0),
-    )  # fmt: skip
+    scene = below((0.0, 0.0, -6.0), mass=MASS, size=SIZE, velocity=(np.sqrt(4.0 * 5.0 * G), 0.0, 0.0))
     if rung == "rod":
-        here = Frame()
-        scene.add_joint(
-            kind="distance", name="hoist", first="ground", second="load", first_frame=here,
-            second_frame=here, length=6.0,
-        )  # fmt: skip
+        ends = {"first_frame": Frame(), "second_frame": Frame(), "length": 6.0}
+        scene.add_joint(kind="distance", name="hoist", first="ground", second="load", **ends)
         return scene
     taut = {} if rung == "rigid" else {"EA": 1e7, "tension_at_start": 5.0 * MASS * G}
     scene.add_line(name="hoist", first="ground", second="load", rung=rung, **taut)  # type: ignore[arg-type]
@@ -234,7 +195,168 @@ def test_utilisation_is_the_hook_load_over_the_table_with_its_design_factor() ->
     assert run["utilisation"] == pytest.approx(hook / allowed, rel=1e-3)
 
 
-def test_a_page_draws_the_pull_and_the_track_of_a_load_on_a_line(runs: dict[str, Result]) -> None:
-    html = view(runs["elastic"]).html
-    assert '"group": "link"' in html or '"group":"link"' in html
-    assert "payload" in html
+LOAD = 1e4  # kg
+
+
+def hung(points: list[tuple[float, float, float]], bodies: list[str], *, length: float) -> Scene:
+    """A load on a line with its falls, at rest."""
+    scene = Scene(name="hung", gravity=G)
+    scene.add_body(name="load", mass=LOAD, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
+    scene.add_line(name="hoist", bodies=bodies, points=points, EA=1e8, length=length, damping_ratio=0.1)
+    scene.add_winch(line="hoist")
+    return scene
+
+
+def falls_of(falls: int) -> Scene:
+    """From the tip to the block and back, at one point each."""
+    stretch = 1.0 + LOAD * G / falls / 1e8
+    bodies = ["ground", "load"] * 2
+    return hung([(0.0, 0.0, 0.0)] * (falls + 1), bodies[: falls + 1], length=20.0 * falls / stretch)
+
+
+@pytest.mark.parametrize("falls", [1, 3])
+def test_a_line_carries_the_weight_by_all_its_falls(falls: int) -> None:
+    """And has a dynamic factor and a slack margin over the weight, whatever the run began with."""
+    scene = falls_of(falls)
+    result = simulate(scene, 1.0, dt_out=0.25, channels=["hook_load", "line_tension"])
+    assert result.coords["suspension"] == ("hoist",)
+    assert_allclose(result["hook_load"], LOAD * G, rtol=1e-4)
+    assert_allclose(result["hook_load"][:, 0], falls * result["line_tension"][:, 0], rtol=1e-12)
+    scene.replace("load", position=(0.0, 0.0, -19.995))
+    scene.add_limit_state(channel="hook_load", maximum=1e6)
+    table = summary(simulate(scene, 2.0, dt_out=0.01))
+    tension, hook = table["hoist tension hoist"], table["hook load hoist"]
+    assert tension.static_known and tension.static == pytest.approx(LOAD * G / falls)
+    assert hook.static == pytest.approx(LOAD * G)
+    for row in (tension, hook):
+        assert row.factor == pytest.approx(row.maximum / row.static) and row.factor > 1.01
+        assert row.slack_margin == pytest.approx(row.minimum / row.static) and row.slack_margin < 0.99
+
+
+def test_a_drum_on_deck_does_not_count_as_the_hook() -> None:
+    """From a drum over the tip to the load: the load is reached last, though it is named in the middle."""
+    points = [(30.0, 0.0, -20.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
+    scene = hung(points, ["ground", "ground", "load", "ground"], length=1.0)
+    length = float(np.hypot(30.0, 20.0)) + 40.0
+    scene.replace("hoist", kind="load", length=length / (1.0 + 0.5 * LOAD * G / 1e8))
+    result = simulate(scene, 0.5, dt_out=0.25, channels=["hook_load", "line_tension"])
+    assert_allclose(result["hook_load"][:, 0], 2.0 * result["line_tension"][:, 0], rtol=1e-12)
+    assert_allclose(result["hook_load"], LOAD * G, rtol=1e-3)
+
+
+def test_a_link_carries_its_tension_and_it_is_recorded_by_itself() -> None:
+    scene = falls_of(1)
+    scene.add_body(name="weight", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(5.0, 0.0, -1.0))
+    scene.add_joint(
+        kind="distance", name="sling", first="ground", second="weight", point=(5.0, 0.0, 0.0),
+        second_point=(5.0, 0.0, -1.0), length=1.0,
+    )  # fmt: skip
+    assert "hook_load" in simulate(scene, 0.1, dt_out=0.1)
+    scene.add_limit_state(channel="hook_load", maximum=1.2 * LOAD * G, minimum=0.5 * LOAD * G,
+                          names={"suspension": "hoist"})  # fmt: skip
+    result = simulate(scene, 0.5, dt_out=0.1)
+    assert result.coords["suspension"] == ("sling", "hoist")
+    assert_allclose(result["hook_load"][:, 0], result["tension"][:, 0])
+    assert result.select("hook_load", suspension="sling")[-1] == pytest.approx(2.0 * G, rel=1e-6)
+    (used,) = result.utilisation
+    assert used.utilisation == pytest.approx(1.0 / 1.2, rel=1e-3)
+
+
+HELD = 40e3  # kg
+OIL: dict[str, Any] = {
+    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03, "gain": 0.8,
+    "viscous_friction": 2e6,
+}  # fmt: skip
+
+
+def hang(
+    scene: Scene, tip: tuple[str, Any], *, below: float = 12.0, drum: tuple[str, Any] | None = None
+) -> None:
+    """A load at rest on a hoist from the tip; with a drum its rope runs on to there."""
+    place = scene.place_of(body=tip[0], point=tip[1])
+    inertia = (HELD, HELD, HELD)
+    scene.add_body(name="load", mass=HELD, inertia=inertia, position=place - (0.0, 0.0, below))
+    path = [tip, ("load", (0.0, 0.0, 0.0))] if drum is None else [drum, tip, ("load", (0.0, 0.0, 0.0))]
+    scene.add_line(
+        name="hoist", bodies=[body for body, _ in path], points=[point for _, point in path], EA=3e8,
+        tension_at_start=HELD * scene.gravity,
+    )  # fmt: skip
+    scene.add_winch(line="hoist")
+
+
+def lattice(*, drum: bool = False, link: bool = False) -> Scene:
+    scene = Scene(name="lattice")
+    load = Payload(mass=HELD, size=(3.0, 3.0, 3.0)) if link else None
+    scene.add_crane(
+        load_crane("lattice_boom_100t"), base="ground", foot=(0, 0, 0), coordinates={"boom": 0.9}, held=True,
+        payload=load, damping=False,
+    )  # fmt: skip
+    if not link:
+        hang(scene, ("boom", (-48.0, 0.0, 0.0)), drum=("house", (4.0, 0.0, 2.0)) if drum else None)
+    return scene
+
+
+def at_start(scene: Scene) -> float:
+    return float(simulate(scene, 0.1, dt_out=0.1).select("line_tension", line="luffing rope")[0])
+
+
+def test_a_load_on_a_hoist_pulls_at_the_luffing_rope_and_one_that_runs_to_the_house_relieves_it() -> None:
+    """By its tension times the lever arm of its upper part about the hinge, over falls and their arm."""
+    plain, over, linked = lattice(), lattice(drum=True), lattice(link=True)
+    for scene in (plain, over, linked):
+        scene.add_luffing_rope()
+    assert at_start(plain) == pytest.approx(at_start(linked), rel=1e-7)
+    head = 48.0 * np.array([-math.cos(0.9), math.sin(0.9)])
+    mast = np.array([8.0, 13.0])
+    drum = np.asarray(over.place_of(body="house", point=(4.0, 0.0, 2.0)))[[0, 2]] - (-2.0, 15.0)
+
+    def arm(to: Any) -> float:
+        pull = (to - head) / np.linalg.norm(to - head)
+        return abs(float(head[0] * pull[1] - head[1] * pull[0]))
+
+    relieved = HELD * G * arm(drum) / arm(mast) / 12.0
+    assert at_start(plain) - at_start(over) == pytest.approx(relieved, rel=1e-7)
+    for scene, within in ((plain, 1e-5), (over, 1e-4)):
+        assert np.ptp(simulate(scene, 3.0, dt_out=0.5).select("position", body="load", axis="z")) < within
+
+
+POSE = {"slew": -1.0, "s1": 2.0, "s2": 3.0}
+
+
+def knuckle(payload: Payload | None = None) -> Scene:
+    scene = Scene(name="oil")
+    oil = {"main": OIL, "knuckle": OIL}
+    scene.add_crane(base="ground", payload=payload, damping=False, hydraulics=oil, held=True, **POSE)
+    return scene
+
+
+def test_pressures_hold_a_load_that_hangs_on_a_winch() -> None:
+    linked, hoisted = knuckle(Payload(mass=HELD)), knuckle()
+    tip = hoisted.roles[""].tip
+    hang(hoisted, tip)
+    empty = hoisted.loads["main_cylinder"].pressure
+    found = hoisted.hold_pressures()
+    for name, ram in found.items():
+        assert ram.pressure == pytest.approx(linked.loads[name].pressure, rel=1e-9)
+        assert hoisted.loads[name] == ram
+    assert found["main_cylinder"].pressure > empty + 1e5
+    result = simulate(hoisted, 2.0, dt_out=0.5, rtol=1e-7)
+    assert np.ptp(result["hydraulic_stroke"], axis=0) == pytest.approx(0.0, abs=1e-6)
+    at, lifted = {"slew_rad": -1.0, "s1_m": 2.0, "s2_m": 3.0}, knuckle()
+    place = lifted.place_of(body=tip[0], point=tip[1]) - (0.0, 0.0, 12.0)
+    oil = {"main": {"pump_pressure_Pa": 32e6, "rated_flow_m3_per_s": 0.05}}
+    of_file = Lift({
+        "scene": {"name": "oil"}, "hold_pressures": {},
+        "crane": {"base": "ground", "held": True, "hydraulics": oil} | at,
+        "body": [{"name": "load", "mass_kg": HELD, "inertia_kg_m2": [HELD] * 3,
+                  "position_m": place.tolist()}],
+        "line": [{"name": "hoist", "bodies": [tip[0], "load"], "points_m": [list(tip[1]), [0, 0, 0]],
+                  "EA_N": 3e8, "tension_at_start_N": HELD * G}],
+    })  # fmt: skip
+    assert np.ptp(simulate(of_file.scene(), 1.0)["hydraulic_stroke"]) < 1e-6
+    scene = knuckle()
+    scene.add_body(name="load", mass=HELD, inertia=(HELD, HELD, HELD), position=(0, 0, 50))
+    with pytest.raises(SceneError, match=r"body 'load' accelerates by 9.81"):
+        scene.hold_pressures()
+    with pytest.raises(SceneError, match="no hydraulic cylinder"):
+        lattice().hold_pressures()

@@ -1,16 +1,16 @@
-"""Lines with mass on a winch: beside a curve for their length, heave compensation, ledger, stages."""
+"""Lines with mass that are paid out: by a winch or a curve, beside masses of fixed material, stages."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from heavy_line_scenes import in_waves
+from heavy_line_scenes import FIRST, LAG, PAID, asked, wet
+from line_scenes import add_led
 from numpy.typing import NDArray
-from test_jacobian import largest_error, moving
+from scipy.integrate import solve_ivp
 
 from seacrane import (
     Curve,
@@ -22,48 +22,14 @@ from seacrane import (
     Until,
     equilibrium,
     natural_modes,
-    shipped_database,
     simulate,
     simulate_stages,
 )
 from seacrane.result import heavy_line_tension
-from seacrane.run import Run
 
 Array = NDArray[np.float64]
 G = 9.80665
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-9}
-FORMS = ("recursive", "redundant")
-LAG, FIRST, LAST, OVER = 0.2, 10.5, 14.0, 4.0  # s, m, m, s
-PAID = Curve.quintic(start_time=0.0, end_time=OVER, start=FIRST, end=LAST)
-KINDS: dict[str, dict[str, Any]] = {
-    "by rate": {},
-    "holds a tension": {"tension": 4e3, "tension_gain": 1e-4},
-    "with a drum": {
-        "drum_inertia": 300.0, "drum_radius": 0.5, "maximum_tension": 2e4, "brake_capacity": 1e4,
-        "brake": Curve.quintic(start_time=0.5, end_time=1.5, start=0.0, end=0.4),
-    },
-}  # fmt: skip
-
-
-def asked(lag: float) -> Curve:
-    """The rate that a winch with a lag is asked for to pay out as PAID does: r + lag r'."""
-    quintic = np.polynomial.Polynomial(PAID.to_pieces()["coefficients"][0])
-    rate = quintic.deriv(1) + lag * quintic.deriv(2)
-    whole = np.zeros(6)
-    whole[: rate.coef.size] = rate.coef
-    return Curve.pieces(starts=[0.0, OVER], coefficients=[whole, np.zeros(6)])
-
-
-def wet(
-    length: Curve | float = FIRST, *, rung: Any = "elastic", compensated: bool = False, **winch: Any
-) -> Scene:
-    """On a winch, but with a curve for its length."""
-    scene = in_waves(length, rung=rung)
-    if not isinstance(length, Curve):
-        scene.add_winch("wire", **{"rate": asked(LAG), "lag": LAG} | winch)
-    if compensated:
-        scene.add_heave_compensation("active", body="load", winch="wire", gain=0.3, lag=0.3, high_pass=0.05)
-    return scene
 
 
 def hauled(length: Curve | float, *, rung: Any) -> Scene:
@@ -90,51 +56,13 @@ def test_a_winch_pays_out_as_a_curve_for_the_length_does(rung: Any) -> None:
         assert np.asarray(other[channel]) == pytest.approx(np.asarray(one[channel]), abs=2e-7 * size)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_both_formulations_agree_and_the_ledger_closes(kind: str) -> None:
-    channels = ["position", "energy_balance", "absolute_work", "load_state"]
-    scene = wet(compensated=True, **KINDS[kind])
-    one, other = (
-        simulate(scene, t_end=2.0, dt_out=0.1, channels=channels, formulation=form, **EXACT) for form in FORMS
-    )
-    assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-7)
-    paid_out = one.select("load_state", state_name="wire.length")
-    assert np.ptp(paid_out) > 0.2
-    for result in (one, other):
-        assert np.max(np.abs(result["energy_balance"])) < 1e-7 * np.max(result["absolute_work"])
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
-def test_the_exact_jacobian_is_that_of_differences(kind: str, rung: Any) -> None:
-    if rung == "quasi-static" and kind == "with a drum":
-        pytest.skip("refused")
-    model = wet(rung=rung, compensated=True, **KINDS[kind]).compile()
-    assert largest_error(model, 0.7, moving(model, 4), step=3e-4, kinks=True) < 1e-6
-
-
-@pytest.mark.parametrize("formulation", FORMS)
-def test_a_run_continues_bit_for_bit(formulation: str) -> None:
-    given: dict[str, Any] = {"formulation": formulation, "integrator": "dopri5", "dt_out": 0.1}
-    whole = Run(wet(compensated=True), 1.0, **given)
-    whole.advance(0.47)
-    rest = Run(wet(compensated=True), 1.0, start=whole.state, outputs_from=0.0, **given)
-    for one in (whole, rest):
-        one.advance(1.0)
-    assert np.array_equal(whole.state.values, rest.state.values)
-
-
 MU, HEAVY, STIFF, MASS, DEEP = 25.0, 20, 4e8, 110e3, 1000.0  # kg/m, segments, N, kg, m
 
 
 def hung(heave: Curve, *, deep: float = DEEP, segments: int = HEAVY, **winch: Any) -> Scene:
     """A load on a long wire below a tip that heaves as told."""
     scene = Scene(name="hung", gravity=G)
-    scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 0.0))
-    scene.add_joint(
-        "guide", kind="prismatic", first="ground", second="tip", point=(0.0, 0.0, 0.0), axis=(0, 0, 1)
-    )
-    scene.add_driver(joint="guide", name="heave", curve=heave)
+    add_led(scene, "tip", heave)
     stretch = deep * (MASS + 0.5 * MU * deep) * G / STIFF
     scene.add_body(name="load", mass=MASS, inertia=(1e6, 1e6, 1e6), position=(0.0, 0.0, -deep - stretch))
     scene.add_line(
@@ -211,59 +139,157 @@ def test_stages_command_it_and_wait_for_it() -> None:
     )
 
 
-def test_a_run_ends_by_name_where_it_has_hauled_in_to_its_end() -> None:
-    scene = hung(Curve.constant(value=0.0), deep=12.0, segments=3, rate=-1.0, minimum_length=8.0)
-    with pytest.raises(SimulationError, match=r"hauled in to its minimum_length, which would stop the mass"):
-        simulate(scene, t_end=20.0)
+def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
+    scene = Scene(name="hoist", gravity=G)
+    scene.add_crane(base="ground", slew=0.0, s1=1.0, s2=2.0, held=True)
+    load: dict[str, Any] = {"mass": 50e3, "size": (4, 4, 4), "rung": "with mass"}
+    for wire, message in (({"EA": 1.0}, "wire has 'EA'"), (None, "needs a smooth length")):
+        with pytest.raises(SceneError, match=message):
+            scene.add_hoist("wire", winch=True, wire=wire, **load)
+    wire = {"segments": 5, "medium": "sea", "diameter": 0.06}
+    how = {"length": 20.0, "EA": 1.5e8, "mass_per_length": 20.0, "winch": {"lag": 0.1}, "wire": wire}
+    scene.add_hoist("wire", **load, **how)
+    assert equilibrium(scene).load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
+    assert [one for one in scene.loads if one.endswith("water")] == [f"wire.{i} water" for i in range(1, 6)]
+
+
+def test_what_does_not_fit_is_refused_by_name() -> None:
+    rest = Curve.constant(value=0.0)
+    for given, message in (
+        ({"lag": 0.0}, "line 'wire.1': .*its winch has no lag"),
+        ({"minimum_length": 60.0}, "length of 40 m and a minimum_length of 60 m"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            hung(rest, deep=40.0, segments=4, **given).compile()
+    with pytest.raises(SimulationError, match="hauled in to its minimum_length"):
+        simulate(hung(rest, deep=12.0, segments=3, rate=-1.0, minimum_length=8.0), t_end=20.0)
+    scene = wet(PAID)
+    with pytest.raises(SceneError, match="line 'wire': has a Curve for its length"):
+        scene.add_winch("wire", lag=LAG)
+    assert not scene.loads["wire.1"].winch
+    lost = hung(rest, deep=40.0, segments=4)
+    lost.replace("wire.3 winding", kind="load", paid_out_by="rope")
+    with pytest.raises(SceneError, match="paid out by 'rope'"):
+        lost.compile()
+
+
+LOAD, SOFT, SHORT, LONG, ANGLE = 2500.0, 2e6, 60.0, 84.0, 0.3
+WOUND = Curve.quintic(start_time=0.0, end_time=10.0, start=SHORT, end=LONG)
+
+
+def wound_length(t: float) -> tuple[float, float]:
+    """Of the line, and its rate."""
+    value, rate, _ = WOUND.evaluate([t])[0]
+    return float(value), float(rate)
+
+
+def laid_out(count: int) -> Array:
+    """Places of the ends of segments on a straight line at an angle, stretched as if it hung, (n, 2)."""
+    step = SHORT / count
+    pull = (LOAD + MU * (SHORT - (np.arange(count) + 0.5) * step)) * G * np.cos(ANGLE)
+    along = np.cumsum(step * (1.0 + pull / SOFT))
+    return along[:, None] * [np.sin(ANGLE), -np.cos(ANGLE)]
+
+
+def material(count: int, times: Array) -> Array:
+    """Where the load is, (n, 2), by masses that stay with their material: an independent formulation.
+
+    The segment at the drum takes all that is paid out, and is cut when it is as long as two.
+    """
+    step = SHORT / count
+    place, speed, t, out = laid_out(count), np.zeros((count, 2)), 0.0, []
+
+    def rate(t: float, y: Array) -> Array:
+        x, v = np.vstack([np.zeros((1, 2)), y[: y.size // 2].reshape(-1, 2)]), y[y.size // 2 :].reshape(-1, 2)
+        whole, paid = wound_length(t)
+        own = np.full((len(v), 1), step)
+        own[0] = whole - (len(v) - 1) * step
+        reach = np.diff(x, axis=0)
+        size = np.linalg.norm(reach, axis=1, keepdims=True)
+        pull = SOFT * (size / own - 1.0) * reach / size
+        mass = MU * own.copy()
+        mass[:-1] = 0.5 * MU * (own[:-1] + own[1:])
+        mass[-1] = LOAD + 0.5 * MU * own[-1]
+        force = -pull - [0.0, G] * mass
+        force[:-1] += pull[1:]
+        fed = 0.5 * (v[0] + paid * reach[0] / own[0])  # the middle of the first segment gives its momentum
+        force[0] += 0.5 * MU * paid * (fed - v[0])
+        return np.concatenate([v.ravel(), (force / mass).ravel()])
+
+    while len(out) < len(times):
+        n = len(place)
+
+        def full(t: float, y: Array, n: int = n) -> float:
+            return wound_length(t)[0] - (n + 1) * step
+
+        full.terminal, full.direction = True, 1.0  # type: ignore[attr-defined]
+        y = np.concatenate([place.ravel(), speed.ravel()])
+        part = solve_ivp(rate, (t, times[-1]), y, dense_output=True, events=full, rtol=1e-8, atol=1e-9,
+                         method="DOP853")  # fmt: skip
+        t = part.t[-1]
+        while len(out) < len(times) and times[len(out)] <= t:
+            out.append(part.sol(times[len(out)])[2 * n - 2 : 2 * n])
+        place, speed = (half.reshape(-1, 2) for half in np.split(part.y[:, -1], 2))
+        middle = 0.5 * (speed[0] + wound_length(t)[1] * place[0] / (2.0 * step))
+        place, speed = np.vstack([0.5 * place[:1], place]), np.vstack([middle, speed])
+    return np.array(out)
+
+
+def paid_out(count: int, **given: Any) -> Scene:
+    """The same line of the engine, its drum at the origin of the ground."""
+    scene = Scene(name="paid out", gravity=G)
+    ends = laid_out(count)
+    scene.add_body(
+        name="load", mass=LOAD, inertia=(LOAD,) * 3, position=(ends[-1, 0], 0.0, ends[-1, 1]),
+    )  # fmt: skip
+    line: dict[str, Any] = {"EA": SOFT, "length": WOUND, "mass_per_length": MU, "damping_ratio": 0.0}
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   rung="with mass", segments=count, **line | given)  # fmt: skip
+    for i, (x, z) in enumerate(ends[:-1], start=1):
+        scene.bodies[f"wire.{i}"] = type(scene.bodies["load"])(
+            **scene.bodies[f"wire.{i}"].__getstate__() | {"position": (x, 0.0, z)}
+        )
+    return scene
+
+
+def test_a_line_that_is_paid_out_swings_as_one_of_masses_that_stay_with_their_material() -> None:
+    """Both are of second order in the segments: so is their difference."""
+    times = np.linspace(0.0, 12.0, 13)
+    errors = []
+    for count in (8, 16):
+        result = simulate(paid_out(count), t_end=12.0, dt_out=1.0, channels=["position"], rtol=1e-8)
+        load = np.asarray(result.select("position", body="load"))[:, [0, 2]]
+        errors.append(np.abs(load - material(count, times)).max())
+    assert errors[1] < 0.01
+    assert 3.0 < errors[0] / errors[1] < 5.0
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0], ids=["out", "in"])
+def test_at_a_steady_rate_an_upright_line_carries_its_weight_as_at_rest(direction: float) -> None:
+    first, last = (100.0, 220.0) if direction > 0.0 else (220.0, 100.0)
+    scene = Scene(name="upright", gravity=G)
+    tension = (4e3 + 0.5 * MU * first) * G
+    scene.add_body(name="load", mass=4e3, inertia=(4e3,) * 3,
+                   position=(0.0, 0.0, -first * (1.0 + tension / 1e9)))  # fmt: skip
+    paid = Curve.quintic(start_time=0.0, end_time=120.0, start=first, end=last)
+    scene.add_line("wire", "ground", "load", rung="with mass", EA=1e9, length=paid, mass_per_length=MU,
+                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), segments=6,
+                   segment_rung="quasi-static")  # fmt: skip
+    result = simulate(scene, t_end=120.0, dt_out=20.0, rtol=1e-6)
+    here = paid.evaluate(np.asarray(result.time))
+    upper, lower = heavy_line_tension(result, line="wire").T
+    speeding = G - here[:, 2]  # the line moves down as one, by what is paid out
+    assert lower == pytest.approx(4e3 * speeding, rel=2e-4)
+    assert upper == pytest.approx((4e3 + MU * here[:, 0]) * speeding, rel=2e-4)
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"lag": 0.0}, "which needs a smooth rate, and its winch has no lag; give one, such as 0.1 s"),
-        ({"minimum_length": 60.0}, "starts with a length of 40 m and a minimum_length of 60 m"),
+        ({"length": Curve.table([0.0, 5.0], [60.0, 70.0])}, "length jumps at t = 0"),
+        ({"diameter": 0.05}, "takes no length that changes"),
     ],
 )
-def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=f"line 'wire.1': .*{message}"):
-        hung(Curve.constant(value=0.0), deep=40.0, segments=4, **given).compile()
-
-
-def test_a_length_that_changes_by_itself_takes_no_winch() -> None:
-    scene = wet(PAID)
-    with pytest.raises(SceneError, match="line 'wire': has a Curve for its length, and the winch changes it"):
-        scene.add_winch("wire", lag=LAG)
-    assert not scene.loads["wire.1"].winch
-
-
-def test_parts_of_a_line_that_is_not_there_are_refused() -> None:
-    scene = hung(Curve.constant(value=0.0), deep=40.0, segments=4)
-    scene.replace("wire.3 winding", kind="load", paid_out_by="rope")
-    with pytest.raises(
-        SceneError, match="paid out by 'rope', and no segment before it is on a winch of this name"
-    ):
-        scene.compile()
-
-
-def test_a_file_keeps_it(tmp_path: Path) -> None:
-    scene = wet(compensated=True)
-    scene.save(tmp_path / "wet.json")
-    assert Scene.load(tmp_path / "wet.json").loads == scene.loads
-
-
-def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
-    scene = Scene(name="hoist", gravity=G)
-    scene.add_given_vessel(shipped_database())
-    scene.add_sea(hs=0.0, tp=8.0)
-    scene.add_crane(slew=0.0, s1=1.0, s2=2.0)
-    for wire, message in (({"EA": 1.0}, "wire has 'EA'; give some of"), (None, "needs a smooth length")):
-        with pytest.raises(SceneError, match=message):
-            scene.add_hoist("wire", mass=50e3, size=(4, 4, 4), rung="with mass", winch=True, wire=wire)
-    scene.add_hoist("wire", mass=50e3, size=(4, 4, 4), length=20.0, EA=1.5e8, rung="with mass",
-                    mass_per_length=20.0, winch={"lag": 0.1},
-                    wire={"segments": 5, "medium": "sea", "diameter": 0.06})  # fmt: skip
-    at_rest = equilibrium(scene)
-    assert at_rest.load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
-    assert [name for name in scene.loads if name.endswith("water")] == [
-        f"wire.{i} water" for i in range(1, 6)
-    ]
+def test_what_cannot_be_wound_is_refused_by_name(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        paid_out(4, **given).compile()

@@ -55,13 +55,9 @@ def heaving(count: int, t_end: float, **more: Any) -> Scene:
     scene.add_driver(joint="guide", curve=heave(t_end))
     line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
     scene.add_line(
-        name="line",
-        rung="with mass",
-        bodies=["ground", "end"],
-        points=[(0, 0, -300), (0, 0, 0)],
-        segments=count,
-        **line,
-    )
+        name="line", rung="with mass", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)],
+        segments=count, **line,
+    )  # fmt: skip
     return scene
 
 
@@ -76,13 +72,9 @@ def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any
         velocity=(velocity, 0.0, 0.0),
     )  # fmt: skip
     scene.add_line(
-        name="wire",
-        rung="with mass",
-        bodies=["ground", "load"],
-        points=np.zeros((2, 3)),
-        segments=count,
+        name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)), segments=count,
         **line,
-    )
+    )  # fmt: skip
     return scene
 
 
@@ -118,4 +110,55 @@ def in_waves(length: Curve | float, *, seed: int = 3, rung: Any = "elastic") -> 
         length=length, mass_per_length=40.0, diameter=0.25, rung="with mass", medium="sea", segments=4,
         segment_rung=rung,
     )  # fmt: skip
+    return scene
+
+
+BED = {"depth": 10.0, "stiffness": 2e4, "friction": 0.5}
+
+
+def dropped(*, friction: float = 0.5, segments: int = 6, **given: Any) -> Scene:
+    """A line that falls askew on a seabed 10 m below, a load at its end that slides there."""
+    scene = Scene(name="dropped")
+    scene.add_body(
+        name="load", mass=300.0, inertia=(90.0, 80.0, 70.0), position=(14.0, 2.0, -8.5),
+        velocity=(1.0, 2.0, -0.5), angular_velocity=(0.2, -0.1, 0.3),
+    )  # fmt: skip
+    scene.add_line(
+        "line", "ground", "load", first_point=(0.0, 0.0, -4.0), second_point=(0.1, -0.2, 0.1),
+        rung="with mass", EA=2e5, length=16.0, mass_per_length=40.0, segments=segments,
+        damping_ratio=0.1, seabed=BED | {"friction": friction}, **given,
+    )  # fmt: skip
+    return scene
+
+
+LAG, FIRST, LAST, OVER = 0.2, 10.5, 14.0, 4.0  # s, m, m, s
+PAID = Curve.quintic(start_time=0.0, end_time=OVER, start=FIRST, end=LAST)
+KINDS: dict[str, dict[str, Any]] = {
+    "by rate": {},
+    "holds a tension": {"tension": 4e3, "tension_gain": 1e-4},
+    "with a drum": {
+        "drum_inertia": 300.0, "drum_radius": 0.5, "maximum_tension": 2e4, "brake_capacity": 1e4,
+        "brake": Curve.quintic(start_time=0.5, end_time=1.5, start=0.0, end=0.4),
+    },
+}  # fmt: skip
+
+
+def asked(lag: float) -> Curve:
+    """The rate that a winch with a lag is asked for to pay out as PAID does: r + lag r'."""
+    quintic = np.polynomial.Polynomial(PAID.to_pieces()["coefficients"][0])
+    rate = quintic.deriv(1) + lag * quintic.deriv(2)
+    whole = np.zeros(6)
+    whole[: rate.coef.size] = rate.coef
+    return Curve.pieces(starts=[0.0, OVER], coefficients=[whole, np.zeros(6)])
+
+
+def wet(
+    length: Curve | float = FIRST, *, rung: Any = "elastic", compensated: bool = False, **winch: Any
+) -> Scene:
+    """On a winch, but with a curve for its length."""
+    scene = in_waves(length, rung=rung)
+    if not isinstance(length, Curve):
+        scene.add_winch("wire", **{"rate": asked(LAG), "lag": LAG} | winch)
+    if compensated:
+        scene.add_heave_compensation("active", body="load", winch="wire", gain=0.3, lag=0.3, high_pass=0.05)
     return scene

@@ -20,23 +20,12 @@ RETRACTED, STROKE, START = 1.05, 0.6, 0.3  # m
 HOLDING = MASS * G
 # Rahikainen et al., Multibody Syst. Dyn. 2020, as Chrono's hydraulic crane has them.
 SET: dict[str, Any] = {
-    "full_area": FULL,
-    "rod_side_area": RING,
-    "retracted_length": RETRACTED,
-    "stroke": STROKE,
-    "hose_volume": 31.4e-6,
-    "hose_volume_rod": 78.5e-6,
-    "oil_modulus": 1.5e9,
-    "hose_modulus": 1.5e8,
-    "cylinder_modulus": 3.15e10,
-    "pump_pressure": 7.6e6,
-    "tank_pressure": 0.1e6,
-    "rated_flow": 24e-3 / 60.0,
-    "rated_drop": 3.5e6,
-    "laminar_drop": 2e5,
-    "spool_lag": 1.0 / (2.0 * np.pi * 35.0),
+    "full_area": FULL, "rod_side_area": RING, "retracted_length": RETRACTED, "stroke": STROKE,
+    "hose_volume": 31.4e-6, "hose_volume_rod": 78.5e-6, "oil_modulus": 1.5e9, "hose_modulus": 1.5e8,
+    "cylinder_modulus": 3.15e10, "pump_pressure": 7.6e6, "tank_pressure": 0.1e6, "rated_flow": 24e-3 / 60.0,
+    "rated_drop": 3.5e6, "laminar_drop": 2e5, "spool_lag": 1.0 / (2.0 * np.pi * 35.0),
     "viscous_friction": 1e5,
-}
+}  # fmt: skip
 
 
 def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **settings: Any) -> Scene:
@@ -52,6 +41,17 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     )
     scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET | settings)
     return scene
+
+
+def closed_stiffness(stroke: float) -> float:
+    """Of both chambers with their valves shut, N/m."""
+    stiffness = 0.0
+    for area, swept, hose in (
+        (FULL, FULL * stroke, SET["hose_volume"]), (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
+    ):  # fmt: skip
+        whole = (swept + hose) / SET["oil_modulus"]
+        stiffness += area**2 / (whole + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"])
+    return stiffness
 
 
 def lifted(**settings: Any) -> Scene:
@@ -102,12 +102,9 @@ def own_solution(times: Array, pressures: tuple[float, float], **more: Any) -> A
         b1, b2 = modulus(swept1, given["hose_volume"]), modulus(swept2, given["hose_volume_rod"])
         force = p1 * FULL - p2 * RING - given["viscous_friction"] * v
         return [
-            v,
-            force / MASS - G,
-            b1 / (swept1 + given["hose_volume"]) * (q1 - FULL * v),
-            b2 / (swept2 + given["hose_volume_rod"]) * (q2 + RING * v),
-            (command(t) - u) / given["spool_lag"],
-        ]
+            v, force / MASS - G, b1 / (swept1 + given["hose_volume"]) * (q1 - FULL * v),
+            b2 / (swept2 + given["hose_volume_rod"]) * (q2 + RING * v), (command(t) - u) / given["spool_lag"],
+        ]  # fmt: skip
 
     found, x = [], np.array([START, 0.0, *pressures, 0.0])
     corners = [0.0, 0.1, 0.3, 0.8, 0.9, 1.2, 1.4, float(times[-1])]

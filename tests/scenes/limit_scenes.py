@@ -18,44 +18,28 @@ from seacrane._core import Body
 
 MISSES = 0.05  # of the work: energy lost or won unseen
 METHODS: list[dict[str, Any]] = [
-    {},
-    {"formulation": "redundant"},
-    {"formulation": "recursive"},
-    {"integrator": "ida"},
-    {"integrator": "cvode-bdf"},
-    {"integrator": "rosenbrock"},
-    {"integrator": "generalized-alpha", "dt": 0.005},
-    {"integrator": "semi-implicit-euler", "dt": 1e-3},
-    {"integrator": "rk4", "dt": 0.005},
-    {"integrator": "dop853", "rtol": 1e-9},
-]
+    {}, {"formulation": "redundant"}, {"formulation": "recursive"}, {"integrator": "ida"},
+    {"integrator": "cvode-bdf"}, {"integrator": "rosenbrock"},
+    {"integrator": "generalized-alpha", "dt": 0.005}, {"integrator": "semi-implicit-euler", "dt": 1e-3},
+    {"integrator": "rk4", "dt": 0.005}, {"integrator": "dop853", "rtol": 1e-9},
+]  # fmt: skip
 T_END = 1.0
 # Seeds of scenes were found with these: another kind of joint would make them other scenes.
 KINDS = (
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "universal",
-    "spherical",
-    "planar",
-    "distance",
-    "weld",
-    "free",
-)
+    "revolute", "prismatic", "cylindrical", "universal", "spherical", "planar", "distance", "weld", "free",
+)  # fmt: skip
 
 
 def random_shape(rng: np.random.Generator) -> Shape:
     count = int(rng.integers(1, 6))
     return Shape(
-        seed=int(rng.integers(2**32)),
-        parents=tuple(int(rng.integers(-1, i)) for i in range(count)),
+        seed=int(rng.integers(2**32)), parents=tuple(int(rng.integers(-1, i)) for i in range(count)),
         kinds=tuple(str(k) for k in rng.choice(KINDS, count)),
         swapped=tuple(bool(s) for s in rng.integers(2, size=count)),
         closing=tuple(str(k) for k in rng.choice([*CLOSING, "distance", "distance"], rng.integers(0, 3))),
-        decades=2.0,
-        base=str(rng.choice(["ground", "ground", "floating", "vessel"])),
+        decades=2.0, base=str(rng.choice(["ground", "ground", "floating", "vessel"])),
         driven=bool(rng.integers(2)),
-    )
+    )  # fmt: skip
 
 
 def throw(scene: Scene, rng: np.random.Generator) -> None:

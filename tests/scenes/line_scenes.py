@@ -40,13 +40,9 @@ def swinging(**winch: Any) -> Scene:
     """A load that swings below a block on a winch."""
     scene = Scene(name="swinging")
     scene.add_body(
-        name="load",
-        mass=2e3,
-        inertia=(300.0, 400.0, 500.0),
-        position=(3.0, 0.5, -8.0),
-        velocity=(0.0, 0.8, 0.0),
-        angular_velocity=(0.1, 0.2, 0.3),
-    )
+        name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=(3.0, 0.5, -8.0),
+        velocity=(0.0, 0.8, 0.0), angular_velocity=(0.1, 0.2, 0.3),
+    )  # fmt: skip
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0.1, -0.2, 0.9)],
         EA=4e6, length=7.65,
@@ -110,3 +106,52 @@ def case2_on_a_line(rung: str, stiffness: float) -> Scene:
         length=8.0 / (1.0 + 1e4 * G / stiffness), rung=rung,
     )  # fmt: skip
     return scene
+
+
+def busy() -> Scene:
+    """A swinging load that is hauled in by a drum, with a tension held and a brake that closes on the way."""
+    haul = Curve.quintic(start_time=0.3, end_time=1.0, start=0.0, end=-0.4)
+    shut = Curve.quintic(start_time=2.0, end_time=2.3, start=0.0, end=1.0)
+    return swinging(
+        rate=haul, tension=30e3, tension_gain=3e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
+        maximum_rate=0.8, maximum_tension=26e3, maximum_power=5e3, brake=shut, brake_capacity=28e3,
+        brake_give=0.01,
+    )  # fmt: skip
+
+
+def settled(scene: Scene, *, settling: float = 0.2, **change: Any) -> Scene:
+    """The scene with all its lines quasi-static."""
+    for name, load in list(scene.loads.items()):
+        if type(load).__name__ == "Line":
+            scene.replace(name, rung="quasi-static", settling=settling, **change)
+    return scene
+
+
+def taut() -> Scene:
+    """`reeved` with both lines taut: they feel each other."""
+    scene = settled(reeved(), settling=0.1)
+    length = Curve.harmonic(start_time=0.0, offset=5.0, amplitude=0.05, omega=3.0)
+    scene.replace("tugger", length=length)
+    scene.replace("hoist", length=13.7566)  # carries the load from the start
+    return scene
+
+
+def below(
+    place: Any, *, mass: float = MASS, velocity: Any = (0.0, 0.0, 0.0), size: Any = None, **line: Any
+) -> Scene:
+    """A load at a place, on a line "hoist" from the origin of the ground; alone without words for a line."""
+    scene = Scene(name="below")
+    shape = {"inertia": 0.5 * mass * np.eye(3)} if size is None else {"size": size}
+    scene.add_body(name="load", mass=mass, position=place, velocity=velocity, **shape)
+    if line:
+        path = {"bodies": ["ground", "load"], "points": np.zeros((2, 3))}
+        scene.add_line(name="hoist", **path | line)
+    return scene
+
+
+def add_led(scene: Scene, name: str, curve: Curve, *, place: Any = (0.0, 0.0, 0.0), **joint: Any) -> None:
+    """A body on a slide along z that a curve leads; its joint is "guide", its driver "lead"."""
+    scene.add_body(name=name, mass=1e3, inertia=1e3 * np.eye(3), position=place)
+    way = {"kind": "prismatic", "first": "ground", "second": name, "point": place, "axis": (0, 0, 1)}
+    scene.add_joint(name="guide", **way | joint)
+    scene.add_driver(name="lead", joint="guide", curve=curve)

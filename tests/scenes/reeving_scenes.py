@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
+from seacrane.description.line_path import path_length
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -31,16 +32,11 @@ def tackle(*, falls: int = 6, guided: bool = True, strain: float | None = None, 
     bodies = ["ground", *np.where(at_hook, "hook", "ground").tolist(), "ground"]
     x = [centers[0] - RADIUS, *centers, centers[-1] + RADIUS]
     scene.add_line(
-        name="hoist",
-        bodies=bodies,
-        points=np.column_stack([x, np.zeros((len(x), 2))]),
-        EA=STIFFNESS,
-        length=path_of_tackle(falls) / (1.0 + taut),
-        mass=MASS / falls**2,
+        name="hoist", bodies=bodies, points=np.column_stack([x, np.zeros((len(x), 2))]), EA=STIFFNESS,
+        length=path_of_tackle(falls) / (1.0 + taut), mass=MASS / falls**2,
         radii=[0.0, *[RADIUS] * centers.size, 0.0],
-        axes=[(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)],
-        **line,
-    )
+        axes=[(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)], **line,
+    )  # fmt: skip
     return scene
 
 
@@ -124,4 +120,12 @@ def four_legs(*, stiffnesses: tuple[float, ...], height: float = 4.0, arm: float
     scene.add_body(name="load", mass=8e3, inertia=(2e4, 2e4, 3e4), position=(0.0, 0.0, -height))
     corners = [(arm, arm, 0.0), (-arm, arm, 0.0), (-arm, -arm, 0.0), (arm, -arm, 0.0)]
     scene.add_bridle(name="sling", hook="ground", load="load", points=corners, EA=stiffnesses)
+    return scene
+
+
+def stiff(stiffness: float, rung: str, **change: Any) -> Scene:
+    """`slewing` with a taut line of that EA, which starts with 8 kN."""
+    scene = slewing(EA=stiffness, rung=rung, **change)
+    line: Any = scene.loads["hoist"]
+    scene.replace("hoist", length=path_length(scene, line) / (1.0 + 8e3 / stiffness))
     return scene
