@@ -299,8 +299,9 @@ def test_a_cylinder_stands_on_the_side_of_its_own_lift(
 
 @needs_lanes
 def test_the_dataset_says_who_was_by_itself_and_why(tmp_path: Path) -> None:
-    made = ensemble(pendulum, over=[{"start": 1.0}] * 5, keep={"z": Kept(channel="position"), "lanes": why}, lanes=4,
-                    t_end=2.0, rtol=1e-6, store=tmp_path / "packs")  # fmt: skip
+    keep = {"z": Kept(channel="position"), "lanes": why}
+    how: dict[str, Any] = {"lanes": 4, "t_end": 2.0, "rtol": 1e-6, "store": tmp_path / "packs"}
+    made = ensemble(pendulum, over=[{"start": 1.0}] * 5, keep=keep, **how)
     told = ["", "", "", "", "there is no other run beside it"]
     assert made.dataset.kept_apart.to_numpy().tolist() == told
     assert made.dataset.lanes.to_numpy().tolist() == [4, 4, 4, 4, 1]

@@ -88,10 +88,7 @@ SCENES: dict[str, tuple[Callable[[HydroDatabase, int], Scene], dict[str, Any]]] 
     ),
     "current": (in_a_current, {"integrator": "rk4", "dt": 0.05}),
     "wire": (on_a_wire, {}),
-    "paper": (
-        lambda database, seed: cases.vessel(database=database, kinematics="paper", seed=seed),
-        {},
-    ),
+    "paper": (lambda database, seed: cases.vessel(database=database, kinematics="paper", seed=seed), {}),
     "convolution": (
         lambda database, seed: cases.vessel(database=database, memory="convolution", seed=seed),
         {},
@@ -217,13 +214,7 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     scene = cases.vessel(database=database, spreading=3.0)
     mass = float(scene.bodies["vessel"].mass)
     over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
-    given: dict[str, Any] = {
-        "over": over,
-        "keep": PATH,
-        "lanes": 1,
-        "t_end": 1.0,
-        "rtol": 1e-3,
-    }
+    given: dict[str, Any] = {"over": over, "keep": PATH, "lanes": 1, "t_end": 1.0, "rtol": 1e-3}
     with pool(2) as executor:  # type: ignore[call-arg]
         there = ensemble(scene, executor=executor, pack=3, **given)
     assert there.failures == {}

@@ -38,11 +38,7 @@ def small() -> Scene:
     scene.add_driver(joint="rail", curve=Curve.quintic(start_time=0.0, end_time=5.0, start=0.0, end=0.5))
     scene.record_coordinate(joint="hinge")
     scene.add_line(
-        name="wire",
-        bodies=["ground", "load"],
-        points=[(7, 0, 10), (0, 0, 0)],
-        EA=1e7,
-        length=9.99,
+        name="wire", bodies=["ground", "load"], points=[(7, 0, 10), (0, 0, 0)], EA=1e7, length=9.99
     )
     return scene
 

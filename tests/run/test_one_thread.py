@@ -180,12 +180,7 @@ def test_members_have_one_thread_whatever_runs_beside_them() -> None:
     """Their number changes bits: a member in a pool would else depend on what the others do just then."""
     keep = {"threads": lambda result: float(max(threads()))}
     over = {"seed": [1, 2, 3, 4]}
-    study: dict[str, Any] = {
-        "keep": keep,
-        "t_end": 0.5,
-        "pack": 1,
-        "lanes": 1,
-    }
+    study: dict[str, Any] = {"keep": keep, "t_end": 0.5, "pack": 1, "lanes": 1}
     scene = cases.vessel(memory="none")
     with ThreadPoolExecutor(2) as pool:
         for executor in (None, pool):

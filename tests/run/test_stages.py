@@ -280,10 +280,7 @@ def test_a_ship_in_waves_does_not_notice_that_its_cargo_is_fastened_anew() -> No
     scene = cases.vessel(count=20)
     ship = scene.bodies["vessel"]
     scene.add_body(
-        name="cargo",
-        mass=4e5,
-        inertia=(1e6, 1e6, 1e6),
-        position=np.add(ship.position, (10.0, 3.0, 12.0)),
+        name="cargo", mass=4e5, inertia=(1e6, 1e6, 1e6), position=np.add(ship.position, (10.0, 3.0, 12.0))
     )
     for name in ("bolts", "lashings"):
         scene.add_joint(kind="weld", name=name, first="vessel", second="cargo")
@@ -521,10 +518,7 @@ def test_a_condition_is_located_without_calling_controllers_twice(period: float)
     """The bob turns by a staircase of torques; the angle at the end is the condition's."""
     calls: list[float] = []
     until = Until.channel("coordinate", joint_coordinate="angle", minimum=0.2)
-    stages = [
-        Stage(name="turn", until=until, maximum_duration=5.0),
-        Stage(name="go on", duration=0.5),
-    ]
+    stages = [Stage(name="turn", until=until, maximum_duration=5.0), Stage(name="go on", duration=0.5)]
     result = simulate_stages(motored(), stages, controllers=[noted(calls, period)], rtol=1e-10, dt_out=0.17)
     end = result.stages[0].end
     angle, rate, at = 0.0, 0.0, 0.0

@@ -362,7 +362,7 @@ def test_only_the_same_run_replaces_a_result_unasked(tmp_path: Path) -> None:
         assert simulate_to_file(spinner(), path, **given).load().time[-1] == given["t_end"]
     path.write_text("a letter")
     for given in ({}, {"resume": True}):
-        with pytest.raises((FileExistsError, FileFormatError), match="is there and|is not a result"):
+        with pytest.raises((FileExistsError, FileFormatError), match=r"is there and|is not a result"):
             simulate_to_file(spinner(), path, t_end=2.0, **given)
     simulate(spinner(), t_end=1.0).save(path)
     with pytest.raises(FileExistsError, match="is there and"):
