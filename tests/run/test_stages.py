@@ -372,33 +372,35 @@ def test_what_cannot_be_is_told(make: Any, given: dict[str, Any], message: str) 
 
 
 rate = "hoist.rate"
+NEVER = [
+    ({"until": Until.length("hoist", maximum=1.5)}, "never end: .*minimum_length of 2 m"),
+    ({"until": Until.tension("hoist", maximum=-1.0)}, "never end: .*line_tension of 'hoist' below -1 N"),
+    ({"commands": {rate: -0.6}}, "'hoist.rate' reaches 0.6 m/s, .*maximum_rate of 0.5"),
+    ({"commands": {rate: Move(to=0.7, over=3.0)}}, "reaches 0.7 m/s"),
+    ({"commands": {rate: Curve.harmonic(amplitude=0.8, omega=1.0)}}, "reaches 0.8 m/s"),
+]
+WRONG = [
+    ({"until": Until.length("hoist", minimum=25.0)}, "never end: .* from 20.1 m to 20.1 m"),
+    ({"until": Until.length("hoist", maximum=15.0), "commands": {rate: -0.1}}, "never end: .* 19.15 m"),
+    ({"until": Until.contact("on deck")}, "never end: seat 'on deck'"),
+    ({"until": Until.contact("landing")}, "no such limit; there are on deck"),
+    ({"until": Until.tension("tugger", minimum=1.0)}, "line 'tugger', which is not there"),
+    ({"until": Until.channel("position", body="lid", axis="z", minimum=1.0)}, "body 'lid'.*not there"),
+    ({"release": ["sling"]}, "releases: .*no 'sling'"),
+    ({"commands": {"hoist": -0.1}}, "commands 'hoist', .*there are hoist.rate"),
+    ({"commands": {rate: np.nan}}, "is nan"),
+]
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"until": Until.length("hoist", minimum=25.0)}, "never end: .* from 20.1 m to 20.1 m"),
-        ({"until": Until.length("hoist", maximum=15.0), "commands": {rate: -0.1}}, "never end: .* 19.15 m"),
-        ({"until": Until.length("hoist", maximum=1.5)}, "never end: .*minimum_length of 2 m"),
-        ({"until": Until.tension("hoist", maximum=-1.0)}, "never end: .*line_tension of 'hoist' below -1 N"),
-        ({"until": Until.contact("on deck")}, "never end: seat 'on deck'"),
-        ({"until": Until.contact("landing")}, "no such limit; there are on deck"),
-        ({"until": Until.tension("tugger", minimum=1.0)}, "line 'tugger', which is not there"),
-        ({"until": Until.channel("position", body="lid", axis="z", minimum=1.0)}, "body 'lid'.*not there"),
-        ({"release": ["sling"]}, "releases: .*no 'sling'"),
-        ({"commands": {"hoist": -0.1}}, "commands 'hoist', .*there are hoist.rate"),
-        ({"commands": {rate: np.nan}}, "is nan"),
-        ({"commands": {rate: -0.6}}, "'hoist.rate' reaches 0.6 m/s, .*maximum_rate of 0.5"),
-        ({"commands": {rate: Move(to=0.7, over=3.0)}}, "reaches 0.7 m/s"),
-        ({"commands": {rate: Curve.harmonic(amplitude=0.8, omega=1.0)}}, "reaches 0.8 m/s"),
-    ],
-)
-def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], message: str) -> None:
-    """Before any stage is run."""
+@pytest.mark.parametrize("given", [*[(True, *row) for row in NEVER], *[(False, *row) for row in WRONG]])
+def test_stages_that_do_not_fit_the_scene_are_told(given: tuple[bool, dict[str, Any], str]) -> None:
+    """What a winch never does before any stage is run."""
+    before, asked, message = given
     scene = on_deck()
     scene.replace("hoist", kind="load", maximum_rate=0.5, minimum_length=2.0)
-    ends = {"maximum_duration" if "until" in given else "duration": 10.0}
-    stages = [Stage(name="hold", duration=1e6), Stage(name="wait", **given, **ends)]
+    ends = {"maximum_duration" if "until" in asked else "duration": 10.0}
+    stages = [Stage(name="hold", duration=1e6)] if before else []
+    stages.append(Stage(name="wait", **asked, **ends))
     with pytest.raises(SceneError, match=f"stage 'wait': .*{message}"):
         simulate_stages(scene, stages)
 
