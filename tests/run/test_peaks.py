@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,6 @@ from seacrane import (
 )
 from seacrane.ensembles import Kept
 from seacrane.operability.levels import RecordNumbers
-from seacrane.pictures import view
 
 MASS, GRAVITY, LENGTH = 2e3, 9.81, 10.0
 WEIGHT = MASS * GRAVITY
@@ -33,17 +31,12 @@ WEIGHT = MASS * GRAVITY
 def hung(*, EA: float, fall: float = 0.0, damping: float = 0.0, hangs: int = 1) -> Scene:
     """A mass that has fallen so far (m) where its line becomes taut, and more below it on lines alike."""
     scene = Scene(name="mass on a line", gravity=GRAVITY)
-    above = "ground"
+    above, down = "ground", (0.0, 0.0, -np.sqrt(2.0 * GRAVITY * fall))
     for i in range(1, hangs + 1):
-        name = f"mass {i}"
-        scene.add_body(
-            name, mass=MASS / i, inertia=np.diag([1e3, 1e3, 1e3]), position=(0.0, 0.0, -LENGTH * i),
-            velocity=(0.0, 0.0, -np.sqrt(2.0 * GRAVITY * fall)),
-        )  # fmt: skip
-        scene.add_line(
-            f"line {i}", bodies=[above, name], points=[(0.0, 0.0, 0.0)] * 2, length=LENGTH, EA=EA / i,
-            damping_ratio=damping, rung="elastic",
-        )  # fmt: skip
+        name, place = f"mass {i}", (0.0, 0.0, -LENGTH * i)
+        scene.add_body(name, mass=MASS / i, inertia=(1e3, 1e3, 1e3), position=place, velocity=down)
+        scene.add_line(f"line {i}", bodies=[above, name], points=[(0.0, 0.0, 0.0)] * 2, length=LENGTH,
+                       EA=EA / i, damping_ratio=damping, rung="elastic")  # fmt: skip
         above = name
     return scene
 
@@ -69,15 +62,12 @@ def test_a_stiff_line_reaches_its_peak_in_closed_form(formulation: str, fall: fl
 def test_peaks_are_those_of_a_dense_record(integrator: str) -> None:
     random = np.random.default_rng(5)
     for hangs in (1, 2, 3):
-        scene = hung(
-            EA=10.0 ** random.uniform(6.0, 8.5), fall=0.02 * random.random(), damping=0.02, hangs=hangs
-        )
-        period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * scene.loads["line 1"].EA))
+        EA = 10.0 ** random.uniform(6.0, 8.5)
+        scene = hung(EA=EA, fall=0.02 * random.random(), damping=0.02, hangs=hangs)
+        period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * EA))
         how: dict[str, Any] = {"integrator": integrator, "formulation": "redundant"}
-        if integrator == "rk4":
-            how["dt"] = period / 25.0
-        seldom = simulate(scene, 2.0, dt_out=0.3, **how)
-        often = simulate(scene, 2.0, dt_out=period / 50.0, **how)
+        how |= {"dt": period / 25.0} if integrator == "rk4" else {}
+        seldom, often = (simulate(scene, 2.0, dt_out=dt_out, **how) for dt_out in (0.3, period / 50.0))
         for channel in ("line_tension", "hook_load"):
             dense = often[channel]
             error = 1e-3 * dense.max()
@@ -106,14 +96,9 @@ def test_what_is_asked_for_is_kept_and_other_channels_are_as_recorded() -> None:
     assert "position" not in usual.extremes
     for bound in usual.reached("position"):
         np.testing.assert_array_equal(bound, usual["position"])
-
-
-def test_recorded_values_do_not_depend_on_extremes() -> None:
-    scene = hung(EA=1e7, fall=0.1, hangs=2)
-    usual = simulate(scene, 1.0, dt_out=0.05)
     least, most = usual.reached("line_tension")
     assert (least <= usual["line_tension"]).all() and (usual["line_tension"] <= most).all()
-    alone = simulate(scene, 1.0, dt_out=0.05, channels=["line_length"])
+    alone = simulate(scene, 1.0, dt_out=0.5, channels=["line_length"])
     np.testing.assert_array_equal(alone["line_length"], usual["line_length"])
 
 
@@ -145,19 +130,14 @@ def test_files_and_stages_hold_them(tmp_path: Path) -> None:
     whole = simulate(scene, 2.0, dt_out=0.25)
     again = Result.load(whole.save(tmp_path / "whole.nc"))
     for name, both in whole.extremes.items():
-        for one, other in zip(both, again.extremes[name], strict=True):
-            np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(both, again.extremes[name])
     some = Result.load(tmp_path / "whole.nc", channels=["line_tension"])
     assert set(some.extremes) == {"line_tension"}
-    streamed = simulate_to_file(
-        scene, tmp_path / "streamed.nc", 2.0, dt_out=0.25, checkpoint_every=0.6
-    ).load()
-    staged = simulate_stages(
-        scene, [Stage(name=n, duration=d) for n, d in (("a", 0.7), ("b", 1.3))], dt_out=0.25
-    )
-    for other in (streamed, staged):
-        assert largest(other) == pytest.approx(largest(whole), rel=1e-3)
-        assert largest(other, "hook_load") == pytest.approx(largest(whole, "hook_load"), rel=1e-3)
+    streamed = simulate_to_file(scene, tmp_path / "streamed.nc", 2.0, dt_out=0.25, checkpoint_every=0.6)
+    stages = [Stage(name="a", duration=0.7), Stage(name="b", duration=1.3)]
+    for other in (streamed.load(), simulate_stages(scene, stages, dt_out=0.25)):
+        for channel in ("line_tension", "hook_load"):
+            assert largest(other, channel) == pytest.approx(largest(whole, channel), rel=1e-3)
     assert "line_tension_largest" in whole.to_xarray()
 
 
@@ -172,23 +152,14 @@ def test_a_run_that_goes_on_between_outputs_keeps_what_came_before() -> None:
     assert largest(rest).item() == pytest.approx(2.0 * WEIGHT, rel=1e-3)
 
 
-def test_the_strip_of_the_page_shows_the_peak() -> None:
-    result = simulate(hung(EA=4e8, damping=0.02), 2.0, dt_out=0.5)
-    found = re.search(r'"title":"line tension.*?"high":([-\d.e+]+)', view(result).html)
-    assert found and float(found[1]) == pytest.approx(largest(result).item() / 1e3, rel=1e-3)
-    assert largest(result).item() > 1.05 * result["line_tension"].max()
-
-
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str) -> None:
     """T = m g (3 cos phi - 2 cos phi0) of a mass on a rod that is let go at phi0."""
     scene, angle = Scene(name="pendulum", gravity=GRAVITY), 0.8
     place = LENGTH * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     scene.add_body("mass", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=place)
-    scene.add_joint(
-        kind="distance", name="rod", first="ground", second="mass", point=(0.0, 0.0, 0.0), second_point=place,
-        length=LENGTH,
-    )  # fmt: skip
+    ends: dict[str, Any] = {"first": "ground", "second": "mass", "point": (0, 0, 0), "second_point": place}
+    scene.add_joint("rod", kind="distance", **ends, length=LENGTH)
     result = simulate(scene, 9.0, dt_out=1.3, formulation=formulation)
     least, most = result.reached("tension")
     assert most.max() == pytest.approx(WEIGHT * (3.0 - 2.0 * np.cos(angle)), rel=1e-3)
@@ -199,16 +170,12 @@ def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_driver_reaches_what_it_carries(formulation: str) -> None:
     scene, omega, height = Scene(name="driven", gravity=GRAVITY), 2.0, 1.5
-    scene.add_body(
-        "sledge", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=(0.0, 0.0, 0.0),
-        velocity=(0.0, 0.0, height * omega),
-    )  # fmt: skip
+    scene.add_body("sledge", mass=MASS, inertia=(1e3, 1e3, 1e3), velocity=(0.0, 0.0, height * omega))
     scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="sledge", point=(0, 0, 0), axis=(0, 0, 1)
+        "guide", kind="prismatic", first="ground", second="sledge", point=(0, 0, 0), axis=(0, 0, 1)
     )
-    scene.add_driver(
-        joint="guide", name="lift", curve=Curve.harmonic(amplitude=height, omega=omega, phase=-np.pi / 2)
-    )
+    wave = Curve.harmonic(amplitude=height, omega=omega, phase=-np.pi / 2)
+    scene.add_driver(joint="guide", name="lift", curve=wave)
     result = simulate(scene, 8.0, dt_out=1.1, formulation=formulation)
     least, most = result.reached("driver_force")
     assert most.max() == pytest.approx(WEIGHT + MASS * height * omega**2, rel=1e-3)
@@ -250,15 +217,14 @@ def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_
         rung="with mass", mass_per_length=per_length, segments=8, segment_rung="quasi-static",
     )  # fmt: skip
     result = simulate(scene, 1.0, start="rest")
-    assert result["hook_load"][:, -1] == pytest.approx(2e4 * GRAVITY, rel=1e-3)
+    load, all_of_it = 2e4 * GRAVITY, (2e4 + per_length * length) * GRAVITY
     upper, lower = result["end_tension"][:, 0].T
-    assert lower == pytest.approx(2e4 * GRAVITY, rel=1e-3)
-    assert upper == pytest.approx((2e4 + per_length * length) * GRAVITY, rel=1e-3)
     told = summary(result)
-    assert told["hook load wire"].maximum == pytest.approx(2e4 * GRAVITY, rel=1e-3)
-    assert told["hoist tension wire"].maximum == pytest.approx(
-        (2e4 + per_length * length) * GRAVITY, rel=1e-3
-    )
+    for found, exact in (
+        (result["hook_load"][:, -1], load), (lower, load), (upper, all_of_it),
+        (told["hook load wire"].maximum, load), (told["hoist tension wire"].maximum, all_of_it),
+    ):  # fmt: skip
+        assert found == pytest.approx(exact, rel=1e-3)
 
 
 def test_members_in_lanes_keep_the_peaks_of_runs_by_themselves() -> None:

@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -150,41 +149,6 @@ def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     np.testing.assert_allclose(joined["energy_balance"], 0.0, atol=1e-3)
 
 
-KILLED = """
-import sys
-from pathlib import Path
-from seacrane import cases, simulate_to_file
-from seacrane.result import stream
-stream.MOST_ROWS = 16
-simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=0.5, checkpoint_every=20.0)
-"""
-
-
-@pytest.mark.warns(sometimes=["LargeSwingWarning"])  # runs go as far as the machine brings them
-def test_a_killed_run_leaves_outputs_and_a_state_to_go_on_from(tmp_path: Path) -> None:
-    process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
-    until, left = time.monotonic() + GENEROUS, stream.partial_path(tmp_path / "run.nc")
-    while not (left.exists() and left.stat().st_size > 2e5 and Result.load(left).time.size > 16):
-        assert time.monotonic() < until
-        time.sleep(0.05)
-    growing = Result.load(left)
-    assert growing.interrupted
-    assert growing.state is not None
-    process.kill()
-    process.wait()
-    partial = Result.load(left)
-    assert partial.time.size >= growing.time.size > 16
-    t_end = float(partial.time[-1]) + 20.0
-    settings: dict[str, Any] = {"t_end": t_end, "dt_out": 0.5}
-    with pytest.raises(FileExistsError, match=r"run\.nc\.partial holds .* stopped or killed: resume=True"):
-        simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
-    with pytest.raises(FileNotFoundError, match=r"its run has left .*run\.nc\.partial"):
-        Result.load(tmp_path / "run.nc")
-    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
-    same(simulate(cases.case2(), **settings), told.load())
-    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
-
-
 FULL = """
 import resource, sys, json
 from pathlib import Path
@@ -279,9 +243,13 @@ def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -
         left.write_bytes(data[:-cut] + room)
         partial = Result.load(left)
         assert 0 < partial.time.size < whole.time.size
-        assert partial.state is not None
+        assert partial.interrupted and partial.state is not None
         assert partial.time[-1] <= partial.state.time < whole.time[-1]
         assert np.array_equal(partial["velocity"], whole["velocity"][: partial.time.size])
+    with pytest.raises(FileExistsError, match=r"run\.nc\.partial .*resume=True"):
+        simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
+    with pytest.raises(FileNotFoundError, match=r"run\.nc\.partial"):
+        Result.load(tmp_path / "run.nc")
 
 
 def left_behind(folder: Path, **settings: Any) -> Path:
