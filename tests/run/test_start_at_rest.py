@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,6 @@ from seacrane import (
     Scene,
     SceneError,
     Stage,
-    State,
     ensemble,
     equilibrium,
     simulate,
@@ -60,21 +61,16 @@ def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path)
     by_state = height(simulate(scene, 2.0, start=state))
     stretched = 8.5 * (1.0 + 20e3 * scene.gravity / 3e7)
     assert by_state == pytest.approx(-1.0 - stretched, abs=1e-6)
+    assert np.array_equal(Run(scene, 2.0, start="rest").start.values, state.values)
     for told in (
         simulate(scene, 2.0, start="rest"),
-        Run(scene, 2.0, start="rest").start,
         simulate_to_file(scene, tmp_path / "a.nc", 2.0, start="rest").load(),
         simulate_stages(scene, WAIT, start="rest"),
         simulate_stages_to_file(scene, WAIT, tmp_path / "b.nc", start="rest"),
     ):
-        if isinstance(told, State):
-            assert np.array_equal(told.values, state.values)
-        else:
-            assert np.array_equal(height(told), by_state)
-    kept = ensemble(
-        scene, over={"bodies.load.mass": [20e3, 30e3]}, keep={"range": "line_tension[hoist].std"}, t_end=2.0,
-        start="rest",
-    )  # fmt: skip
+        assert np.array_equal(height(told), by_state)
+    over, keep = {"bodies.load.mass": [20e3, 30e3]}, {"range": "line_tension[hoist].std"}
+    kept = ensemble(scene, over=over, keep=keep, t_end=2.0, start="rest")
     assert np.all(kept.dataset["range"].to_numpy() < 1.0)
 
 
@@ -94,24 +90,15 @@ def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> N
 
 
 def test_another_word_is_refused_with_the_one_that_is_known(tmp_path: Path) -> None:
-    calls: list[Any] = [
-        lambda: simulate(hung(), 1.0, start="calm"),  # type: ignore[arg-type]
-        lambda: simulate_stages(hung(), WAIT, start="calm"),  # type: ignore[arg-type]
-        lambda: simulate_to_file(hung(), tmp_path / "a.nc", 1.0, start="calm"),  # type: ignore[arg-type]
-        lambda: ensemble(
-            hung(),
-            over={"bodies.load.mass": [1e3]},
-            keep={"a": "line_tension[hoist].max"},
-            t_end=1.0,
-            start="calm",
-        ),  # type: ignore[arg-type]
-    ]
+    over, keep = {"bodies.load.mass": [1e3]}, {"a": "line_tension[hoist].max"}
+    calls: list[Callable[..., Any]] = [
+        partial(simulate, hung(), 1.0), partial(simulate_stages, hung(), WAIT),
+        partial(simulate_to_file, hung(), tmp_path / "a.nc", 1.0),
+        partial(ensemble, hung(), over=over, keep=keep, t_end=1.0),
+    ]  # fmt: skip
     for call in calls:
         with pytest.raises(SceneError, match=r"start is 'calm'.*rest"):
-            call()
-
-
-def test_a_scene_without_rest_says_so() -> None:
+            call(start="calm")
     scene = Scene(name="falls")
     scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, 0))
     with pytest.raises(SceneError, match="load"):

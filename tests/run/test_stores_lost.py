@@ -90,12 +90,12 @@ def test_what_is_lost_is_told_and_run_again(store: Path, harm: Any, told: str, w
 
 def test_a_study_that_is_none_is_refused(store: Path) -> None:
     study = next(store.rglob("study.json"))
-    many = {"axes": {a: [*range(2000)] for a in "abcd"}}
+    many = {"grid": True, "axes": {a: [*range(2000)] for a in "abcd"}}
     texts: list[Any] = [
         b"[" * 100_000, b"[" + b"[]," * 2_000_000 + b"[]]", b"\xff\xfe", [], {"format": "x"}, {},
         {"grid": True, "axes": {"a": 3}}, {"grid": True, "axes": {"a": [[1]]}},
-        {"axes": {"a": [1], "b": [1, 2]}}, {"axes": {"failure": [1]}}, {"axes": {"seed": [1]}, "seeds_in_pack": 2},
-        {"axes": {"seed": [*range(20)]}, "seeds_in_pack": "many"}, {"grid": True, **many},
+        {"axes": {"a": [1], "b": [1, 2]}}, {"axes": {"failure": [1]}}, many,
+        {"axes": {"seed": [1]}, "seeds_in_pack": 2}, {"axes": {"seed": [*range(20)]}, "seeds_in_pack": "many"},
     ]  # fmt: skip
     for text in texts:
         if isinstance(text, dict):
