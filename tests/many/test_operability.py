@@ -347,7 +347,8 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
 
 
 def asked(**given: Any) -> AllowableHs:
-    return allowable_hs(**{"scene": vessel(), **ASKED, **given})
+    scene = vessel() if given.pop("sea", True) else vessel().copy(waves=None)
+    return allowable_hs(scene, **{**ASKED, **given})
 
 
 heave = partial(replace, HEAVE)
@@ -375,7 +376,7 @@ heave = partial(replace, HEAVE)
         (asked, {"domain": "both"}, "domain is 'both'"),
         (asked, {"alpha": 0.8}, "alpha is 0.8"),
         (asked, {"hours": 0.0}, "hours is 0.0"),
-        (asked, {"scene": vessel().copy(waves=None)}, "has no sea"),
+        (asked, {"sea": False}, "has no sea"),
         (heave, {"channel": "hook_lod"}, "'hook_lod'.*'hook_load'"),
         (heave, {"maximum": None}, "maximum or minimum"),
         (heave, {"minimum": 0.0}, "maximum or minimum"),

@@ -14,6 +14,7 @@ from trade_scenes import pendulum, promise, shares, summary
 from seacrane import SampledController, Scene, SceneError, cases, simulate
 from seacrane.accuracy.expected import scale_of
 from seacrane.accuracy.quantities import compare, quantities_of
+from seacrane.inputs.frames import rotation_matrix
 
 
 @pytest.mark.warns("CompassDirectionWarning", "ModelErrorWarning")
@@ -150,25 +151,27 @@ def test_a_tighter_limit_gives_a_smaller_error_and_states_its_estimate() -> None
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
-def test_only_the_channels_asked_for_are_returned() -> None:
-    result = simulate(pendulum(), t_end=1.0, accuracy={"position": 1e-3}, channels=["velocity"])
-    assert list(result.channels) == ["velocity"]
+TICK = [SampledController(period=0.1, function=lambda t, m: {})]
 
 
 @pytest.mark.parametrize(
-    ("accuracy", "says"),
+    ("accuracy", "also", "says"),
     [
-        ({}, "accuracy is empty"),
-        ({"position": 0.0}, "position is 0.0"),
-        ({"position": float("nan")}, "position is nan"),
-        ({"roll": 0.1}, "'roll' is unknown"),
-        (0.01, "give a mapping"),
-        ({"position": 1e-17}, "the limit is .* set by rounding"),
+        ({}, {}, "accuracy is empty"),
+        ({"position": 0.0}, {}, "position is 0.0"),
+        ({"position": float("nan")}, {}, "position is nan"),
+        ({"roll": 0.1}, {}, "'roll' is unknown"),
+        (0.01, {}, "mapping"),
+        ({"position": 1e-17}, {}, "set by rounding"),
+        ({"position": 1e-3}, {"rtol": 1e-6}, "rtol=1e-06"),  # the default itself is a choice where written
+        ({"position": 1e-3}, {"integrator": "dopri5"}, "integrator='dopri5'"),
+        ({"position": 1e-3}, {"dt": 0.0, "rtol": 1e-3}, "rtol=0.001, dt=0.0"),
+        ({"position": 1e-3}, {"controllers": TICK}, "leave out controllers"),
     ],
 )
-def test_impossible_accuracies_are_refused(accuracy: object, says: str) -> None:
+def test_impossible_accuracies_are_refused(accuracy: Any, also: dict[str, Any], says: str) -> None:
     with pytest.raises(SceneError, match=says):
-        simulate(pendulum(), t_end=2.0, accuracy=accuracy)  # type: ignore[arg-type]
+        simulate(pendulum(), t_end=2.0, accuracy=accuracy, **also)
 
 
 def test_a_chaotic_motion_is_named_as_the_limit() -> None:
@@ -177,20 +180,6 @@ def test_a_chaotic_motion_is_named_as_the_limit() -> None:
     scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
     with pytest.raises(SceneError, match="set by the motion itself"):
         simulate(scene, t_end=60.0, accuracy={"position": 1e-6})
-
-
-@pytest.mark.parametrize(
-    ("also", "says"),
-    [
-        ({"rtol": 1e-6}, "rtol=1e-06 is given too"),  # the default itself is a choice when it is written down
-        ({"integrator": "dopri5"}, "integrator='dopri5' is given too"),
-        ({"dt": 0.0, "rtol": 1e-3}, "rtol=0.001, dt=0.0 is given too"),
-        ({"controllers": [SampledController(period=0.1, function=lambda t, m: {})]}, "leave out controllers"),
-    ],
-)
-def test_settings_that_accuracy_chooses_are_refused_beside_it(also: dict[str, Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
-        simulate(pendulum(), t_end=1.0, accuracy={"position": 1e-3}, **also)
 
 
 def test_a_coarse_wave_table_is_named_as_the_limit() -> None:
@@ -208,8 +197,6 @@ def test_the_tip_velocity_is_the_velocity_of_the_links_upper_end() -> None:
     result = simulate(scene, t_end=5.0, dt_out=0.01, integrator="dop853", rtol=1e-10)
     velocity = quantities_of(scene, scene.compile(), ["tip_velocity"])["tip_velocity"].values(result)[:, 0]
     joint, body = scene.joints["link"], scene.bodies["knuckle_jib"]
-    from seacrane.inputs.frames import rotation_matrix
-
     lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
     turn = rotation_matrix(result.select("quaternion", body="knuckle_jib"))
     tip = result.select("position", body="knuckle_jib") + turn @ lever

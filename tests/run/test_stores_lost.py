@@ -95,7 +95,8 @@ def test_a_study_that_is_none_is_refused(store: Path) -> None:
         b"[" * 100_000, b"[" + b"[]," * 2_000_000 + b"[]]", b"\xff\xfe", [], {"format": "x"}, {},
         {"grid": True, "axes": {"a": 3}}, {"grid": True, "axes": {"a": [[1]]}},
         {"axes": {"a": [1], "b": [1, 2]}}, {"axes": {"failure": [1]}}, many,
-        {"axes": {"seed": [1]}, "seeds_in_pack": 2}, {"axes": {"seed": [*range(20)]}, "seeds_in_pack": "many"},
+        {"axes": {"seed": [1]}, "seeds_in_pack": 2},
+        {"axes": {"seed": [*range(20)]}, "seeds_in_pack": "many"},
     ]  # fmt: skip
     for text in texts:
         if isinstance(text, dict):
