@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import resource
 import signal
@@ -29,7 +28,6 @@ from ensemble_studies import (
 
 from seacrane import (
     Kept,
-    Result,
     Scene,
     SceneError,
     SimulationError,
@@ -251,26 +249,6 @@ def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: s
     with pytest.raises(SceneError, match=f"is of another study: .*{named}"):
         ensemble(**{**given, **changes})
     assert ensemble(**given).dataset.identical(first.dataset)
-
-
-def test_members_that_are_stored_leave_no_object_behind(tmp_path: Path) -> None:
-    """Each leaves several where they are kept until the end."""
-    alive: list[int] = []
-
-    def counted(_: Result) -> float:
-        alive.append(0)
-        if len(alive) % 40 == 0:
-            gc.collect()
-            alive[-1] = len(gc.get_objects())
-        return 0.0
-
-    starts = np.linspace(1.0, 2.0, 120).tolist()
-    ensemble(
-        pendulum, over={"start": starts}, keep={"nothing": counted}, store=tmp_path / "store", pack=20,
-        **SWING | {"t_end": 0.1},
-    )  # fmt: skip
-    first, *_, last = [count for count in alive if count]
-    assert last - first < 80
 
 
 def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,6 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import luffed, pendulum
+from ensemble_studies import drifting_hull, luffed, pendulum
 from numpy.typing import NDArray
 from random_scenes import KINDS, Shape, build
 
@@ -22,7 +21,6 @@ from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensembl
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import with_values
-from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
 
 Array = NDArray[np.float64]
@@ -197,11 +195,15 @@ def test_lanes_that_fail_altogether_and_a_processor_without_them_are_told(monkey
 
 
 def drifting(*, seed: int, drift: bool, memory: str = "per-pair") -> Scene:
-    hull = shipped_database()
-    mean = np.tile([-2e4, 3e4, 0.0, 0.0, 0.0, 1e5], (len(hull.heading), len(hull.omega), 1))
-    drifts = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=mean)
-    hull = replace(hull, drift=drifts)
-    return cases.vessel(database=hull, hs=2.0, tp=8.0, seed=seed, count=40, drift=drift, memory=memory)
+    given: dict[str, Any] = {
+        "hs": 2.0,
+        "tp": 8.0,
+        "seed": seed,
+        "count": 40,
+        "drift": drift,
+        "memory": memory,
+    }
+    return cases.vessel(database=drifting_hull(), **given)
 
 
 @needs_lanes
@@ -220,20 +222,6 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     assert (beside.kept_apart == "").all()
     if not all(drift):
         assert np.abs(alone.sway.sel(drift=True) - alone.sway.sel(drift=False)).min() > 0.01
-
-
-@needs_lanes
-@pytest.mark.parametrize("seed", ["first", "last"])
-def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) -> None:
-    axes = {"seed": [1, 2, 3, 4], "bodies.vessel.mass": [1.0e7, 1.3e7]}
-    over = dict(reversed(axes.items())) if seed == "last" else axes
-    heave = {"heave": Kept(channel="position", names={"axis": "z"}, interval=1.0)}
-    alone, beside = (
-        ensemble(case("vessel"), over=over, keep=heave, t_end=4.0, rtol=1e-8, lanes=lanes).dataset
-        for lanes in (1, 4)
-    )
-    assert np.abs(alone.heave - beside.heave).max() < 1e-6
-    assert (beside.kept_apart == "").all()
 
 
 @needs_lanes

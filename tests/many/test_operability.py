@@ -168,18 +168,6 @@ def test_a_steady_start_is_that_of_the_linear_model_wherever_it_is_made(monkeypa
     assert np.abs(turned[3:]).max() == pytest.approx(1e-4, rel=1e-3)
 
 
-def test_a_start_turns_no_body_by_more_than_the_linear_model_may(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.operability.allowable.LARGEST_TURN", 1e-4)
-    scene = vessel(hs=2.0)
-    rest = equilibrium(scene)
-    start = steady_start(scene, rest)
-    assert isinstance(start, SteadyStart)
-    turned = simulate(scene, t_end=0.0, start=start(scene), channels=["vessel_motion"])["vessel_motion"][
-        0, 3:
-    ]
-    assert np.abs(turned).max() == pytest.approx(1e-4, rel=1e-3)
-
-
 def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs) -> None:
     cell = slack.dataset.isel(tp=0, direction_deg=0)
     assert cell["domain"] == "time"
@@ -247,19 +235,20 @@ def test_what_the_linear_model_has_not_is_left_to_runs() -> None:
 
 
 def test_threads_and_a_store_change_nothing(tmp_path: Path) -> None:
-    asked: dict[str, Any] = {
-        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0],
-        "domain": "time", "duration": 200.0, "start_up": 50.0, "seeds": [1, 2, 3],
-    }  # fmt: skip
-    alone = allowable_hs(vessel(), **asked)
+    short: dict[str, Any] = {
+        "hs": [1.0, 2.0],
+        "domain": "time",
+        "duration": 200.0,
+        "start_up": 50.0,
+        "seeds": [1, 2, 3],
+    }
+    alone, store = asked(**short), {"store": tmp_path / "storms"}
     with ThreadPoolExecutor(2) as executor:
-        stored = allowable_hs(vessel(), **asked, executor=executor, store=tmp_path / "storms")
-    again = allowable_hs(vessel(), **asked, store=tmp_path / "storms")
+        stored = asked(**short, executor=executor, **store)
     assert alone.dataset.identical(stored.dataset)
-    assert alone.dataset.identical(again.dataset)
-    other = asked | {"criteria": [replace(HEAVE, names={"motion": "pitch"})]}
+    assert alone.dataset.identical(asked(**short, **store).dataset)
     with pytest.raises(SceneError, match="keep"):
-        allowable_hs(vessel(), **other, store=tmp_path / "storms")
+        asked(**short, **store, criteria=[replace(HEAVE, names={"motion": "pitch"})])
 
 
 def test_alpha_lowers_the_forecast_and_nothing_else() -> None:

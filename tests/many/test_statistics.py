@@ -154,14 +154,6 @@ def test_intervals_cover_what_they_say(count: int, number: str, reduced: float) 
     assert np.mean(inside) == pytest.approx(0.95, abs=0.04)
 
 
-def test_the_scatter_of_the_mode_over_the_number_of_seeds() -> None:
-    maxima = records(400).max(axis=1)
-    random = np.random.default_rng(5)
-    for count, scatter in ((5, 0.13), (10, 0.095), (20, 0.063), (40, 0.042)):
-        modes = gumbel_fit(np.array([random.choice(maxima, count, replace=False) for _ in range(800)]))[0]
-        assert modes.std() == pytest.approx(scatter, rel=0.15)
-
-
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.PoorFitWarning")
 def test_as_many_seeds_as_needed_reach_the_half_width() -> None:
     few = sc.statistics.seed_extremes(gumbel(400, 1)[0], duration=1.0)

@@ -111,16 +111,6 @@ def test_waiting_is_that_of_alternating_renewal() -> None:
     assert in_storm.mean() == pytest.approx(from_calm + storm, rel=0.05)
 
 
-def test_a_short_operation_waits_for_the_rest_of_the_storm() -> None:
-    """Storms of 10 h, calms of 30 h: the mean over a period of 40 h is 10 (10 + 1) / 2 / 40."""
-    hs = np.tile([3.0] * 10 + [1.0] * 30, 20)
-    found = weather_windows(series(hs), 2.0, hours=1.0)
-    assert found.workable_percent == pytest.approx(75.0)
-    assert found.waiting_mean == pytest.approx(sum(range(1, 11)) / 40.0)
-    assert found.waiting_p50 == 0.0
-    assert found.dataset["length"].to_numpy().tolist() == [30.0] * 20
-
-
 def test_months_are_those_of_the_calendar() -> None:
     times = START + np.arange(365 * 24) * HOUR
     month = times.astype("datetime64[M]").astype(int) % 12

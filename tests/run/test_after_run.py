@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ensemble_studies import pendulum
 
 import seacrane.accuracy.choice
 import seacrane.run.advance
@@ -16,7 +17,6 @@ from seacrane import (
     Kept,
     Result,
     Run,
-    Scene,
     SimulationError,
     Stage,
     ensemble,
@@ -25,13 +25,6 @@ from seacrane import (
     simulate_to_file,
 )
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
-
-
-def pendulum(mass: float = 2.0) -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    return scene
 
 
 def fails(*_: Any) -> Any:

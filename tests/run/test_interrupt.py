@@ -6,10 +6,8 @@ import json
 import signal
 import subprocess
 import sys
-import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -164,33 +162,6 @@ def ball_on_a_pin() -> Scene:
     return scene
 
 
-def test_other_threads_go_on_while_the_loop_runs() -> None:
-    seen: list[int] = []
-    running = threading.Event()
-    counter = 0
-
-    def count() -> None:
-        nonlocal counter
-        running.wait()
-        while running.is_set():
-            counter += 1
-
-    def look(now: float, measured: Any) -> dict[str, float]:
-        seen.append(counter)
-        return {}
-
-    thread = threading.Thread(target=count)
-    thread.start()
-    running.set()
-    # Between two calls of the controller there is only the C++ loop.
-    ticks = [SampledController(period=1000.0, function=look)]
-    simulate(ball_on_a_pin(), t_end=4000.0, dt_out=100.0, controllers=ticks)
-    running.clear()
-    thread.join()
-    assert len(seen) == 4
-    assert all(later > earlier + 1000 for earlier, later in pairwise(seen))
-
-
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_threads_share_one_model_and_agree(formulation: str) -> None:
     """To the bit, with each other and with a run alone; cpp/tests/test_threads.cpp has more scenes."""
@@ -273,17 +244,3 @@ def test_notes_of_every_plain_kind_reach_the_result_and_settings_stay_its_own(tm
         scene.notes["x"] = bad
         with pytest.raises(SceneError, match=words):
             Run(scene, t_end=1.0)
-
-
-def test_memory_that_runs_out_in_the_loop_leaves_what_was_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = Run.advance
-
-    def short_of_memory(run: Run, t_end: float, progress: Any = None) -> bool:
-        advance(run, 2.0, progress)
-        raise MemoryError
-
-    monkeypatch.setattr(Run, "advance", short_of_memory)
-    with pytest.raises(SimulationError, match="memory ran out at t = 2 s") as caught:
-        simulate(ball_on_a_pin(), t_end=10.0)
-    assert caught.value.result is not None
-    assert caught.value.result.time[-1] == 2.0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -195,13 +194,6 @@ def test_conditions_are_met_to_their_stated_error(settings: dict[str, Any]) -> N
     assert [event.kind for event in result.events] == ["stage", "stage", "contact", "stage"]
 
 
-def test_a_condition_that_is_met_already_ends_its_stage_at_once() -> None:
-    high = Until.channel("position", body="load", axis="z", minimum=9.0)
-    stages = [Stage(name="look", until=high, maximum_duration=1.0), Stage(name="fall", duration=0.5)]
-    result = simulate_stages(falling(), stages)
-    assert [(span.start, span.end) for span in result.stages] == [(0.0, 0.0), (0.0, 0.5)]
-
-
 def test_commands_go_on_smoothly_from_where_they_are() -> None:
     scene = Scene(name="jib", gravity=0.0)
     scene.add_body(name="jib", mass=10.0, inertia=(3.0, 3.0, 5.0), position=(1.0, 0.0, 0.0))
@@ -331,14 +323,6 @@ def test_ctrl_c_keeps_what_was_recorded(where: str, monkeypatch: Any) -> None:
     assert [span.ended_by for span in result.stages] == ["duration", ""]
 
 
-def test_stages_are_values() -> None:
-    stage = lift_off()[2]
-    assert pickle.loads(pickle.dumps(stage)) == stage
-    assert stage == lift_off()[2] != lift_off()[1]
-    with pytest.raises(TypeError):
-        stage.commands["hoist.rate"] = 0.0  # type: ignore[index]
-
-
 later = {"until": Until.release("on deck")}
 stage, channel = partial(Stage, name="wait"), Until.channel
 
@@ -401,7 +385,7 @@ def test_stages_that_do_not_fit_the_scene_are_told(given: tuple[bool, dict[str, 
     ends = {"maximum_duration" if "until" in asked else "duration": 10.0}
     stages = [Stage(name="hold", duration=1e6)] if before else []
     stages.append(Stage(name="wait", **asked, **ends))
-    with pytest.raises(SceneError, match=f"stage 'wait': .*{message}"):
+    with pytest.raises(SceneError, match=f"stage 'wait'.*{message}"):
         simulate_stages(scene, stages)
 
 

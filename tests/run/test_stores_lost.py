@@ -178,8 +178,3 @@ def test_lost_members_of_a_store_that_grows_are_run_again(tmp_path: Path) -> Non
         again = ensemble(**STORMS, store=store)
     assert again.dataset.identical(plain.dataset)
     assert again.certainty == plain.certainty
-
-
-def test_a_name_of_a_zarr_group_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match=r"a\.zarr.*is a folder of NetCDF files; .*to_zarr"):
-        ensemble(**GIVEN, store=tmp_path / "a.zarr")

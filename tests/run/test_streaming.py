@@ -194,22 +194,6 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(
     assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
 
 
-@pytest.mark.warns("FullTurnWarning")
-def test_an_error_in_a_controller_leaves_the_file(tmp_path: Path) -> None:
-    def fail(now: float, measured: Any) -> dict[str, float]:
-        if now > 5.0:
-            raise ValueError("sensor lost")
-        return {"motor.force": 1.0}
-
-    ticks = [SampledController(period=0.5, function=fail)]
-    with pytest.raises(SimulationError, match="sensor lost"):
-        simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0, controllers=ticks)
-    partial = Result.load(tmp_path / "run.nc")
-    assert partial.interrupted
-    assert partial.time[-1] == pytest.approx(5.5)
-    assert simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0, resume=True).outputs == 201
-
-
 def test_ctrl_c_while_a_piece_is_written_waits_for_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -266,20 +250,6 @@ def left_behind(folder: Path, **settings: Any) -> Path:
         check=False,
     )
     return stream.partial_path(folder / "run.nc")
-
-
-@pytest.mark.warns("FullTurnWarning")
-def test_a_partial_file_removed_under_its_writer_costs_nothing(tmp_path: Path) -> None:
-    path = tmp_path / "run.nc"
-
-    def remove(now: float, measured: Any) -> dict[str, float]:
-        stream.partial_path(path).unlink(missing_ok=True)
-        return {}
-
-    ticks = [SampledController(period=3.0, function=remove)]
-    told = simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, checkpoint_every=1.0)
-    assert told.load().time.size == told.outputs == 201
-    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
 @pytest.mark.warns("FullTurnWarning")
@@ -361,17 +331,6 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
     told = simulate_to_file(spinner(), path, t_end=20.0, resume=True)
     assert told.load().time.size == 201
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
-
-
-def test_a_file_without_a_state_does_not_ask_to_be_resumed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("seacrane.run.run.Run.last_state", lambda run: None)
-    path = tmp_path / "run.nc"
-    simulate_to_file(spinner(), path, t_end=1.0)
-    with pytest.raises(FileFormatError, match="holds no state to go on from: overwrite=True starts"):
-        simulate_to_file(spinner(), path, t_end=2.0, resume=True)
-    assert Result.load(path).time.size == 11
 
 
 def test_where_nothing_can_be_written_nothing_is_said_to_be_kept(tmp_path: Path) -> None:

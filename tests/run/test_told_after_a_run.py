@@ -41,18 +41,6 @@ def test_bounds_of_a_winch_are_events_without_impacts(tmp_path: Path, capsys: An
         assert done.stats["events"] == len(done.load().events) > 0
 
 
-def test_a_summary_that_fails_does_not_lose_the_run(tmp_path: Path, capsys: Any, monkeypatch: Any) -> None:
-    def broken(*_: Any) -> str:
-        raise KeyError("a number that nobody has")
-
-    monkeypatch.setattr("seacrane.cli.run_command.told", broken)
-    swinging().save(tmp_path / "swing.json")
-    assert main(["run", str(tmp_path / "swing.json"), "--out", str(tmp_path), "--t-end", "1"]) == 1
-    (file,) = tmp_path.glob("*.nc")
-    assert "KeyError: a number that nobody has" in capsys.readouterr().err
-    assert Result.load(file).time[-1] == 1.0
-
-
 @pytest.mark.parametrize("channels", [None, [], ["energy_balance"]])
 @pytest.mark.parametrize("make", [weak, falling, on_deck, swinging])
 def test_every_run_is_told(make: Any, channels: list[str] | None) -> None:

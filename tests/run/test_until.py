@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import bad_storm, lowest, storm, storm_that_kills, storm_that_parts
+from ensemble_studies import bad_storm, lowest, storm, storm_that_parts
 
 from seacrane import Kept, SceneError, SimulationError, ensemble
 from seacrane.ensembles import Ensemble
@@ -75,19 +75,6 @@ def test_a_narrower_interval_goes_on_from_the_same_store(grown: Ensemble, tmp_pa
     wider = ensemble(storm, over=OVER, keep=KEEP, until={"reach.mpm": 0.5}, store=store, **RUN)
     assert [one.seeds for one in wider.certainty] == [BATCH, BATCH]
     assert wider.dataset.sizes["seed"] == BATCH
-
-
-def test_a_lost_worker_loses_members_in_flight_alone(tmp_path: Path) -> None:
-    over = {"seed": range(1, 41), "mark": [str(tmp_path / "mark")]}
-    given: dict[str, Any] = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
-    store = tmp_path / "store"
-    with ProcessPoolExecutor(2) as executor, pytest.raises(SimulationError, match="lost with its worker"):
-        ensemble(storm_that_kills, executor=executor, store=store, **given)
-    before = {path.name for path in store.glob("pack_*")}
-    assert 0 < len(before) < BATCH // 2
-    with ProcessPoolExecutor(2) as executor:
-        resumed = ensemble(storm_that_kills, executor=executor, store=store, **given)
-    assert resumed.certainty == ensemble(storm_that_kills, **given).certainty
 
 
 def test_failures_are_told_and_allowed_for(tmp_path: Path) -> None:

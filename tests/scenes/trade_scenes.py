@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from ensemble_studies import pendulum as pendulum
 
 from seacrane import Scene, cases, simulate
 from seacrane.accuracy.quantities import Quantity, compare, quantities_of
@@ -71,16 +72,6 @@ def summary(found: list[Promise]) -> str:
         cells += [*(f"{m:.2f}" for m in medians), f"{np.mean([p.runs for p in group]):.2f}"]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
-
-
-def pendulum() -> Scene:
-    """A bob on a pin, released from the horizontal."""
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    return scene
 
 
 def random_scene(rng: np.random.Generator) -> Scene:
