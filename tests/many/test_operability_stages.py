@@ -9,15 +9,9 @@ from stage_scenes import MASS, G, heaving
 
 from seacrane import Criterion, SceneError, Stage, Until, allowable_hs
 
-STAGES = [
-    Stage(name="hang", duration=8.0),
-    Stage(
-        name="down",
-        until=Until.length("wire", minimum=20.0),
-        maximum_duration=9.0,
-        commands={"wire.rate": 0.4},
-    ),
-]
+LOWER = Until.length("wire", minimum=20.0)
+STAGES = [Stage(name="hang", duration=8.0),
+          Stage(name="down", until=LOWER, maximum_duration=9.0, commands={"wire.rate": 0.4})]  # fmt: skip
 TENSION = Criterion(channel="line_tension[wire]", maximum=1.15 * MASS * G)
 ASKED: dict[str, Any] = {
     "criteria": [TENSION],
