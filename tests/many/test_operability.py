@@ -14,18 +14,8 @@ import numpy as np
 import pytest
 from operability_scenes import HEAVE, PITCH, SHORT, WEIGHT, soft_wire, vessel
 
-from seacrane import (
-    Criterion,
-    Run,
-    Scene,
-    SceneError,
-    allowable_hs,
-    cases,
-    equilibrium,
-    linear_model,
-    response_statistics,
-    simulate,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
@@ -44,7 +34,7 @@ from seacrane.sea import jonswap
 
 @pytest.fixture(scope="module")
 def tested() -> AllowableHs:
-    return allowable_hs(
+    return sc.allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=[7.0, 9.0], direction_deg=[135.0, 180.0], hs=[1.0, 2.0, 3.0],
         **SHORT,
     )  # fmt: skip
@@ -52,28 +42,28 @@ def tested() -> AllowableHs:
 
 @pytest.fixture(scope="module")
 def slack() -> AllowableHs:
-    tension = Criterion(channel="line_tension", maximum=4.0 * WEIGHT, exposure=900.0)
-    return allowable_hs(
+    tension = sc.Criterion(channel="line_tension", maximum=4.0 * WEIGHT, exposure=900.0)
+    return sc.allowable_hs(
         soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[2.0, 4.0, 6.0],
         **SHORT,
     )  # fmt: skip
 
 
-def by_frequency(scene: Scene, criteria: Any, **given: Any) -> AllowableHs:
+def by_frequency(scene: sc.Scene, criteria: Any, **given: Any) -> AllowableHs:
     asked = {"tp": 9.0, "direction_deg": 135.0, "hs": [50.0]} | given
-    return allowable_hs(scene, criteria=criteria, domain="frequency", **asked)
+    return sc.allowable_hs(scene, criteria=criteria, domain="frequency", **asked)
 
 
 def test_hs_is_what_the_linear_statistics_say() -> None:
     """2 sqrt(m0) per metre of Hs, from the other implementation of the response."""
-    motion = response_statistics(linear_model(vessel()), spectrum=jonswap(hs=1.0, tp=9.0),
+    motion = sc.response_statistics(sc.linear_model(vessel()), spectrum=jonswap(hs=1.0, tp=9.0),
                                  direction=np.radians(135.0), body="vessel")  # fmt: skip
     wide, low = replace(HEAVE, maximum=1.6, name="wide"), replace(HEAVE, motion=False, name="above")
     found = by_frequency(vessel(), [PITCH, HEAVE, wide, low]).dataset["by_criterion"][:, 0, 0].to_numpy()
     assert found[0] == pytest.approx(PITCH.bound / motion.significant_amplitude[4], rel=1e-4)
     assert found[2] == pytest.approx(2.0 * found[1], rel=1e-12)
     assert found[3] > found[1]  # of one side there are fewer crests
-    least = Criterion(channel="line_tension", minimum=0.7 * WEIGHT, exposure=900.0, name="least")
+    least = sc.Criterion(channel="line_tension", minimum=0.7 * WEIGHT, exposure=900.0, name="least")
     most = replace(least, minimum=None, maximum=1.3 * WEIGHT, name="most")
     wire = by_frequency(soft_wire(), [least, most], tp=8.0, direction_deg=120.0)
     down, up = wire.dataset["by_criterion"].to_numpy().ravel()
@@ -83,28 +73,28 @@ def test_hs_is_what_the_linear_statistics_say() -> None:
 def test_every_channel_of_the_linear_model_is_that_of_a_run() -> None:
     """From the same state in small waves: forces, velocities, angles. What differs is of second order."""
     criteria = (
-        Criterion(channel="hook_load", maximum=2e5),
-        Criterion(channel="position", names={"body": "payload", "axis": "y"}, maximum=1.0),
-        Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=1.0),
-        Criterion(channel="cylinder_force", names={"cylinder": "main"}, maximum=1e7),
-        Criterion(channel="sidelead", maximum=0.1),
-        Criterion(channel="point_acceleration", names={"point": "deck", "axis": "z"}, maximum=1.0),
+        sc.Criterion(channel="hook_load", maximum=2e5),
+        sc.Criterion(channel="position", names={"body": "payload", "axis": "y"}, maximum=1.0),
+        sc.Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=1.0),
+        sc.Criterion(channel="cylinder_force", names={"cylinder": "main"}, maximum=1e7),
+        sc.Criterion(channel="sidelead", maximum=0.1),
+        sc.Criterion(channel="point_acceleration", names={"point": "deck", "axis": "z"}, maximum=1.0),
     )
     apart = np.array([_difference_of_run_and_model(hs, criteria) for hs in (0.005, 0.001)])
     assert np.all(apart[1] < 0.01)
     assert apart[0, 0] == pytest.approx(5.0 * apart[1, 0], rel=0.05)
 
 
-def _difference_of_run_and_model(hs: float, criteria: tuple[Criterion, ...]) -> list[float]:
+def _difference_of_run_and_model(hs: float, criteria: tuple[sc.Criterion, ...]) -> list[float]:
     """Standard deviation of the difference over that of the model, by criterion."""
     scene = cases.case2(hs=hs)
     scene.add_point(name="deck", body="vessel", point=(20.0, 5.0, 8.0))
-    rest = equilibrium(scene, time=50.0)
+    rest = sc.equilibrium(scene, time=50.0)
     still = held(scene, time=50.0).copy(waves=scene.waves)
     linear = LinearSeas(still, rest, criteria)
     assert still.waves is not None
     start, told = linear.in_waves(still.waves, 50.0, 50.0 + 0.5 * np.arange(101))
-    run = simulate(
+    run = sc.simulate(
         still, t_end=100.0, start=start, dt_out=0.5, rtol=1e-9, channels=[one.channel for one in criteria]
     )
     found = np.stack([run.curve(one.channel, **one.names) for one in criteria], axis=1)
@@ -113,11 +103,11 @@ def _difference_of_run_and_model(hs: float, criteria: tuple[Criterion, ...]) -> 
 
 def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
     """y = ... + D f: what a push does at once, against the mass of the vessel with its added mass."""
-    model = linear_model(vessel())
-    place = Criterion(channel="point_acceleration", names={"point": "bow", "axis": "z"}, maximum=1.0)
+    model = sc.linear_model(vessel())
+    place = sc.Criterion(channel="point_acceleration", names={"point": "bow", "axis": "z"}, maximum=1.0)
     scene = vessel()
     scene.add_point(name="bow", body="vessel", point=(50.0, 0.0, 0.0))
-    d = linear_channels(linear_model(scene), [place]).d[0]
+    d = linear_channels(sc.linear_model(scene), [place]).d[0]
     dof = model.degrees_of_freedom
     pushed = model.output(body="vessel", point=(50.0, 0.0, 0.0))[2, :dof] @ model.b[dof : 2 * dof]
     assert d == pytest.approx(pushed, rel=1e-6, abs=1e-6 * np.abs(pushed).max())
@@ -126,7 +116,7 @@ def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
 def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> None:
     assert np.all(tested.dataset["domain"] == "frequency")
     assert np.nanmax(tested.dataset["difference"]) < 0.05
-    cell = allowable_hs(
+    cell = sc.allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=9.0, direction_deg=135.0, hs=[1.0, 2.0],
         domain="time", **SHORT,
     ).dataset.isel(tp=0, direction_deg=0)  # fmt: skip
@@ -139,11 +129,11 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> No
 
 def test_runs_begin_without_the_transient_of_a_soft_mooring() -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
-    sway = Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
+    sway = sc.Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
                      statistic="significant", name="sway")  # fmt: skip
     asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
-    runs = allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
-    linear = allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
+    runs = sc.allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
+    linear = sc.allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
     found = runs.dataset.isel(tp=0, direction_deg=0)
     assert found["low"] < linear.dataset["allowable_hs"].item() < found["high"]
 
@@ -151,7 +141,7 @@ def test_runs_begin_without_the_transient_of_a_soft_mooring() -> None:
 def test_a_steady_start_is_that_of_the_linear_model_wherever_it_is_made(monkeypatch: Any) -> None:
     """And turns no body by more than that model may."""
     scene = vessel(hs=0.5)
-    rest = equilibrium(scene)
+    rest = sc.equilibrium(scene)
     start = steady_start(scene, rest)
     assert isinstance(start, SteadyStart)
     there, here = pickle.loads(pickle.dumps(start))(scene), start(scene)
@@ -160,10 +150,10 @@ def test_a_steady_start_is_that_of_the_linear_model_wherever_it_is_made(monkeypa
     limited = steady_start(scene, rest)
     assert isinstance(limited, SteadyStart)
     moved, turned, still = (
-        simulate(scene, t_end=0.0, start=one, channels=["vessel_motion"])["vessel_motion"][0]
+        sc.simulate(scene, t_end=0.0, start=one, channels=["vessel_motion"])["vessel_motion"][0]
         for one in (here, limited(scene), rest)
     )
-    told = response_summed(linear_model(scene), body="vessel")
+    told = response_summed(sc.linear_model(scene), body="vessel")
     assert moved - still == pytest.approx(told.at(0.0), rel=2e-3, abs=1e-4)
     assert np.abs(turned[3:]).max() == pytest.approx(1e-4, rel=1e-3)
 
@@ -176,10 +166,10 @@ def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs) -> None:
     asked: dict[str, Any] = {"tp": 8.0, "direction_deg": 120.0}
     linear = by_frequency(soft_wire(), slack.criteria, **asked).dataset["allowable_hs"][0, 0]
     assert not cell["low"] <= linear <= cell["high"]
-    tension = Criterion(channel="line_tension", maximum=1.5 * WEIGHT, exposure=900.0)
-    looser = allowable_hs(soft_wire(), criteria=[tension], **asked, hs=[4.0], **SHORT).dataset
+    tension = sc.Criterion(channel="line_tension", maximum=1.5 * WEIGHT, exposure=900.0)
+    looser = sc.allowable_hs(soft_wire(), criteria=[tension], **asked, hs=[4.0], **SHORT).dataset
     assert looser["domain"].item() == "frequency"  # the wire stays taut
-    low = allowable_hs(
+    low = sc.allowable_hs(
         soft_wire(), criteria=[replace(tension, maximum=0.5 * WEIGHT)], **asked, hs=[4.0], **SHORT
     )
     assert low.dataset["allowable_hs"].item() == 0.0
@@ -211,7 +201,7 @@ def test_a_table_tells_what_it_rests_on_and_of_what_is_between_its_cells(
 
 
 def test_short_crested_seas_move_a_vessel_less_from_ahead_and_more_from_the_side() -> None:
-    roll = Criterion(
+    roll = sc.Criterion(
         channel="vessel_motion", names={"motion": "roll"}, maximum=0.05, statistic="significant", name="roll"
     )
     long = by_frequency(vessel(), [roll], direction_deg=[90.0, 150.0])
@@ -222,11 +212,11 @@ def test_short_crested_seas_move_a_vessel_less_from_ahead_and_more_from_the_side
 
 def test_what_the_linear_model_has_not_is_left_to_runs() -> None:
     scene = vessel(memory="convolution")
-    with pytest.raises(SceneError, match="convolution"):
+    with pytest.raises(sc.SceneError, match="convolution"):
         by_frequency(scene, [HEAVE])
-    with pytest.raises(SceneError, match="'torsethaugen' changes its shape with Hs"):
+    with pytest.raises(sc.SceneError, match="'torsethaugen' changes its shape with Hs"):
         by_frequency(vessel(spectrum="torsethaugen"), [HEAVE])
-    found = allowable_hs(
+    found = sc.allowable_hs(
         scene, criteria=[HEAVE], tp=9.0, direction_deg=180.0, hs=[1.0, 3.0],
         duration=100.0, start_up=20.0, seeds=[1, 2, 3], rtol=1e-3,
     )  # fmt: skip
@@ -247,7 +237,7 @@ def test_threads_and_a_store_change_nothing(tmp_path: Path) -> None:
         stored = asked(**short, executor=executor, **store)
     assert alone.dataset.identical(stored.dataset)
     assert alone.dataset.identical(asked(**short, **store).dataset)
-    with pytest.raises(SceneError, match="keep"):
+    with pytest.raises(sc.SceneError, match="keep"):
         asked(**short, **store, criteria=[replace(HEAVE, names={"motion": "pitch"})])
 
 
@@ -261,7 +251,7 @@ def test_alpha_lowers_the_forecast_and_nothing_else() -> None:
     assert told.dataset["forecast_hs"].item() == pytest.approx(height * (0.5 + 0.1 * (height - 1.0)))
     assert "18 h by a table (source: a standard)" in str(told)
     assert told.at(9.0, 135.0, forecast=True) == told.dataset["forecast_hs"].item()
-    with pytest.raises(SceneError, match="80 h, the table ends at 24 h"):
+    with pytest.raises(sc.SceneError, match="80 h, the table ends at 24 h"):
         alpha.at(1.0, hours=80.0)
 
 
@@ -313,9 +303,9 @@ def test_how_far_a_record_went() -> None:
     assert record_numbers(3.0 + 2.0 * np.sin(times)) == pytest.approx([5.0, 1.0, 5.0, 1.0], abs=1e-3)
     assert record_numbers(np.full(9, 4.0)) == pytest.approx([4.0] * 4)
     numbers = np.array([[5.0, 2.0, 4.5, 2.5], [4.0, 0.0, 3.5, 1.0]])
-    upper = Criterion(channel="line_tension", maximum=6.0)
-    lower = Criterion(channel="line_tension", minimum=1.0)
-    either = Criterion(channel="line_tension", maximum=2.0, motion=True)
+    upper = sc.Criterion(channel="line_tension", maximum=6.0)
+    lower = sc.Criterion(channel="line_tension", minimum=1.0)
+    either = sc.Criterion(channel="line_tension", maximum=2.0, motion=True)
     assert reached(upper, numbers, 3.0).tolist() == [2.0, 1.0]
     assert reached(lower, numbers, 3.0).tolist() == [1.0, 3.0]
     assert reached(either, numbers, 3.0).tolist() == [2.0, 3.0]
@@ -337,7 +327,7 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
 
 def asked(**given: Any) -> AllowableHs:
     scene = vessel() if given.pop("sea", True) else vessel().copy(waves=None)
-    return allowable_hs(scene, **{**ASKED, **given})
+    return sc.allowable_hs(scene, **{**ASKED, **given})
 
 
 heave = partial(replace, HEAVE)
@@ -383,7 +373,7 @@ heave = partial(replace, HEAVE)
     ],
 )
 def test_what_makes_no_sense_is_refused(make: Any, given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
+    with pytest.raises(sc.SceneError, match=message):
         make(**given)
 
 
@@ -399,7 +389,7 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is() -> 
     """Runs begin in the linear steady state, which keeps the lengths of lines."""
     found = {}
     for rung in ("elastic", "quasi-static"):
-        scene = Scene(name=rung)
+        scene = sc.Scene(name=rung)
         scene.add_vessel(shipped_database())
         scene.add_sea(hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
         scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
@@ -407,12 +397,12 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is() -> 
             name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], EA=1e8,
             tension_at_start=5e3 * 9.80665, rung=rung, damping_ratio=0.05,
         )  # fmt: skip
-        limit = Criterion(
+        limit = sc.Criterion(
             channel="line_tension", names={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            table = allowable_hs(
+            table = sc.allowable_hs(
                 scene, criteria=[limit], tp=[7.0], direction_deg=[120.0], domain="time",
                 seeds=range(1, 4), duration=150.0, start_up=50.0, hs=(1.0, 1.5, 2.0), rtol=1e-3,
             )  # fmt: skip
@@ -425,13 +415,13 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is() -> 
 def test_a_steady_start_strains_no_line_by_the_squares_of_its_motions() -> None:
     """Stretch and its rate are those of small motions, also where bodies move by half a metre."""
     scene = soft_wire()
-    model = linear_model(scene, state=equilibrium(scene))
+    model = sc.linear_model(scene, state=sc.equilibrium(scene))
     motion = np.random.default_rng(1).normal(0.0, 0.3, 2 * model.degrees_of_freedom)
     found = []
     for size in (0.0, 1e-4, 1.0):
         x = np.zeros(len(model.a))
         x[: motion.size] = size * motion
-        now = Run(scene, 1.0, start=model.full_state(x)).measure()
+        now = sc.Run(scene, 1.0, start=model.full_state(x)).measure()
         found.append(np.array([now["line_stretch"][0], now["line_tension"][0]]))
     slope, whole = (found[1] - found[0]) / 1e-4, found[2] - found[0]
     assert whole == pytest.approx(slope, rel=2e-2)

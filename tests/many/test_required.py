@@ -10,16 +10,8 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import (
-    Scene,
-    SceneError,
-    equilibrium,
-    needs,
-    report,
-    required,
-    shipped_database,
-    simulate,
-)
+import seacrane as sc
+from seacrane import needs
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import changed
 from seacrane.hydro import DriftCoefficients, two_barges
@@ -35,9 +27,9 @@ LAST = {"last": f"position[bob, x, after={(PERIODS - 0.5) * 2.0 * math.pi / OMEG
 SWING = 0.02  # m
 
 
-def pendulum() -> Scene:
+def pendulum() -> sc.Scene:
     """A point mass on a rod, with friction where it hangs, and drag of no coefficient."""
-    scene = Scene(name="pendulum")
+    scene = sc.Scene(name="pendulum")
     scene.add_body(name="bob", mass=1e3, inertia=(1.0, 1.0, 1.0), position=(SWING, 0.0, -LENGTH))
     scene.add_joint(kind="distance", name="rod", first="ground", second="bob", point=(0, 0, 0),
                     second_point=(SWING, 0.0, -LENGTH))  # fmt: skip
@@ -46,9 +38,9 @@ def pendulum() -> Scene:
     return scene
 
 
-def slung(**more: Any) -> Scene:
+def slung(**more: Any) -> sc.Scene:
     """A load on four slings below a block, whose hoist is shaken by nothing but its own start."""
-    scene = Scene(name="slung")
+    scene = sc.Scene(name="slung")
     scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
     scene.add_hoist(
         mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, block_mass=1e3, winch={"lag": 0.2},
@@ -57,9 +49,9 @@ def slung(**more: Any) -> Scene:
     return scene
 
 
-def wet() -> Scene:
+def wet() -> sc.Scene:
     """A box cut into strips, with waves at its parts."""
-    scene = Scene(name="wet")
+    scene = sc.Scene(name="wet")
     scene.add_sea(vessel=None, hs=1.0, tp=8.0, direction_deg=0.0)
     scene.add_body(name="box", mass=40e3, inertia=(1e5, 1e5, 1e5), position=(0.0, 0.0, -8.0))
     scene.add_line(
@@ -69,18 +61,18 @@ def wet() -> Scene:
     return scene
 
 
-def on_deck() -> Scene:
+def on_deck() -> sc.Scene:
     """A box that stands on points of its own."""
-    scene = Scene(name="on deck")
+    scene = sc.Scene(name="on deck")
     scene.add_body(name="box", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 0.5), size=(1, 1, 1))
     scene.add_contact("box", on="ground", points=[(x, y, -0.5) for x in (-0.5, 0.5) for y in (-0.5, 0.5)])
     return scene
 
 
-def on_oil() -> Scene:
+def on_oil() -> sc.Scene:
     """A crane that stands on the oil of two cylinders."""
     oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
-    scene = Scene(name="on oil")
+    scene = sc.Scene(name="on oil")
     scene.add_crane(
         base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True,
         hydraulics={"main": oil, "knuckle": oil},
@@ -89,63 +81,63 @@ def on_oil() -> Scene:
     return scene
 
 
-def drifting(*, drift: bool = True) -> Scene:
+def drifting(*, drift: bool = True) -> sc.Scene:
     """A ship whose database knows its drift."""
     known = DriftCoefficients(
         heading=np.linspace(0.0, np.pi, 13), omega=np.linspace(0.2, 2.6, 25),
         coefficient=np.full((13, 25, 6), [-2e3, 1e3, 0.0, 0.0, 0.0, 1e4]),
     )  # fmt: skip
-    scene = Scene(name="drifting")
-    scene.add_vessel(dataclasses.replace(shipped_database(), drift=known))
+    scene = sc.Scene(name="drifting")
+    scene.add_vessel(dataclasses.replace(sc.shipped_database(), drift=known))
     scene.add_sea(hs=2.0, tp=8.0, direction_deg=180.0, count=20, drift=drift)
     return scene
 
 
-def heavy(segments: int = 4, **more: Any) -> Scene:
+def heavy(segments: int = 4, **more: Any) -> sc.Scene:
     """A load on a wire with mass in water, off a winch."""
     wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
-    scene = Scene(name="heavy")
+    scene = sc.Scene(name="heavy")
     scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
     scene.add_hoist(mass=35e3, size=(6, 4, 4), length=50.0, EA=6e7, rung="with mass", mass_per_length=20.0,
                     wire=wire, winch={"lag": 0.2})  # fmt: skip
     return scene
 
 
-def barges(lid: float | None = 0.03) -> Scene:
-    scene = Scene(name="barges")
+def barges(lid: float | None = 0.03) -> sc.Scene:
+    scene = sc.Scene(name="barges")
     for vessel in scene.add_vessels(two_barges(lid_damping=lid)):
         sea = {} if scene.waves else {"hs": 1.0, "tp": 8.0, "direction_deg": 150.0}
         scene.add_sea(vessel=vessel.name, **sea)
     return scene
 
 
-def beside_a_given_ship() -> Scene:
+def beside_a_given_ship() -> sc.Scene:
     """A box in the waves beside a ship that is held at rest, which does not need the sea."""
     scene = wet()
     scene.add_given_vessel("rest", name="ship", position=(60.0, 0.0, 0.0))
     return scene
 
 
-def executed(choice: Choice, scene: Scene) -> Scene:
+def executed(choice: Choice, scene: sc.Scene) -> sc.Scene:
     held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
     exec(choice.script, held)
-    made: Scene = held["scene"]
+    made: sc.Scene = held["scene"]
     return made
 
 
 def test_what_damping_takes_and_what_drag_of_nothing_does_not() -> None:
     scene = pendulum()
-    found = required(scene, keep=LAST, repeats=1, **RUN)
+    found = sc.required(scene, keep=LAST, repeats=1, **RUN)
     swung = SWING * math.exp(-RATIO * OMEGA * PERIODS * 2.0 * math.pi / OMEGA)
     assert found.full["last"] == pytest.approx(swung, rel=2e-3)
     assert found.row("no pendulum damping").changes["last"] == pytest.approx(SWING - swung, rel=2e-3)
     assert abs(found.row("no air drag").changes["last"]) <= found.noise["last"] < 1e-6
     assert "no air drag on bob" in str(found)
-    assert "What the scene requires" in report(simulate(scene, 1.0), requires=found).html
-    turned = required(scene, keep=LAST, repeats=1, choices=choices_of(scene)[::-1], **RUN)
+    assert "What the scene requires" in sc.report(sc.simulate(scene, 1.0), requires=found).html
+    turned = sc.required(scene, keep=LAST, repeats=1, choices=choices_of(scene)[::-1], **RUN)
     assert {row.name: row.changes for row in turned.rows} == {row.name: row.changes for row in found.rows}
     mass = {"mass": lambda scene: scene.bodies["bob"].mass}
-    asked = required(scene, keep=mass, run=lambda scene: scene, repeats=1)
+    asked = sc.required(scene, keep=mass, run=lambda scene: scene, repeats=1)
     assert asked.full == {"mass": 1e3} and math.isnan(asked.noise["mass"])
     assert all(row.changes == {"mass": 0.0} for row in asked.rows if row.stable)
 
@@ -157,14 +149,14 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
     monkeypatch.setattr(Loss, "spread", property(lambda self: 0.0))
     peak = {"peak": "hook_load[hoist].max"}
     scene = slung()
-    found = required(scene, keep=peak, within=0.02, t_end=3.0)
+    found = sc.required(scene, keep=peak, within=0.02, t_end=3.0)
     assert found.least is not None
     assert [row.of for row in found.taken] and found.least.evaluations < 0.5
     assert len({row.of for row in found.taken}) == len(found.taken)
     held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses}
     exec(found.script, held)
-    least = simulate(held["scene"], 3.0)["hook_load"].max()
-    full = simulate(scene, 3.0)["hook_load"].max()
+    least = sc.simulate(held["scene"], 3.0)["hook_load"].max()
+    full = sc.simulate(scene, 3.0)["hook_load"].max()
     assert found.least.changes["peak"] == pytest.approx(least - full, abs=0.01 * full)
     assert abs(found.least.changes["peak"]) <= found.limits["peak"]
 
@@ -188,11 +180,11 @@ def test_a_script_makes_what_is_measured(described: Any) -> None:
 def test_what_does_not_run_is_a_row_with_its_reason() -> None:
     scene = slung()
     scene.loads["hoist"] = changed(scene.loads["hoist"], lag=0.0)
-    found = required(scene, keep={"peak": "hook_load[hoist].max"}, t_end=0.5, repeats=1)
+    found = sc.required(scene, keep={"peak": "hook_load[hoist].max"}, t_end=0.5, repeats=1)
     row = found.row("line hoist quasi-static")
     assert not row.stable and "its winch has no lag" in row.message
     keep = {"pull": "line_tension[wire].max"}
-    found = required(beside_a_given_ship(), keep=keep, t_end=2.0, repeats=1)
+    found = sc.required(beside_a_given_ship(), keep=keep, t_end=2.0, repeats=1)
     row = found.row("line wire rigid")
     assert not row.stable and "'pull' is gone: no channel 'line_tension'" in row.message
     assert found.row("parts in water in one piece each").stable
@@ -209,19 +201,20 @@ def test_oil_that_holds_is_as_good_as_a_driver() -> None:
     scene = on_oil()
     (held,) = [choice for choice in choices_of(scene) if choice.of == "drives"]
     given: dict[str, Any] = {"keep": {"peak": "hook_load[hoist].max"}, "repeats": 1, "choices": [held]}
-    found = required(scene, t_end=2.0, start="rest", **given)
+    found = sc.required(scene, t_end=2.0, start="rest", **given)
     (row,) = found.rows
     assert row.evaluations < 1.0
     assert abs(row.changes["peak"]) < 1e-3 * found.full["peak"]
     rows = [
-        required(scene, start=one, t_end=1.0, **given).rows[0] for one in (equilibrium, equilibrium(scene))
+        sc.required(scene, start=one, t_end=1.0, **given).rows[0]
+        for one in (sc.equilibrium, sc.equilibrium(scene))
     ]
     assert rows[0].stable and not rows[1].stable
     assert "is that of another scene" in rows[1].message
 
 
 def test_the_hook_load_of_a_line_with_mass_is_that_of_its_end_in_any_number_of_segments() -> None:
-    found = required(heavy(8), t_end=2.0, repeats=1, start="rest", dt=0.001, integrator="rk4")
+    found = sc.required(heavy(8), t_end=2.0, repeats=1, start="rest", dt=0.001, integrator="rk4")
     told = {row.name: row for row in found.rows}
     half, one = (told[f"line hoist in {count} of 8 segments"] for count in (4, 1))
     name = "hook load of hoist, N"
@@ -248,7 +241,7 @@ def test_fewer_waves_keep_their_drift_and_their_loads_over_the_heading() -> None
     for name in ("force_by_heading", "drift_by_heading"):
         np.testing.assert_array_equal(getattr(hull, name).values, getattr(whole, name).values[:, kept])
     assert scene_digest(scene.copy(waves=all_of_them)) == scene_digest(scene)
-    run = simulate(scene.copy(waves=few), 5.0)
+    run = sc.simulate(scene.copy(waves=few), 5.0)
     assert np.all(np.isfinite(run["position"]))
 
 
@@ -269,7 +262,7 @@ def test_a_line_in_other_segments_is_as_described_with_them(segments: int, aroun
     found, described = needs.with_segments(heavy(**around), "hoist", segments), heavy(segments, **around)
     for table in ("loads", "bodies", "joints"):
         assert {*getattr(found, table)} == {*getattr(described, table)}
-    run, right = (simulate(scene, 1.0)["hook_load"] for scene in (found, described))
+    run, right = (sc.simulate(scene, 1.0)["hook_load"] for scene in (found, described))
     np.testing.assert_allclose(run, right, rtol=1e-12)
 
 
@@ -277,9 +270,9 @@ def test_a_line_that_is_held_between_its_ends_keeps_its_segments() -> None:
     scene = heavy()
     scene.add_spring("stay", first="ground", second="hoist.2", stiffness=1.0, damping=0.0, natural_length=1.0)
     assert not any("segments" in choice.name for choice in choices_of(scene))
-    with pytest.raises(SceneError, match="stay"):
+    with pytest.raises(sc.SceneError, match="stay"):
         needs.with_segments(scene, "hoist", 2)
-    with pytest.raises(SceneError, match="no line with mass"):
+    with pytest.raises(sc.SceneError, match="no line with mass"):
         needs.with_segments(slung(), "hoist", 2)
 
 
@@ -301,11 +294,11 @@ def test_hulls_that_do_not_feel_each_other_need_no_group() -> None:
     (choice,) = [one for one in choices_of(alone) if one.of.startswith("coupling")]
     made = choice.made(alone)
     assert not made.groups and all(len(vessel.memory) for vessel in made.vessels.values())
-    run, right = (simulate(scene, 60.0)["position"] for scene in (made, alone))
+    run, right = (sc.simulate(scene, 60.0)["position"] for scene in (made, alone))
     assert np.abs(run - right).max() < 0.02 * np.ptp(right, axis=0).max()
     near = barges()
     near_run, without = (
-        simulate(scene, 60.0)["position"] for scene in (near, needs.uncoupled(near, "two barges"))
+        sc.simulate(scene, 60.0)["position"] for scene in (near, needs.uncoupled(near, "two barges"))
     )
     assert np.abs(near_run - without).max() > 0.05
 
@@ -332,7 +325,7 @@ def test_what_cannot_be_asked_is_refused() -> None:
         ({"keep": {"z": "position.max"}}, "'z' is 3 numbers"),
         ({"within": {"y": 1.0}, "keep": LAST}, "within has 'y'"),
     ):  # fmt: skip
-        with pytest.raises(SceneError, match=says):
-            required(pendulum(), t_end=8.0 * math.pi, **given)
-    with pytest.raises(SceneError, match="nothing hangs or floats in scene 'on deck'"):
-        required(on_deck(), t_end=0.5)
+        with pytest.raises(sc.SceneError, match=says):
+            sc.required(pendulum(), t_end=8.0 * math.pi, **given)
+    with pytest.raises(sc.SceneError, match="nothing hangs or floats in scene 'on deck'"):
+        sc.required(on_deck(), t_end=0.5)

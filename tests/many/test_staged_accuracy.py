@@ -10,18 +10,7 @@ import pytest
 from accuracy_scenes import hung
 from staged_accuracy import DT_OUT, lift_of, told, word
 
-from seacrane import (
-    FileFormatError,
-    Lift,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    ensemble,
-    simulate,
-    simulate_stages,
-)  # fmt: skip
+import seacrane as sc
 from seacrane.accuracy.matching import Matching, curve_apart, extremes_apart, matched
 from seacrane.cli import main
 from seacrane.warnings import AnotherCourseWarning
@@ -33,9 +22,9 @@ PEAK = WEIGHT + np.sqrt(WEIGHT**2 + 2.0 * STIFFNESS * WEIGHT * HEIGHT)  # N, in 
 OMEGA = 2.0  # rad/s
 
 
-def dropped(height: float = HEIGHT) -> Scene:
+def dropped(height: float = HEIGHT) -> sc.Scene:
     """A load that falls onto an elastic surface."""
-    scene = Scene(name="dropped", gravity=G)
+    scene = sc.Scene(name="dropped", gravity=G)
     scene.add_body("load", mass=MASS, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, height))
     foot = [(0.0, 0.0, 0.0)]
     scene.add_contact("load", on="ground", points=foot, stiffness=STIFFNESS, damping=0.0, name="foot")
@@ -43,15 +32,15 @@ def dropped(height: float = HEIGHT) -> Scene:
 
 
 FALL = [
-    Stage(name="fall", until=Until.contact("foot"), maximum_duration=2.0),
-    Stage(name="press", duration=0.06),
+    sc.Stage(name="fall", until=sc.Until.contact("foot"), maximum_duration=2.0),
+    sc.Stage(name="press", duration=0.06),
 ]
 
 
 @pytest.mark.parametrize("limit", [1e-2, 1e-4])
 def test_a_drop_onto_a_surface_is_as_exact_as_told(limit: float) -> None:
     asked = {"stage[fall].end": limit, "contact_press.max": limit * PEAK, "event_times": limit}
-    result = simulate_stages(dropped(), FALL, dt_out=0.002, accuracy=asked)
+    result = sc.simulate_stages(dropped(), FALL, dt_out=0.002, accuracy=asked)
     errors = {
         "stage[fall].end": abs(result.stages[0].end - TOUCHES),
         "contact_press.max": abs(float(result.reached("contact_press")[1].max()) - PEAK),
@@ -62,9 +51,9 @@ def test_a_drop_onto_a_surface_is_as_exact_as_told(limit: float) -> None:
         assert result.stats[f"error_estimate_{name}"] <= allowed == result.stats[f"accuracy_{name}"]
 
 
-def swinging_mass() -> Scene:
+def swinging_mass() -> sc.Scene:
     """On a spring, from 1 m beside its rest."""
-    scene = Scene(name="harmonic", gravity=0.0)
+    scene = sc.Scene(name="harmonic", gravity=0.0)
     scene.add_body("load", mass=MASS, inertia=(1.0, 1.0, 1.0), position=(1.0, 0.0, 0.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", axis=(1.0, 0.0, 0.0))
     spring: dict[str, Any] = {
@@ -77,10 +66,10 @@ def swinging_mass() -> Scene:
 
 
 def test_curves_of_an_oscillation_that_ends_at_a_place_are_as_exact_as_told() -> None:
-    half = Until.channel("position", body="load", axis="x", maximum=0.5)
-    stages = [Stage(name="in", until=half, maximum_duration=2.0), Stage(name="on", duration=3.0)]
+    half = sc.Until.channel("position", body="load", axis="x", maximum=0.5)
+    stages = [sc.Stage(name="in", until=half, maximum_duration=2.0), sc.Stage(name="on", duration=3.0)]
     for limit in (1e-2, 1e-5):
-        result = simulate_stages(swinging_mass(), stages, dt_out=0.1, accuracy={"position": limit})
+        result = sc.simulate_stages(swinging_mass(), stages, dt_out=0.1, accuracy={"position": limit})
         time = result.time - (result.stages[0].end - np.arccos(0.5) / OMEGA)  # at equal phase of "on"
         error = np.abs(result.select("position", body="load", axis="x") - np.cos(OMEGA * time)).max()
         estimate = float(result.stats["error_estimate_position"])
@@ -105,9 +94,9 @@ def test_a_jump_that_is_late_by_4_ms_is_an_error_of_time_alone() -> None:
     assert curve_apart(time, one, time, other + 50.0, matching) == pytest.approx(50.0, abs=3.5 * 1e4 * late)
 
 
-def bounced(height: float, duration: float) -> Result:
-    stages = [Stage(name="bounce", duration=duration)]
-    return simulate_stages(dropped(height), stages, dt_out=0.01, rtol=1e-9, integrator="dop853")
+def bounced(height: float, duration: float) -> sc.Result:
+    stages = [sc.Stage(name="bounce", duration=duration)]
+    return sc.simulate_stages(dropped(height), stages, dt_out=0.01, rtol=1e-9, integrator="dop853")
 
 
 def test_a_hit_more_is_another_course() -> None:
@@ -124,20 +113,20 @@ def test_a_lift_that_takes_another_course_at_every_tolerance_says_so() -> None:
     """Four feet graze the bed: rounding says which of them touches again."""
     scene, stages = lift_of(10)
     with pytest.warns(AnotherCourseWarning, match=r"(contact|release) of 'feet\.\d' \d+ times in one run, "):
-        result = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
+        result = sc.simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
     assert "extremes" in str(result.stats["accuracy_course"])
     assert 0.0 < float(result.stats["error_estimate_position"]) <= 0.006
 
 
 def test_what_no_course_has_is_not_compared() -> None:
-    result = simulate_stages(dropped(), FALL, dt_out=0.01, accuracy={"event_times": 1e-3})
+    result = sc.simulate_stages(dropped(), FALL, dt_out=0.01, accuracy={"event_times": 1e-3})
     assert not [name for name in result.stats if name.startswith("model_error")]
     for asked, given, says in (
         ({"hook_load": 1.0}, {}, "'hook_load' is unknown"), ({"stage[lift].end": 1.0}, {}, "no stage 'lift'"),
         ({"position": 1.0}, {"rtol": 1e-5}, "rtol=1e-05 is given too"),
     ):  # fmt: skip
-        with pytest.raises(SceneError, match=says):
-            simulate_stages(dropped(), FALL, accuracy=asked, **given)
+        with pytest.raises(sc.SceneError, match=says):
+            sc.simulate_stages(dropped(), FALL, accuracy=asked, **given)
 
 
 @pytest.mark.warns("LineLengthWarning")
@@ -147,15 +136,17 @@ def test_one_run_takes_extremes_and_times_too() -> None:
     scene.add_line(
         "hoist", first="ground", second="load", EA=mass * G * 50.0, length=length, damping_ratio=0.1
     )
-    truth = simulate(scene, 3.0, dt_out=0.01, integrator="dop853", rtol=1e-11)
+    truth = sc.simulate(scene, 3.0, dt_out=0.01, integrator="dop853", rtol=1e-11)
     peak = float(truth.reached("line_tension")[1].max())
-    result = simulate(scene, 3.0, dt_out=0.01, accuracy={"line_tension.max": 1e-3 * peak})
+    result = sc.simulate(scene, 3.0, dt_out=0.01, accuracy={"line_tension.max": 1e-3 * peak})
     assert abs(float(result.reached("line_tension")[1].max()) - peak) <= 1e-3 * peak
 
 
 def test_an_ensemble_of_stages_chooses_its_method_by_its_members() -> None:
     heights, asked = [0.5, 0.8, 1.1], {"accuracy": {"stage[fall].end": 1e-4}, "dt_out": 0.01}
-    found = ensemble(dropped, over={"height": heights}, stages=FALL, keep={"end": "stage[fall].end"}, **asked)
+    found = sc.ensemble(
+        dropped, over={"height": heights}, stages=FALL, keep={"end": "stage[fall].end"}, **asked
+    )
     assert found.accuracy is not None and found.accuracy.held
     ends = found.dataset.end.to_numpy().ravel()
     assert np.abs(ends - np.sqrt(2.0 * np.array(heights) / G)).max() <= 1e-4
@@ -204,13 +195,13 @@ accuracy = {"stage[fall].end" = 1e-3, "contact_press.max" = 100.0}
 def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "drop.toml"
     path.write_text(LIFT)
-    lift = Lift.load(path)
+    lift = sc.Lift.load(path)
     assert lift.accuracy == {"stage[fall].end": 1e-3, "contact_press.max": 100.0}
     lift.save(tmp_path / "again.toml")
-    assert Lift.load(tmp_path / "again.toml").accuracy == lift.accuracy
+    assert sc.Lift.load(tmp_path / "again.toml").accuracy == lift.accuracy
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
     assert "error of contact_press.max: " in capsys.readouterr().out
-    result = Result.load(tmp_path / "out" / "drop.nc")
+    result = sc.Result.load(tmp_path / "out" / "drop.nc")
     assert abs(result.stages[0].end - TOUCHES) <= 1e-3
     assert result.stats["accuracy_contact_press.max"] == 100.0
     for before, after, says in (
@@ -219,5 +210,5 @@ def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: pytest.Capture
         ("contact_press.max", "hook_load.max", "'hook_load' is unknown"),
     ):
         path.write_text(LIFT.replace(before, after))
-        with pytest.raises((SceneError, FileFormatError), match=says):
-            Lift.load(path).simulate()
+        with pytest.raises((sc.SceneError, sc.FileFormatError), match=says):
+            sc.Lift.load(path).simulate()

@@ -10,20 +10,7 @@ import numpy as np
 import pytest
 from lift_examples import ON_DECK
 
-from seacrane import (
-    FileFormatError,
-    Lift,
-    Move,
-    Scene,
-    SceneError,
-    SimulationError,
-    Stage,
-    Until,
-    ensemble,
-    equilibrium,
-    shipped_database,
-    simulate_stages,
-)
+import seacrane as sc
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.lift.shown_study import shown_study
@@ -35,10 +22,10 @@ G = 9.80665
 MASS, EA = 40e3, 2e8
 
 
-def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> Scene:
+def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> sc.Scene:
     """A load on the deck of a barge, below a crane on the ground that lifts it off."""
-    scene = Scene(name="feeder")
-    scene.add_vessel(shipped_database(), memory="none", mooring=60.0)
+    scene = sc.Scene(name="feeder")
+    scene.add_vessel(sc.shipped_database(), memory="none", mooring=60.0)
     scene.add_body(name="load", mass=MASS, size=(6.0, 6.0, 3.0), position=(0.0, 0.0, 11.5))
     scene.add_joint(kind="weld", name="grillage", first="vessel", second="load", point=(0.0, 0.0, 10.0))
     scene.add_seat("grillage")
@@ -49,11 +36,11 @@ def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> Scene:
     return scene
 
 
-def lift_at(rate: float, most: float = 30.0) -> list[Stage]:
-    lift = Stage(
-        name="lift", until=Until.release("grillage"), maximum_duration=most, commands={"hoist.rate": rate}
+def lift_at(rate: float, most: float = 30.0) -> list[sc.Stage]:
+    lift = sc.Stage(
+        name="lift", until=sc.Until.release("grillage"), maximum_duration=most, commands={"hoist.rate": rate}
     )
-    return [Stage(name="wait", duration=5.0), lift, Stage(name="up", duration=5.0)]
+    return [sc.Stage(name="wait", duration=5.0), lift, sc.Stage(name="up", duration=5.0)]
 
 
 STAGES = lift_at(-0.5)
@@ -68,13 +55,13 @@ HOW: dict[str, Any] = {"dt_out": 0.02, "rtol": 1e-5}
 
 @pytest.fixture(scope="module")
 def lifts() -> Ensemble:
-    return ensemble(feeder(), stages=STAGES, over={"seed": [1, 2, 3]}, keep=KEEP, **HOW)
+    return sc.ensemble(feeder(), stages=STAGES, over={"seed": [1, 2, 3]}, keep=KEEP, **HOW)
 
 
 @pytest.mark.warns("LineLengthWarning")
 def test_members_are_their_staged_runs_to_the_bit(lifts: Ensemble) -> None:
     for place, seed in enumerate((1, 2, 3)):
-        run = simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
+        run = sc.simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
         lift = run.stages[1]
         member = lifts.dataset.isel(seed=place)
         assert float(member.whole.squeeze()) == run.reached("hook_load", suspension="hoist")[1].max()
@@ -88,9 +75,9 @@ def test_the_peak_is_that_of_the_relative_speed_at_lift_off() -> None:
 
     Undamped, at a constant rate. Later peaks are larger: the line that a winch takes in grows stiffer.
     """
-    first = [*STAGES[:2], Stage(name="up", duration=0.3)]
+    first = [*STAGES[:2], sc.Stage(name="up", duration=0.3)]
     keep = {"peak": "hook_load[stage=up].max", "by_hand": _peak_by_hand}
-    lifts = ensemble(
+    lifts = sc.ensemble(
         feeder(damping_ratio=0.0), stages=first, over={"seed": range(8)}, keep=keep, dt_out=0.005, rtol=1e-7
     )
     hand = lifts.dataset.by_hand.to_numpy()
@@ -112,32 +99,32 @@ def _peak_by_hand(result: Any) -> float:
 def test_numbers_of_stages_vary_by_path(lifts: Ensemble) -> None:
     over = [{"stages.lift.commands.hoist.rate": rate, "stages.wait.duration": wait, "seed": 2}
             for rate, wait in ((-0.5, 5.0), (-0.25, 5.0), (-0.5, 7.0))]  # fmt: skip
-    told = ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, **HOW).dataset
+    told = sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, **HOW).dataset
     assert float(told.lifted[0]) == float(lifts.dataset.lifted[1])
-    run = simulate_stages(with_sea(feeder(), {"seed": 2}), lift_at(-0.25), **HOW)
+    run = sc.simulate_stages(with_sea(feeder(), {"seed": 2}), lift_at(-0.25), **HOW)
     assert float(told.lifted[1]) == run.stages[1].end
     assert float(told.lifted[2] - told.took[2]) == 7.0
 
 
 def test_numbers_of_moves_vary_too() -> None:
-    scene = Scene(name="cart")
+    scene = sc.Scene(name="cart")
     scene.add_body(name="cart", mass=10.0, size=(1.0, 1.0, 1.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
     scene.add_driver("rail", curve=0.0)
-    stages = [Stage(name="out", duration=4.0, commands={"rail.displacement": Move(to=1.0, over=2.0)})]
+    stages = [sc.Stage(name="out", duration=4.0, commands={"rail.displacement": sc.Move(to=1.0, over=2.0)})]
     path = "stages.out.commands.rail.displacement.to"
-    told = ensemble(scene, stages=stages, over={path: [1.0, 2.5]}, keep={"x": "position[cart, x].max"})
+    told = sc.ensemble(scene, stages=stages, over={path: [1.0, 2.5]}, keep={"x": "position[cart, x].max"})
     assert told.dataset.x.to_numpy().ravel() == pytest.approx([1.0, 2.5], abs=1e-9)
 
 
 @pytest.mark.warns("FailedMembersWarning")
 def test_a_member_that_never_reaches_a_stage_says_so() -> None:
     over = {"stages.lift.maximum_duration": [0.5, 30.0]}
-    told = ensemble(feeder(), stages=lift_at(-0.5, 0.5), over=over, keep=KEEP, **HOW)
+    told = sc.ensemble(feeder(), stages=lift_at(-0.5, 0.5), over=over, keep=KEEP, **HOW)
     assert list(told.failures) == [0]
     assert "stage 'lift'" in told.failures[0] and "SimulationError" in told.failures[0]
-    with pytest.raises(SimulationError, match="stage 'lift'"):
-        ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, on_error="raise", **HOW)
+    with pytest.raises(sc.SimulationError, match="stage 'lift'"):
+        sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, on_error="raise", **HOW)
 
 
 def test_a_store_goes_on_and_tells_other_stages_apart(
@@ -157,21 +144,21 @@ def test_a_store_goes_on_and_tells_other_stages_apart(
     with monkeypatch.context() as patched:
         patched.setattr("seacrane.ensembles.job.stepped", stopping)
         with pytest.raises(KeyboardInterrupt):
-            ensemble(feeder(), stages=STAGES, **asked, **HOW)
+            sc.ensemble(feeder(), stages=STAGES, **asked, **HOW)
     assert np.isfinite(Ensemble.load(tmp_path / "s").dataset.peak.to_numpy()).sum() == 2
     with ThreadPoolExecutor(2) as executor:
-        told = ensemble(feeder(), stages=STAGES, executor=executor, **asked, **HOW)
+        told = sc.ensemble(feeder(), stages=STAGES, executor=executor, **asked, **HOW)
     assert told.dataset.peak.to_numpy().tolist() == lifts.dataset.peak.to_numpy().tolist()
-    with pytest.raises(SceneError, match="another study"):
-        ensemble(feeder(), stages=lift_at(-0.6), **asked, **HOW)
-    made = ensemble(feeder(), stages=lambda scene: STAGES, over={"seed": [1]}, keep=KEEP, **HOW)
+    with pytest.raises(sc.SceneError, match="another study"):
+        sc.ensemble(feeder(), stages=lift_at(-0.6), **asked, **HOW)
+    made = sc.ensemble(feeder(), stages=lambda scene: STAGES, over={"seed": [1]}, keep=KEEP, **HOW)
     assert made.dataset.peak.to_numpy().ravel()[0] == lifts.dataset.peak.to_numpy().ravel()[0]
 
 
 def test_seeds_are_added_until_the_peak_is_known() -> None:
     keep = {"peak": "hook_load[hoist, stage=up].max"}
     how: dict[str, Any] = {"over": {"seed": range(60)}, "until": {"peak.mean": 0.1}, "keep": keep, **HOW}
-    (one,) = ensemble(feeder(hs=0.5), stages=STAGES, **how).certainty
+    (one,) = sc.ensemble(feeder(hs=0.5), stages=STAGES, **how).certainty
     assert one.seeds in (20, 40, 60)
 
 
@@ -183,9 +170,9 @@ def test_what_contradicts_is_refused_by_name() -> None:
         ({"lanes": 4, "over": {"seed": [1], "start_time": [1.0]}}, "lanes is 4.* start_time"),
         ({"over": {"stages.lift.commands.hoist.rat": [1.0]}}, "hoist.rat'.*hoist.rate'"),
     ):  # fmt: skip
-        with pytest.raises(SceneError, match=words):
-            ensemble(feeder(), **usual | given)
-    told = ensemble(feeder(), **usual | {"keep": {"x": "hook_load[stage=down].max"}}, **HOW)
+        with pytest.raises(sc.SceneError, match=words):
+            sc.ensemble(feeder(), **usual | given)
+    told = sc.ensemble(feeder(), **usual | {"keep": {"x": "hook_load[stage=down].max"}}, **HOW)
     assert "no stage 'down'" in told.failures[0]
 
 
@@ -199,13 +186,13 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
     how: dict[str, Any] = {"dt_out": 0.05, "rtol": 1e-4}
     told = allowable_hs(scene, criteria=criteria, tp=[8.0], direction_deg=[180.0], hs=heights, seeds=seeds,
                         stages=STAGES, **how)  # fmt: skip
-    how["start"] = equilibrium(scene)
-    rest = _reached(simulate_stages(scene.copy(waves=None), STAGES, **how), "up")
+    how["start"] = sc.equilibrium(scene)
+    rest = _reached(sc.simulate_stages(scene.copy(waves=None), STAGES, **how), "up")
     assert MASS * G < rest < bound
     levels = []
     for hs in heights:
         storms = (with_sea(scene, {"hs": hs, "seed": seed}) for seed in seeds)
-        peaks = np.array([_reached(simulate_stages(storm, STAGES, **how), "up") for storm in storms])
+        peaks = np.array([_reached(sc.simulate_stages(storm, STAGES, **how), "up") for storm in storms])
         levels.append(float(seed_extremes(peaks - rest, duration=1.0, exposure=1.0).gumbel.p90.value))
     expected = np.interp(bound - rest, [0.0, *levels], [0.0, *heights])
     found = told.dataset.by_criterion.sel(criterion="hook load in up").item()
@@ -234,7 +221,7 @@ def _reached(run: Any, stage: str) -> float:
 )
 def test_what_lifts_in_stages_do_not_take(criterion: Any, given: dict[str, Any], message: str) -> None:
     asked = Criterion(**{"channel": "hook_load", "maximum": 1e6, **criterion})
-    with pytest.raises(SceneError, match=message):
+    with pytest.raises(sc.SceneError, match=message):
         allowable_hs(
             feeder(), criteria=[asked], tp=[8.0], direction_deg=[180.0], **{"stages": STAGES, **given}
         )
@@ -268,7 +255,7 @@ def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
     for EA in (4e7, 5e7):
         text = ON_DECK.replace("EA_N = 5e7", f"EA_N = {EA:g}").replace("m_per_s = -0.05", "m_per_s = -0.1")
         (tmp_path / "other.toml").write_text(text, encoding="utf-8")
-        run = Lift.load(tmp_path / "other.toml").simulate()
+        run = sc.Lift.load(tmp_path / "other.toml").simulate()
         told = done.sel({"line.EA_N": EA, "stages.lift off.commands.hoist.rate": -0.1})
         assert float(told.peak.squeeze()) == _reached(run, "raise")
         assert float(told.lifted) == run.stages[1].end
@@ -279,5 +266,5 @@ def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
         ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s"),
     ):  # fmt: skip
         study.write_text(STUDY.replace(old, new), encoding="utf-8")
-        with pytest.raises(FileFormatError, match=message):
+        with pytest.raises(sc.FileFormatError, match=message):
             run_study(study, tmp_path / "other")

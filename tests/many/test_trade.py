@@ -12,17 +12,8 @@ import numpy as np
 import pytest
 from trade_scenes import a_run_each, pendulum
 
-from seacrane import (
-    Method,
-    Run,
-    Scene,
-    SceneError,
-    Stage,
-    cases,
-    simulate,
-    simulate_stages,
-    trade,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
@@ -45,15 +36,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def case2() -> Scene:
+def case2() -> sc.Scene:
     return cases.case2()
 
 
 @pytest.fixture(scope="module")
-def measured(case2: Scene, folder: Path) -> Trade:
+def measured(case2: sc.Scene, folder: Path) -> Trade:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Spending, "spend", a_run_each)
-        return trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
+        return sc.trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
 
 
 @pytest.mark.slow("a trade study")
@@ -68,10 +59,10 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
     assert [errors[rtol] for rtol in sorted(errors)] == sorted(errors.values())
 
 
-def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
+def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) -> None:
     row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)
-    tight = simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
+    run = sc.simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)
+    tight = sc.simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
     own, true = (one.select("position", body="payload") for one in (run, tight))
     distance = np.linalg.norm(own - true, axis=-1)
     assert row.error("payload_position") == pytest.approx(distance.max(), rel=1e-3)
@@ -95,7 +86,7 @@ def test_the_front_is_shown(measured: Trade) -> None:
         assert 1e3 * getattr(rk4, over) / rk4.simulated_s in lines["rk4"]
         full = {r.method.integrator for r in measured.rows if r.case == measured.full_case and r.stable}
         assert lines.keys() == full | {"Pareto front"}
-    with pytest.raises(SceneError, match="over is 'cpu'"):
+    with pytest.raises(sc.SceneError, match="over is 'cpu'"):
         measured.plot(over="cpu")
     *_, default, _ = str(measured).splitlines()
     assert default.startswith("the default (dopri5 rtol=1e-06)") and "payload_position" in default
@@ -103,16 +94,16 @@ def test_the_front_is_shown(measured: Trade) -> None:
     assert html.count("<tr>") == 1 + len(measured.pareto) and "<i>" not in html
 
 
-def test_the_cheapest_setting_meets_its_limit_when_run(case2: Scene, measured: Trade) -> None:
-    run = simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
-    tight = simulate(case2, t_end=T_END, **TIGHT)
+def test_the_cheapest_setting_meets_its_limit_when_run(case2: sc.Scene, measured: Trade) -> None:
+    run = sc.simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
+    tight = sc.simulate(case2, t_end=T_END, **TIGHT)
     own, true = (one.select("position", body="payload")[:, None] for one in (run, tight))
     assert compare(true, own).largest <= 1e-4
     for accuracy, says in (
         ({"payload_position": 1e-16}, "rounding"), ({"payload_position": 1e-11}, "beyond this grid"),
         ({"pitch": 1.0}, "'pitch'"), ({"roll": -1.0}, "roll is -1.0"), ({}, "accuracy is empty"),
     ):  # fmt: skip
-        with pytest.raises(SceneError, match=says):
+        with pytest.raises(sc.SceneError, match=says):
             measured.cheapest(**accuracy)
 
 
@@ -129,7 +120,7 @@ def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
 
 
 def test_a_later_call_goes_on_and_another_scene_begins_anew(
-    case2: Scene, measured: Trade, folder: Path, monkeypatch: pytest.MonkeyPatch
+    case2: sc.Scene, measured: Trade, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()
@@ -145,7 +136,7 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
     monkeypatch.setattr(trade_study, "frequency_domain", filled)
     unit = next(row.cpu_s for row in measured.rows if row.method.name == "recursive dopri5 rtol=0.001")
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (unit, unit))
-    again = trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
+    again = sc.trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
     kept = {json.loads(line)["row"]["wall_s"] for line in lines[1:-1]}
     assert called and kept <= {row.wall_s for row in again.rows}
     other = RowFile(path, {"scene": "another"})
@@ -156,7 +147,7 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
 def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Integrator) -> None:
     """The table of integrators is asked in place of the scene: it tells the truth, and the grid has all."""
     given: dict[str, Any] = {"t_end": 0.2, "dt_out": 0.2, "integrator": known.name, "channels": ["position"]}
-    runs = [Run(pendulum(), dt=dt, **given) for dt in (0.05, 0.025)]
+    runs = [sc.Run(pendulum(), dt=dt, **given) for dt in (0.05, 0.025)]
     assert all(run.advance(0.2) for run in runs)
     few, many = (run.core.statistics()["steps"] for run in runs)
     assert (few != many) == (known.setting == "dt") == (not runs[0].core.adaptive)
@@ -164,14 +155,14 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
-    chosen = [Method(integrator="rk4", dt=0.01), Method(integrator="not-yet", rtol=1e-3)]
-    rows = trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
+    chosen = [sc.Method(integrator="rk4", dt=0.01), sc.Method(integrator="not-yet", rtol=1e-3)]
+    rows = sc.trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
     assert [row.method for row in rows] == chosen
     assert rows[0].stable and not rows[1].stable
     assert "unknown integrator" in rows[1].message
 
 
-def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
+def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
     names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("passive")]
     assert names == [f"passive r2={r2:g}" for r2 in simpler_scenes.R2_LEVELS.all]
     scenes = [simpler_scenes.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
@@ -182,15 +173,15 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
     ship = built.vessels["vessel"]
     mooring = {name: getattr(ship, name) for name in ("mooring_stiffness", "mooring_damping")}
     changed.replace("vessel", kind="vessel", **mooring)
-    one, other = (simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
+    one, other = (sc.simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
     assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
     assert case2.provenance["vessel"].memory == "per-pair"
 
 
-def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: Scene) -> None:
-    full = simulate(case2, t_end=T_END, **TIGHT)
+def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: sc.Scene) -> None:
+    full = sc.simulate(case2, t_end=T_END, **TIGHT)
     driven = simpler_scenes.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
-    alone = simulate(driven, t_end=T_END, **TIGHT)
+    alone = sc.simulate(driven, t_end=T_END, **TIGHT)
     assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
     assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
     assert np.abs(full["vessel_motion"]).max() > 0.1
@@ -202,18 +193,18 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
         start = curve_of("start", drive.feed_forward.evaluate([0.0])[0, 0])
         scene.replace(name, kind="actuator", feed_forward=start)
     quantities = quantities_of(scene, scene.compile(), None)
-    run = simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
+    run = sc.simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
     bench = trade_rows.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
-    method = Method(integrator="dop853", rtol=1e-9)
+    method = sc.Method(integrator="dop853", rtol=1e-9)
     done = trade_rows.measure(bench, Row(case={"rung": simpler_scenes.WEIGHT}, method=method))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
 
 
-def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
+def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
     waves = case2.waves
     assert waves is not None
     half = simpler_scenes.strongest(waves, 100)
@@ -224,28 +215,28 @@ def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
 
 
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
-    found = trade(pendulum(), t_end=2.0, progress=False)
+    found = sc.trade(pendulum(), t_end=2.0, progress=False)
     assert list(found.quantities) == ["position", "velocity"]
     assert {row.case["rung"] for row in found.rows} == {"full"}
     for given, says in (({"quantities": ["depth"]}, "'depth'"), ({"out": tmp_path / "absent"}, "no folder")):
-        with pytest.raises(SceneError, match=says):
-            trade(pendulum(), t_end=2.0, progress=False, **given)
+        with pytest.raises(sc.SceneError, match=says):
+            sc.trade(pendulum(), t_end=2.0, progress=False, **given)
     assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key
 
 
-def row_of(method: Method, cost: float, **errors: float) -> Row:
+def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
     measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
     case = {"memory": "none", "waves": "none", "rung": "full"}
     return Row(case=case, method=method, verdict="completed", errors=measures, cpu_s=cost, wall_s=cost)
 
 
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
-    fixed = Method(integrator="semi-implicit-euler", dt=0.02)
+    fixed = sc.Method(integrator="semi-implicit-euler", dt=0.02)
     rows = (
         row_of(fixed, 1.0, payload_position=0.005, hook_load=3400.0),
-        row_of(Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
-        row_of(Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
-        row_of(Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
+        row_of(sc.Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
+        row_of(sc.Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
+        row_of(sc.Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
     )
     names = ("payload_position", "hook_load")
     moved = {"payload_position": np.array([[[0.0]], [[1.0]]]), "hook_load": np.array([[[0.0]], [[1e5]]])}
@@ -257,13 +248,13 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
-    with pytest.raises(SceneError, match="give others=None"):
+    with pytest.raises(sc.SceneError, match="give others=None"):
         found.cheapest(others=1e-9, payload_position=0.01)
 
 
 def test_what_cannot_change_the_front_is_not_measured() -> None:
-    loose, tight = Method(integrator="dop853", rtol=1e-4), Method(integrator="dop853", rtol=1e-5)
-    poor = [Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
+    loose, tight = sc.Method(integrator="dop853", rtol=1e-4), sc.Method(integrator="dop853", rtol=1e-5)
+    poor = [sc.Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
     for floor, following in ((1e-6, None), (1e-12, tight)):  # all errors below the floor are alike
         ladders = Ladders([loose, tight, *poor], ["x"], {"x": floor})
         ladders.scouts = []
@@ -272,7 +263,7 @@ def test_what_cannot_change_the_front_is_not_measured() -> None:
         assert ladders.next() == following and ladders.open == (following is not None)
 
 
-def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     units: list[str] = []
 
     def counted(bench: object, row: Row, **given: object) -> Row:
@@ -281,20 +272,20 @@ def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.
 
     monkeypatch.setattr(trade_study, "measure", counted)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
-    found = trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
+    found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
     assert len(units) == len(found.rows) == 3
     assert found.told_s == trade_study.REFERENCE + 3.0
     assert found.not_measured > 0 and "The budget ended before" in found.price
 
 
 def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
-    stages = [Stage(name="first", duration=1.0), Stage(name="second", duration=1.0)]
-    chosen = [Method(integrator="tsit5", rtol=1e-3)]
-    found = trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
+    stages = [sc.Stage(name="first", duration=1.0), sc.Stage(name="second", duration=1.0)]
+    chosen = [sc.Method(integrator="tsit5", rtol=1e-3)]
+    found = sc.trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
     (row,) = found.rows
     assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
-    staged = simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
-    tight = simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
+    staged = sc.simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
+    tight = sc.simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
     worst = 0.0
     for one in stages:
         own, true = (run["position"][run.stage(one.name), 0] for run in (staged, tight))

@@ -9,21 +9,11 @@ import numpy as np
 import pytest
 from ensemble_studies import pendulum
 
+import seacrane as sc
 import seacrane.accuracy.choice
 import seacrane.run.advance
 import seacrane.run.run
 import seacrane.validity.left_range
-from seacrane import (
-    Kept,
-    Result,
-    Run,
-    SimulationError,
-    Stage,
-    ensemble,
-    simulate,
-    simulate_stages,
-    simulate_to_file,
-)
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 
@@ -37,18 +27,18 @@ LOOKS: dict[str, tuple[Any, str]] = {
     "a look at oil": (seacrane.run.run, "boiled"),
     "modes": (seacrane.run.advance, "slow_findings"),
 }
-HALVES = [Stage(name="one", duration=0.5), Stage(name="two", duration=0.5)]
+HALVES = [sc.Stage(name="one", duration=0.5), sc.Stage(name="two", duration=0.5)]
 
 
 @pytest.mark.parametrize("place", list(LOOKS))
 def test_a_look_that_fails_keeps_the_run(place: str, tmp_path: Path, monkeypatch: Any) -> None:
     module, name = LOOKS[place]
-    expected = simulate(pendulum(), 1.0)
+    expected = sc.simulate(pendulum(), 1.0)
     monkeypatch.setattr(module, name, fails)
     for run in (
-        lambda: simulate(pendulum(), 1.0),
-        lambda: simulate_to_file(pendulum(), tmp_path / "run.nc", 1.0).load(),
-        lambda: simulate_stages(pendulum(), HALVES),
+        lambda: sc.simulate(pendulum(), 1.0),
+        lambda: sc.simulate_to_file(pendulum(), tmp_path / "run.nc", 1.0).load(),
+        lambda: sc.simulate_stages(pendulum(), HALVES),
     ):
         with pytest.warns(UnjudgedWarning, match="which is kept: ValueError: no such thing"):
             result = run()
@@ -61,9 +51,9 @@ def test_an_estimate_or_a_derived_channel_that_fails_keeps_the_run(monkeypatch: 
     with monkeypatch.context() as patch:
         patch.setattr(seacrane.accuracy.choice, "model_errors", fails)
         with pytest.warns(UnjudgedWarning, match="error of the model"):
-            result = simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
+            result = sc.simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
     assert result.stats["error_estimate_position"] <= 1e-3
-    run = Run(pendulum(), 1.0)
+    run = sc.Run(pendulum(), 1.0)
     run.advance(1.0)
     monkeypatch.setattr(seacrane.run.run, "named_channels", fails)
     result, found = run.judged_result()
@@ -71,7 +61,7 @@ def test_an_estimate_or_a_derived_channel_that_fails_keeps_the_run(monkeypatch: 
     assert result["position"].shape == (result.time.size, 1, 3)
 
 
-def not_finite(run: Run, arrays: Any) -> dict[str, Any]:
+def not_finite(run: sc.Run, arrays: Any) -> dict[str, Any]:
     """As `Run.wanted`, with a channel that is no number from its third output on."""
     out = {name: np.array(arrays[name]) for name in ("position", "energy_balance") if name in arrays}
     out["energy_balance" if "energy_balance" in out else "position"][2:] = np.nan
@@ -81,15 +71,15 @@ def not_finite(run: Run, arrays: Any) -> dict[str, Any]:
 @pytest.mark.warns("FailedMembersWarning", sometimes=["NotFiniteWarning"])
 def test_a_channel_that_is_not_finite_is_told_and_kept(tmp_path: Path, monkeypatch: Any) -> None:
     """No number is made of it, and a member is a failure."""
-    monkeypatch.setattr(Run, "wanted", not_finite)
+    monkeypatch.setattr(sc.Run, "wanted", not_finite)
     with pytest.warns(NotFiniteWarning, match="'energy_balance': is not finite from output 2 on"):
-        result = simulate(pendulum(), 1.0)
+        result = sc.simulate(pendulum(), 1.0)
     assert np.isfinite(result["position"]).all() and np.isnan(result["energy_balance"][2:]).all()
-    again = Result.load(result.save(tmp_path / "run.nc"))
+    again = sc.Result.load(result.save(tmp_path / "run.nc"))
     assert again.stats["not_finite"] == "energy_balance" and not again.interrupted
     np.testing.assert_array_equal(again["energy_balance"], result["energy_balance"])
-    with pytest.raises(SimulationError, match="channels hold values that are not"):
-        simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
-    keep = {"x": Kept(channel="position", what="maximum")}
-    found = ensemble(pendulum, over={"mass": [1.0]}, t_end=1.0, on_error="record", keep=keep)
+    with pytest.raises(sc.SimulationError, match="channels hold values that are not"):
+        sc.simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
+    keep = {"x": sc.Kept(channel="position", what="maximum")}
+    found = sc.ensemble(pendulum, over={"mass": [1.0]}, t_end=1.0, on_error="record", keep=keep)
     assert "not finite" in found.failures[0]

@@ -13,18 +13,8 @@ import scipy.linalg
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from seacrane import (
-    Scene,
-    cases,
-    ensemble,
-    equilibrium,
-    load_chart,
-    motion_rao,
-    natural_modes,
-    response_statistics,
-    simulate,
-    statics,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane.crane import Payload
 from seacrane.hydro import passivity_certificate, shipped_database
 from seacrane.hydro.memory.fit import fit_memory
@@ -112,8 +102,8 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
     return out
 
 
-def ship() -> Scene:
-    scene = Scene(name="ship")
+def ship() -> sc.Scene:
+    scene = sc.Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="by-motion")
     scene.add_crane(s1=2.0, s2=2.0, payload=Payload(mass=5e4))
     scene.add_ballast()
@@ -123,13 +113,13 @@ def ship() -> Scene:
 CALLS: dict[str, Callable[[], object]] = {
     "case 2": cases.case2,
     "ballast": ship,
-    "equilibrium": lambda: equilibrium(ship()),
-    "statics": lambda: statics(ship()),
-    "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel_deg": 6.0}),
-    "natural modes": lambda: natural_modes(ship()),
-    "motion RAO": lambda: motion_rao(ship(), omega=[0.5, 1.0], direction=2.0, body="vessel"),
-    "statistics": lambda: response_statistics(ship(), spectrum=SEA, direction=2.0, body="vessel"),
-    "run": lambda: simulate(cases.case2(), 1.0),
+    "equilibrium": lambda: sc.equilibrium(ship()),
+    "statics": lambda: sc.statics(ship()),
+    "load chart": lambda: sc.load_chart(ship(), radii=[20.0], limits={"heel_deg": 6.0}),
+    "natural modes": lambda: sc.natural_modes(ship()),
+    "motion RAO": lambda: sc.motion_rao(ship(), omega=[0.5, 1.0], direction=2.0, body="vessel"),
+    "statistics": lambda: sc.response_statistics(ship(), spectrum=SEA, direction=2.0, body="vessel"),
+    "run": lambda: sc.simulate(cases.case2(), 1.0),
     "fit of a memory": lambda: fit_memory(database=shipped_database(), limit=0.3),
     "certificate": lambda: passivity_certificate(shipped_database().memory),
 }
@@ -150,4 +140,4 @@ def test_members_have_one_thread_whatever_runs_beside_them() -> None:
     scene = cases.vessel(memory="none")
     with ThreadPoolExecutor(2) as pool:
         for executor in (None, pool):
-            assert (ensemble(scene, over=over, executor=executor, **study).dataset.threads == 1.0).all()
+            assert (sc.ensemble(scene, over=over, executor=executor, **study).dataset.threads == 1.0).all()

@@ -10,21 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import (
-    Lift,
-    Run,
-    Scene,
-    SceneError,
-    Stage,
-    ensemble,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)  # fmt: skip
+import seacrane as sc
 from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.run.to_file import simulate_to_file
 
-WAIT = [Stage(name="wait", duration=2.0)]
+WAIT = [sc.Stage(name="wait", duration=2.0)]
 LIFT = """format = "seacrane lift"
 version = 2
 [scene]
@@ -43,9 +33,9 @@ length_m = 8.5
 """
 
 
-def hung() -> Scene:
+def hung() -> sc.Scene:
     """20 t on a line that is half a metre shorter than its path."""
-    scene = Scene(name="hung")
+    scene = sc.Scene(name="hung")
     scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, -10))
     scene.add_line(name="hoist", first="ground", second="load", EA=3e7, length=8.5)
     return scene
@@ -57,20 +47,20 @@ def height(result: Any) -> Any:
 
 def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path) -> None:
     scene = hung()
-    state = equilibrium(scene)
-    by_state = height(simulate(scene, 2.0, start=state))
+    state = sc.equilibrium(scene)
+    by_state = height(sc.simulate(scene, 2.0, start=state))
     stretched = 8.5 * (1.0 + 20e3 * scene.gravity / 3e7)
     assert by_state == pytest.approx(-1.0 - stretched, abs=1e-6)
-    assert np.array_equal(Run(scene, 2.0, start="rest").start.values, state.values)
+    assert np.array_equal(sc.Run(scene, 2.0, start="rest").start.values, state.values)
     for told in (
-        simulate(scene, 2.0, start="rest"),
+        sc.simulate(scene, 2.0, start="rest"),
         simulate_to_file(scene, tmp_path / "a.nc", 2.0, start="rest").load(),
-        simulate_stages(scene, WAIT, start="rest"),
+        sc.simulate_stages(scene, WAIT, start="rest"),
         simulate_stages_to_file(scene, WAIT, tmp_path / "b.nc", start="rest"),
     ):
         assert np.array_equal(height(told), by_state)
     over, keep = {"bodies.load.mass": [20e3, 30e3]}, {"range": "line_tension[hoist].std"}
-    kept = ensemble(scene, over=over, keep=keep, t_end=2.0, start="rest")
+    kept = sc.ensemble(scene, over=over, keep=keep, t_end=2.0, start="rest")
     assert np.all(kept.dataset["range"].to_numpy() < 1.0)
 
 
@@ -81,25 +71,25 @@ def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> N
         '[run]\nstart = "rest"\n[[stage]]\nname = "wait"\nduration_s = 2\n',
     ):
         (tmp_path / "lift.toml").write_text(LIFT + end)
-        lift = Lift.load(tmp_path / "lift.toml")
+        lift = sc.Lift.load(tmp_path / "lift.toml")
         assert lift.start == "rest"
         assert np.ptp(height(lift.simulate())) < 1e-6
     (tmp_path / "lift.toml").write_text(LIFT)
     with pytest.warns(match="jumps"):
-        assert np.ptp(height(Lift.load(tmp_path / "lift.toml").simulate())) > 0.1
+        assert np.ptp(height(sc.Lift.load(tmp_path / "lift.toml").simulate())) > 0.1
 
 
 def test_another_word_is_refused_with_the_one_that_is_known(tmp_path: Path) -> None:
     over, keep = {"bodies.load.mass": [1e3]}, {"a": "line_tension[hoist].max"}
     calls: list[Callable[..., Any]] = [
-        partial(simulate, hung(), 1.0), partial(simulate_stages, hung(), WAIT),
+        partial(sc.simulate, hung(), 1.0), partial(sc.simulate_stages, hung(), WAIT),
         partial(simulate_to_file, hung(), tmp_path / "a.nc", 1.0),
-        partial(ensemble, hung(), over=over, keep=keep, t_end=1.0),
+        partial(sc.ensemble, hung(), over=over, keep=keep, t_end=1.0),
     ]  # fmt: skip
     for call in calls:
-        with pytest.raises(SceneError, match=r"start is 'calm'.*rest"):
+        with pytest.raises(sc.SceneError, match=r"start is 'calm'.*rest"):
             call(start="calm")
-    scene = Scene(name="falls")
+    scene = sc.Scene(name="falls")
     scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, 0))
-    with pytest.raises(SceneError, match="load"):
-        simulate(scene, 1.0, start="rest")
+    with pytest.raises(sc.SceneError, match="load"):
+        sc.simulate(scene, 1.0, start="rest")

@@ -13,17 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import (
-    FileFormatError,
-    Result,
-    SampledController,
-    Scene,
-    SceneError,
-    SimulationError,
-    cases,
-    simulate,
-    simulate_to_file,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane.result import stream
 from seacrane.result.partial_file import PartialFile, Piece
 from seacrane.warnings import LargeHeelWarning, SteepSeaWarning
@@ -36,9 +27,9 @@ def small_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stream, "MOST_ROWS", 16)
 
 
-def spinner() -> Scene:
+def spinner() -> sc.Scene:
     """A crane's slew joint that turns round and round, with a motor."""
-    scene = Scene(name="spinner", gravity=0.0)
+    scene = sc.Scene(name="spinner", gravity=0.0)
     scene.add_body(name="king", mass=1.0, inertia=(1.0, 1.0, 1.0), angular_velocity=(0.0, 0.0, 3.0))
     scene.add_joint(kind="revolute", name="A", first="ground", second="king", point=(0.0, 0.0, 0.0))
     scene.record_coordinate(joint="A")
@@ -47,7 +38,7 @@ def spinner() -> Scene:
     return scene
 
 
-def same(one: Result, two: Result) -> None:
+def same(one: sc.Result, two: sc.Result) -> None:
     assert set(one.channels) == set(two.channels)
     assert np.array_equal(one.time, two.time)
     for name, values in one.channels.items():
@@ -66,7 +57,7 @@ def stopping_after(
     append = stream.ResultFile.append
     done = []
 
-    def counted(file: stream.ResultFile, result: Result, **given: Any) -> None:
+    def counted(file: stream.ResultFile, result: sc.Result, **given: Any) -> None:
         done.append(result)
         if len(done) == pieces:
             if error is not None:
@@ -80,9 +71,9 @@ def stopping_after(
 @pytest.mark.parametrize("outputs", [1, 16, 17, 200])
 def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> None:
     settings: dict[str, Any] = {"t_end": 0.1 * (outputs - 1), "dt_out": 0.1}
-    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
+    told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
     assert (told.outputs, told.interrupted) == (outputs, False)
-    whole, read = simulate(cases.case2(), **settings), told.load()
+    whole, read = sc.simulate(cases.case2(), **settings), told.load()
     same(whole, read)
     assert not read.interrupted and read.state == whole.state
     for name in set(whole.stats) - {"wall_s"}:
@@ -93,11 +84,11 @@ def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> Non
 @pytest.mark.warns("FullTurnWarning")
 @pytest.mark.slow("long runs")
 def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -> None:
-    whole = simulate(spinner(), t_end=4000.0, dt_out=0.2)
+    whole = sc.simulate(spinner(), t_end=4000.0, dt_out=0.2)
     assert whole["slew_angle"][-1] > 250.0
     for t_end in (2000.0, 4000.0):
         path, resume = tmp_path / "run.nc", t_end > 3000.0
-        told = simulate_to_file(spinner(), path, t_end=t_end, dt_out=0.2, resume=resume)
+        told = sc.simulate_to_file(spinner(), path, t_end=t_end, dt_out=0.2, resume=resume)
     np.testing.assert_allclose(told.load()["slew_angle"], whole["slew_angle"], atol=1e-3)
 
 
@@ -113,21 +104,21 @@ def test_a_stopped_run_goes_on_to_the_same_file(
     for pieces in (2, 3):
         with monkeypatch.context() as patch:
             stopping_after(pieces, patch)
-            told = simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 2, **settings)
+            told = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 2, **settings)
         assert told.interrupted
         partial = told.load()
         assert partial.interrupted
         assert 0 < partial.time.size < 3001
-    whole = simulate(scene, **settings)
-    rest = simulate_to_file(scene, tmp_path / "run.nc", resume=True, **settings)
+    whole = sc.simulate(scene, **settings)
+    rest = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=True, **settings)
     assert not rest.interrupted
     same(whole, rest.load())
     assert rest.load().stats["simulated_s"] == pytest.approx(300.0)
     assert rest.load().stats["steps"] == whole.stats["steps"]
 
 
-def bouncing() -> Scene:
-    scene = Scene(name="ball")
+def bouncing() -> sc.Scene:
+    scene = sc.Scene(name="ball")
     scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
     scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
     scene.add_end_stop(joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
@@ -136,10 +127,10 @@ def bouncing() -> Scene:
 
 def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
-    whole = simulate(bouncing(), t_end=20.0)
+    whole = sc.simulate(bouncing(), t_end=20.0)
     assert len(whole.events) > 10
     for t_end in (3.0, 15.0, 20.0):
-        told = simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
+        told = sc.simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
     joined = told.load()
     assert joined.stats["events"] == len(joined.events)
     assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
@@ -170,15 +161,15 @@ def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
                          capture_output=True, text=True, check=True, timeout=GENEROUS)  # fmt: skip
     text = json.loads(run.stdout)
     left = stream.partial_path(tmp_path / "run.nc")
-    partial = Result.load(left)
+    partial = sc.Result.load(left)
     assert partial.interrupted
     assert partial.time.size > 300
     assert "could not write" in text and f"until {partial.time[-1]:.6g} s are kept in {left}" in text
     assert all(np.isfinite(values).all() for values in partial.channels.values())
     assert [p.name for p in tmp_path.iterdir()] == [left.name]
     settings: dict[str, Any] = {"t_end": float(partial.time[-1]) + 10.0, "dt_out": 0.5}
-    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
-    same(simulate(cases.case2(), **settings), told.load())
+    told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
+    same(sc.simulate(cases.case2(), **settings), told.load())
 
 
 @pytest.mark.warns(sometimes=["LargeSwingWarning"])  # runs go as far as the machine brings them
@@ -186,10 +177,10 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stopping_after(3, monkeypatch, MemoryError)
-    with pytest.raises(SimulationError, match="memory ran out"):
-        simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
-    partial = Result.load(tmp_path / "run.nc")
-    same_piece = simulate(cases.case2(), t_end=float(partial.time[-1]), dt_out=0.5)
+    with pytest.raises(sc.SimulationError, match="memory ran out"):
+        sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
+    partial = sc.Result.load(tmp_path / "run.nc")
+    same_piece = sc.simulate(cases.case2(), t_end=float(partial.time[-1]), dt_out=0.5)
     assert partial.time.size > 32  # the output at the start, and two pieces of at least 16
     assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
 
@@ -213,7 +204,7 @@ def test_ctrl_c_while_a_piece_is_written_waits_for_it(
 
     monkeypatch.setattr(PartialFile, "append", pressed)
     monkeypatch.setattr(stream.ResultFile, "finish", pressed_again)
-    told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1e5, dt_out=1.0)
+    told = sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1e5, dt_out=1.0)
     assert told.interrupted
     assert told.outputs == told.load().time.size == sum(piece.outputs for piece in seen) >= 1
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -222,18 +213,18 @@ def test_ctrl_c_while_a_piece_is_written_waits_for_it(
 @pytest.mark.parametrize("cut", [1, 18, 103, 188])
 def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -> None:
     left = left_behind(tmp_path)
-    whole, data = Result.load(left), left.read_bytes()
+    whole, data = sc.Result.load(left), left.read_bytes()
     for room in (b"", bytes(cut)):  # also room that was given and not filled
         left.write_bytes(data[:-cut] + room)
-        partial = Result.load(left)
+        partial = sc.Result.load(left)
         assert 0 < partial.time.size < whole.time.size
         assert partial.interrupted and partial.state is not None
         assert partial.time[-1] <= partial.state.time < whole.time[-1]
         assert np.array_equal(partial["velocity"], whole["velocity"][: partial.time.size])
     with pytest.raises(FileExistsError, match=r"run\.nc\.partial .*resume=True"):
-        simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
+        sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
     with pytest.raises(FileNotFoundError, match=r"run\.nc\.partial"):
-        Result.load(tmp_path / "run.nc")
+        sc.Result.load(tmp_path / "run.nc")
 
 
 def left_behind(folder: Path, **settings: Any) -> Path:
@@ -242,8 +233,8 @@ def left_behind(folder: Path, **settings: Any) -> Path:
         "import os, sys; sys.path.insert(0, sys.argv[1])\n"
         "from test_streaming import *\n"
         "def look(now, measured):\n    if now > 9.0:\n        os._exit(1)\n    return {}\n"
-        "simulate_to_file(spinner(), sys.argv[2], t_end=20.0, checkpoint_every=1.0,"
-        " controllers=[SampledController(period=0.5, function=look)], **eval(sys.argv[3]))"
+        "sc.simulate_to_file(spinner(), sys.argv[2], t_end=20.0, checkpoint_every=1.0,"
+        " controllers=[sc.SampledController(period=0.5, function=look)], **eval(sys.argv[3]))"
     )
     subprocess.run(
         [sys.executable, "-c", code, str(Path(__file__).parent), str(folder / "run.nc"), repr(settings)],
@@ -256,15 +247,15 @@ def left_behind(folder: Path, **settings: Any) -> Path:
 def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
     def second(now: float, measured: Any) -> dict[str, float]:
         with pytest.raises(FileExistsError, match=r"run\.nc\.partial is being written by another run"):
-            simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1.0, overwrite=True)
+            sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1.0, overwrite=True)
         return {}
 
-    ticks = [SampledController(period=5.0, function=second)]
-    assert simulate_to_file(spinner(), tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
+    ticks = [sc.SampledController(period=5.0, function=second)]
+    assert sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
 
 
 RESUME: dict[str, Any] = {"resume": True, "t_end": 3.0}
-CONTROLLERS = {"controllers": [SampledController(period=1.0, function=lambda now, measured: {})]}
+CONTROLLERS = {"controllers": [sc.SampledController(period=1.0, function=lambda now, measured: {})]}
 OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"t_end": 1.0}, FileExistsError, "t_end 2.0, this run 1.0"),
     ({"rtol": 1e-8}, FileExistsError, "rtol 1e-06, this run 1e-08"),
@@ -272,14 +263,14 @@ OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"channels": ["velocity"]}, FileExistsError, "channels"),
     (CONTROLLERS, FileExistsError, "controllers"),
     ({"scene": cases.case2}, FileExistsError, "another scene"),
-    ({**RESUME, "rtol": 1e-3}, FileFormatError, "rtol 1e-06, this run 0.001"),
-    ({**RESUME, "dt_out": 0.2}, FileFormatError, "dt_out 0.1, this run 0.2"),
-    ({**RESUME, "integrator": "rk4"}, FileFormatError, "integrator 'dopri5', this run 'rk4'"),
-    ({**RESUME, "channels": ["velocity"]}, FileFormatError, "channels"),
-    ({**RESUME, "scene": cases.case2}, FileFormatError, r"run\.nc is of another scene"),
-    ({**RESUME, "start": "calm"}, SceneError, "start is 'calm'"),
-    ({**RESUME, "checkpoint_every": -1.0}, SceneError, "checkpoint_every|positive"),
-    ({**RESUME, "t_end": 1.0}, SceneError, "before the start"),
+    ({**RESUME, "rtol": 1e-3}, sc.FileFormatError, "rtol 1e-06, this run 0.001"),
+    ({**RESUME, "dt_out": 0.2}, sc.FileFormatError, "dt_out 0.1, this run 0.2"),
+    ({**RESUME, "integrator": "rk4"}, sc.FileFormatError, "integrator 'dopri5', this run 'rk4'"),
+    ({**RESUME, "channels": ["velocity"]}, sc.FileFormatError, "channels"),
+    ({**RESUME, "scene": cases.case2}, sc.FileFormatError, r"run\.nc is of another scene"),
+    ({**RESUME, "start": "calm"}, sc.SceneError, "start is 'calm'"),
+    ({**RESUME, "checkpoint_every": -1.0}, sc.SceneError, "checkpoint_every|positive"),
+    ({**RESUME, "t_end": 1.0}, sc.SceneError, "before the start"),
 ]
 
 
@@ -287,34 +278,34 @@ OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
 def test_only_the_same_run_replaces_a_result_unasked(tmp_path: Path) -> None:
     """Nor does another go on with it: it is refused and leaves the file alone."""
     path = tmp_path / "run.nc"
-    simulate_to_file(spinner(), path, t_end=2.0)
+    sc.simulate_to_file(spinner(), path, t_end=2.0)
     before = path.read_bytes()
     for change, kind, words in OTHERS:
         given = {"t_end": 2.0, **change}
         scene = given.pop("scene", spinner)()
         with pytest.raises(kind, match=words):
-            simulate_to_file(scene, path, **given)
+            sc.simulate_to_file(scene, path, **given)
         assert path.read_bytes() == before and [p.name for p in tmp_path.iterdir()] == ["run.nc"], words
     for given in ({}, {"t_end": 3.0}, {"t_end": 1.0, "overwrite": True}):  # the same, a later end, asked
         given = {"t_end": 2.0, **given}
-        assert simulate_to_file(spinner(), path, **given).load().time[-1] == given["t_end"]
+        assert sc.simulate_to_file(spinner(), path, **given).load().time[-1] == given["t_end"]
     path.write_text("a letter")
     for given in ({}, {"resume": True}):
-        with pytest.raises((FileExistsError, FileFormatError), match=r"is there and|is not a result"):
-            simulate_to_file(spinner(), path, t_end=2.0, **given)
-    simulate(spinner(), t_end=1.0).save(path)
+        with pytest.raises((FileExistsError, sc.FileFormatError), match=r"is there and|is not a result"):
+            sc.simulate_to_file(spinner(), path, t_end=2.0, **given)
+    sc.simulate(spinner(), t_end=1.0).save(path)
     with pytest.raises(FileExistsError, match="is there and"):
-        simulate_to_file(spinner(), path, t_end=2.0)
+        sc.simulate_to_file(spinner(), path, t_end=2.0)
     with pytest.raises(FileNotFoundError, match=r"no result file .*none\.nc to go on with"):
-        simulate_to_file(spinner(), tmp_path / "none.nc", t_end=2.0, resume=True)
+        sc.simulate_to_file(spinner(), tmp_path / "none.nc", t_end=2.0, resume=True)
     with pytest.raises(OSError, match="there is no folder"):
-        simulate_to_file(spinner(), tmp_path / "none" / "run.nc", t_end=2.0)
+        sc.simulate_to_file(spinner(), tmp_path / "none" / "run.nc", t_end=2.0)
 
 
 @pytest.mark.warns("FullTurnWarning")
 def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
-    simulate_to_file(spinner(), path, t_end=20.0)
+    sc.simulate_to_file(spinner(), path, t_end=20.0)
     before = path.read_bytes()
 
     def fail(now: float, measured: Any) -> dict[str, float]:
@@ -322,13 +313,13 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
             raise KeyboardInterrupt
         return {}
 
-    ticks = [SampledController(period=0.5, function=fail)]
-    told = simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, overwrite=True)
+    ticks = [sc.SampledController(period=0.5, function=fail)]
+    told = sc.simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, overwrite=True)
     assert told.interrupted
     assert path.read_bytes() == before
     assert told.path == stream.partial_path(path)
     assert told.load().time[-1] == pytest.approx(5.5)
-    told = simulate_to_file(spinner(), path, t_end=20.0, resume=True)
+    told = sc.simulate_to_file(spinner(), path, t_end=20.0, resume=True)
     assert told.load().time.size == 201
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
@@ -338,9 +329,9 @@ def test_where_nothing_can_be_written_nothing_is_said_to_be_kept(tmp_path: Path)
     for folder in (Path("/proc/self/fdinfo"), Path("/sys")):
         if folder.is_dir():
             with pytest.raises(OSError, match=r"could not write .*run\.nc: (?!.*kept)"):
-                simulate_to_file(spinner(), folder / "run.nc", t_end=1.0)
+                sc.simulate_to_file(spinner(), folder / "run.nc", t_end=1.0)
     with pytest.raises(OSError, match="is a device"):
-        simulate_to_file(spinner(), Path(os.devnull), t_end=1.0)
+        sc.simulate_to_file(spinner(), Path(os.devnull), t_end=1.0)
 
 
 MEMORY = """
@@ -373,9 +364,9 @@ def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
         scene = cases.vessel(hs=24.0)
     settings: dict[str, Any] = {"dt_out": 0.01, "channels": ["vessel_motion"]}
     with pytest.warns(LargeHeelWarning) as caught:
-        told = simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
+        told = sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
     assert len([w for w in caught if w.category is LargeHeelWarning]) <= 2  # roll, pitch
     assert "20 deg" in told.stats["validity"]
     assert told.load().stats["validity"] == told.stats["validity"]
-    simulate_to_file(scene, tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
+    sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
     assert told.load().stats["validity"].startswith(told.stats["validity"])

@@ -12,17 +12,7 @@ import numpy as np
 import pytest
 
 import seacrane
-from seacrane import (
-    Criterion,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    ensemble,
-    shipped_database,
-    simulate,
-    simulate_stages,
-)
+import seacrane as sc
 from seacrane.errors import KeywordError
 from seacrane.warnings import FailedMembersWarning
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
@@ -30,9 +20,9 @@ from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
 SHORT = {"rtol": 1e-2, "dt_out": 0.1}
 
 
-def module(*, height: float = -5.0, size: Any = (6, 4, 4), **hoist: Any) -> Scene:
-    scene = Scene(name="module")
-    scene.add_vessel(shipped_database())
+def module(*, height: float = -5.0, size: Any = (6, 4, 4), **hoist: Any) -> sc.Scene:
+    scene = sc.Scene(name="module")
+    scene.add_vessel(sc.shipped_database())
     scene.add_crane(slew=np.radians(-60.0), s1=2.0, s2=2.0)
     scene.add_hoist(mass=35e3, size=size, height=height, falls=2, EA=6e7, **hoist)
     scene.add_immersed("load", parts=[BoxPart(size=size, fill=0.2)])
@@ -48,12 +38,12 @@ def told(run: Callable[[], Any]) -> dict[str, str]:
     return {one.category.__name__: str(one.message) for one in caught}
 
 
-RUNS: dict[str, Callable[[Scene], Any]] = {
-    "described": lambda scene: simulate(scene, 0.1, **SHORT),
-    "rest": lambda scene: simulate(scene, 0.1, start="rest", **SHORT),
-    "stages": lambda scene: simulate_stages(scene, [Stage(name="all", duration=0.1)], **SHORT),
-    "stages from rest": lambda scene: simulate_stages(
-        scene, [Stage(name="all", duration=0.1)], start="rest", **SHORT
+RUNS: dict[str, Callable[[sc.Scene], Any]] = {
+    "described": lambda scene: sc.simulate(scene, 0.1, **SHORT),
+    "rest": lambda scene: sc.simulate(scene, 0.1, start="rest", **SHORT),
+    "stages": lambda scene: sc.simulate_stages(scene, [sc.Stage(name="all", duration=0.1)], **SHORT),
+    "stages from rest": lambda scene: sc.simulate_stages(
+        scene, [sc.Stage(name="all", duration=0.1)], start="rest", **SHORT
     ),
 }
 
@@ -71,14 +61,14 @@ def test_every_run_tells_the_same_of_a_scene(run: str) -> None:
 @pytest.mark.parametrize("rig", [{}, {"block_mass": 1e3}, {"block_mass": 1e3, "slings": True}])
 def test_a_wire_that_carries_the_dry_weight_under_water_is_told(rig: dict[str, Any]) -> None:
     rig = rig | ({"slings": {"angle_deg": 60, "EA": 5e7}} if "slings" in rig else {})
-    said = told(lambda: simulate(module(**rig), 0.1, **SHORT))["LiftedStartWarning"]
+    said = told(lambda: sc.simulate(module(**rig), 0.1, **SHORT))["LiftedStartWarning"]
     assert "'load': " in said and "water" in said
-    assert "LiftedStartWarning" not in told(lambda: simulate(module(height=2.0, **rig), 0.1, **SHORT))
+    assert "LiftedStartWarning" not in told(lambda: sc.simulate(module(height=2.0, **rig), 0.1, **SHORT))
 
 
-def on_deck(slew: float, height: float) -> Scene:
-    scene = Scene(name="deck")
-    scene.add_vessel(shipped_database())
+def on_deck(slew: float, height: float) -> sc.Scene:
+    scene = sc.Scene(name="deck")
+    scene.add_vessel(sc.shipped_database())
     scene.add_crane(slew=slew, s1=2.0, s2=2.0)
     scene.add_hoist(mass=35e3, size=(6, 4, 4), on="vessel", height=height, EA=6e7)
     scene.add_ballast()
@@ -99,38 +89,38 @@ def test_a_load_that_stands_on_no_deck_is_told_by_name(slew: float, height: floa
 
 @pytest.mark.parametrize(("aside", "told_of"), [(0.0, False), (24.0, True)])
 def test_a_load_beside_the_plane_of_a_deck_is_told(aside: float, told_of: bool) -> None:
-    scene = Scene(name="ship")
-    scene.add_vessel(shipped_database())
+    scene = sc.Scene(name="ship")
+    scene.add_vessel(sc.shipped_database())
     scene.add_body("box", mass=1e3, size=(1, 1, 1), position=(0.0, aside, 6.5))
     feet = [(x, y, -0.5) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
     scene.add_contact("box", on="vessel", points=feet, place=(0, 0, 6))
-    assert ("LoadOffDeckWarning" in told(lambda: simulate(scene, 0.05, **SHORT))) == told_of
-    scene = Scene(name="barge")
+    assert ("LoadOffDeckWarning" in told(lambda: sc.simulate(scene, 0.05, **SHORT))) == told_of
+    scene = sc.Scene(name="barge")
     scene.add_body("barge", mass=1e6, size=(30.0, 10.0, 4.0))
     scene.add_joint("moored", kind="weld", first="ground", second="barge")
     y = 0.2 * aside + 2.0  # of 5 m
     scene.add_body("box", mass=1e3, size=(1, 1, 1), position=(0.0, y, 2.5))
     scene.add_joint("stands", kind="weld", first="barge", second="box", point=(0, y, 2), axis=(0, 0, 1))
     scene.add_seat("stands")
-    assert ("'barge'" in told(lambda: simulate(scene, 0.1)).get("LoadOffDeckWarning", "")) == told_of
+    assert ("'barge'" in told(lambda: sc.simulate(scene, 0.1)).get("LoadOffDeckWarning", "")) == told_of
 
 
 def test_an_ensemble_in_which_some_fail_says_how_many_and_why() -> None:
-    scene = Scene(name="drop")
+    scene = sc.Scene(name="drop")
     scene.add_body("load", mass=1e3, inertia=(1e2,) * 3)
 
-    def light(result: Result) -> float:
+    def light(result: sc.Result) -> float:
         assert result.scene is not None
         if result.scene.bodies["load"].mass > 1.5e3:
             raise ValueError("too heavy")
         return 1.0
 
     with pytest.warns(FailedMembersWarning, match="1 of 3 members failed, .* member 2, by .*: too heavy"):
-        ensemble(scene, over={"bodies.load.mass": [1e3, 1.2e3, 2e3]}, keep={"light": light}, t_end=0.2)
+        sc.ensemble(scene, over={"bodies.load.mass": [1e3, 1.2e3, 2e3]}, keep={"light": light}, t_end=0.2)
 
 
-def hung(*parts: Any) -> Scene:
-    scene = Scene(name="wet")
+def hung(*parts: Any) -> sc.Scene:
+    scene = sc.Scene(name="wet")
     scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, 1.5))
     scene.add_line(
         "wire", first="ground", first_point=(0, 0, 40), second="load", EA=1e8, tension_at_start=2e5
@@ -139,8 +129,8 @@ def hung(*parts: Any) -> Scene:
     return scene
 
 
-def wire(**slip: Any) -> Scene:
-    scene = Scene(name="wire")
+def wire(**slip: Any) -> sc.Scene:
+    scene = sc.Scene(name="wire")
     scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, -90))
     given: dict[str, Any] = {"EA": 4e8, "length": 99.0, "mass_per_length": 25.0, "diameter": 0.06} | slip
     given |= {"first": "ground", "first_point": (0, 0, 10), "second": "load", "medium": "sea"}
@@ -182,13 +172,13 @@ def test_slips_of_a_unit_in_water_are_told_and_what_is_right_is_not(what: str) -
     one = (RIGHT | SLIPS)[what]
 
     def run() -> None:
-        simulate(wire(**one) if isinstance(one, dict) else hung(one()), 0.05, **SHORT)
+        sc.simulate(wire(**one) if isinstance(one, dict) else hung(one()), 0.05, **SHORT)
 
     assert ("UnitWarning" in told(run)) == (what in SLIPS)
 
 
 def test_a_ship_whose_motion_is_given_makes_no_slip_of_what_is_on_it() -> None:
-    scene = Scene(name="given")
+    scene = sc.Scene(name="given")
     scene.add_given_vessel("rest", size=(100, 20, 5))
     scene.add_body("box", mass=2e4, size=(4, 3, 2), position=(0, 0, 11.05))
     feet = [(x, y, -1) for x in (-2, 2) for y in (-1.5, 1.5)]
@@ -198,10 +188,10 @@ def test_a_ship_whose_motion_is_given_makes_no_slip_of_what_is_on_it() -> None:
     scene.add_point_force("thrust", body="vessel", force=(2e5, 0, 0))
     spring = {"stiffness": 1e6, "natural_length": 6.05, "damping": 1e5}
     scene.add_spring("sea fastening", first="vessel", first_point=(0, 0, 5), second="box", **spring)
-    assert "UnitWarning" not in told(lambda: simulate(scene, 0.05, **SHORT))
+    assert "UnitWarning" not in told(lambda: sc.simulate(scene, 0.05, **SHORT))
 
 
-CALLS: dict[str, Callable[[Scene], Any]] = {
+CALLS: dict[str, Callable[[sc.Scene], Any]] = {
     "hs": lambda scene: scene.add_sea(Hs=1.2, tp=7.0),
     "direction_deg": lambda scene: scene.add_sea(hs=1.2, tp=7.0, direction=90.0),
     "stiffness": lambda scene: scene.add_hoist(mass=1e4, size=(1, 1, 1), stifness=1e7),
@@ -210,9 +200,9 @@ CALLS: dict[str, Callable[[Scene], Any]] = {
         mass=1e4, size=(1, 1, 1), EA=1e7, block_mass=1.0, slings={"angle": 60.0, "EA": 1e7}
     ),
     "size": lambda _: BoxPart(sizes=(1, 1, 1)),  # type: ignore[call-arg]
-    "duration": lambda _: Stage(name="a", durations=1.0),  # type: ignore[call-arg]
-    "channel": lambda _: Criterion(chanel="roll", maximum=1.0),  # type: ignore[call-arg]
-    "dt_out": lambda scene: simulate(scene, 1.0, dtout=0.1),
+    "duration": lambda _: sc.Stage(name="a", durations=1.0),  # type: ignore[call-arg]
+    "channel": lambda _: sc.Criterion(chanel="roll", maximum=1.0),  # type: ignore[call-arg]
+    "dt_out": lambda scene: sc.simulate(scene, 1.0, dtout=0.1),
     "title": lambda _: __import__("seacrane").report(1, titel="x"),
     "name=...": lambda scene: scene.add_point_force(body="vessel", force=(1, 0, 0)),
     "name the others: point": lambda scene: scene.add_relative("a", "b", "c"),
@@ -221,8 +211,8 @@ CALLS: dict[str, Callable[[Scene], Any]] = {
 
 @pytest.mark.parametrize("right", CALLS)
 def test_a_keyword_that_is_not_there_leads_to_the_one_that_is(right: str) -> None:
-    scene = Scene(name="x")
-    scene.add_vessel(shipped_database())
+    scene = sc.Scene(name="x")
+    scene.add_vessel(sc.shipped_database())
     scene.add_crane()
     with pytest.raises(KeywordError, match=f"did you mean '{right}'" if right.isidentifier() else right):
         CALLS[right](scene)
@@ -234,7 +224,7 @@ def test_a_keyword_that_is_not_there_leads_to_the_one_that_is(right: str) -> Non
         (scene.add_hoist, hoist),
         (scene.add_body, {"name": "load", "mass": 1.0, "size": (1, 1, 1)}),
     ):
-        with pytest.raises(SceneError, match="run twice"):
+        with pytest.raises(sc.SceneError, match="run twice"):
             again(**given)
 
 
@@ -258,6 +248,6 @@ def test_what_is_no_scene_is_refused_by_name() -> None:
             name: 1.0 for name, one in parameters(function).items()
             if name != "scene" and one.default is one.empty and one.kind is not one.VAR_KEYWORD
         }  # fmt: skip
-        for given, fix in ((3, "give a Scene"), (None, "give a Scene"), (Scene(name="a").copy, "call it")):
-            with pytest.raises(SceneError, match=f"{function.__name__}: scene is .*; {fix}"):
+        for given, fix in ((3, "give a Scene"), (None, "give a Scene"), (sc.Scene(name="a").copy, "call it")):
+            with pytest.raises(sc.SceneError, match=f"{function.__name__}: scene is .*; {fix}"):
                 function(given, **needed)
