@@ -144,10 +144,7 @@ def wet() -> Scene:
     [
         (mean_of, {"values": np.arange(9.0)}, r"values of shape \(9,\)"),
         (mean_of, {"controls": np.arange(11.0)}, "controls: are 11 for 12"),
-        (mean_of, {"many_controls": np.arange(12.0)}, "many_controls: are 12 for 12"),
-        (mean_of, {"values": [np.nan] * 12}, "values: not all are finite"),
         (mean_of, {"controls": [1.0] * 12}, "controls: all are 1"),
-        (control_of, {"channel": "position[vessel, w]"}, "'w'"),
         (control_of, {"channel": "position[vessel]"}, "axis"),
         (control_of, {"channel": "hook_load"}, "hook_load is no motion"),
         (control_of, {"words": {"seed": 3}}, "'seed'"),

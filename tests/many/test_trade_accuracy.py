@@ -159,7 +159,6 @@ TICK = [SampledController(period=0.1, function=lambda t, m: {})]
     [
         ({}, {}, "accuracy is empty"),
         ({"position": 0.0}, {}, "position is 0.0"),
-        ({"position": float("nan")}, {}, "position is nan"),
         ({"roll": 0.1}, {}, "'roll' is unknown"),
         (0.01, {}, "mapping"),
         ({"position": 1e-17}, {}, "set by rounding"),

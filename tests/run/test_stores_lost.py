@@ -162,7 +162,7 @@ def test_drafts_are_removed_once_their_process_is_gone(tmp_path: Path) -> None:
 @pytest.mark.slow("many kills")
 @pytest.mark.parametrize("kind", KINDS)
 def test_kills_at_hundreds_of_file_operations_are_made_good(kind: str) -> None:
-    command = [sys.executable, "killed_stores.py", kind, "--attempts", "150"]
+    command = [sys.executable, "killed_stores.py", kind, "150"]
     scenes = Path(__file__).parents[1] / "scenes"
     done = subprocess.run(command, cwd=scenes, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr[-3000:]}"

@@ -22,6 +22,7 @@ G = 9.80665
 OTHERS = ("dop853", "verner65", "verner76", "tsit5")  # judges, the first two that the run did not take
 AGREED = 0.1  # of what was promised, between both judges
 T_END, DT_OUT = 8.0, 0.1  # s
+ENDS = ("held", "beyond", "refused", "not judgeable")
 
 
 def move(rng: np.random.Generator, *, end: float, start: float = 0.0) -> Curve:
@@ -127,14 +128,8 @@ def snatched(rng: np.random.Generator) -> Scene:
     """A load that falls some centimetres into its slack line, on a guide or free to swing."""
     scene, mass, place = hung(rng, drop=float(rng.uniform(0.005, 0.3)))
     if rng.random() < 0.5:
-        scene.add_joint(
-            kind="planar",
-            name="guide",
-            first="ground",
-            second="load",
-            point=(0.0, 0.0, 0.0),
-            axis=(0.0, 1.0, 0.0),
-        )
+        guide = {"kind": "planar", "first": "ground", "second": "load"}
+        scene.add_joint("guide", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0), **guide)
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)),
         EA=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
@@ -290,9 +285,7 @@ def position(scene: Scene, **settings: Any) -> Array:
 
 def told(words: Sequence[Word]) -> str:
     """Counts, and every scene that did not hold."""
-    ends = {
-        end: sum(one.end == end for one in words) for end in ("held", "beyond", "refused", "not judgeable")
-    }
+    ends = {end: sum(one.end == end for one in words) for end in ENDS}
     low = sum(one.error > one.told for one in words)
     lines = [f"{len(words)} scenes: {ends}, {low} above their estimate"]
     lines += [

@@ -42,10 +42,8 @@ def off_deck(rng: np.random.Generator) -> Lift:
     """A slack wire hauls in until it snaps taut and lifts the load off its seat."""
     scene = on_deck(length=float(rng.uniform(20.02, 20.2)), damping_ratio=float(rng.uniform(0.05, 0.3)))
     stages = lift_off()
-    rate = -float(rng.uniform(0.05, 0.5))
-    stages[1] = Stage(
-        name="lift off", until=Until.release("on deck"), maximum_duration=60.0, commands={"hoist.rate": rate}
-    )
+    haul = {"hoist.rate": -float(rng.uniform(0.05, 0.5))}
+    stages[1] = Stage(name="lift off", until=Until.release("on deck"), maximum_duration=60.0, commands=haul)
     return scene, stages[: int(rng.integers(3, 6))]
 
 
