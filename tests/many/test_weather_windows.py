@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -34,36 +33,26 @@ def series(hs: Any, *, step: float = 1.0, **given: Any) -> WaveHindcast:
     return WaveHindcast(**{"time": times, "hs": heights, "tp": np.full(heights.size, 9.0), **given})
 
 
-@dataclass(frozen=True)
-class BruteForce:
-    """The same numbers by looking at every time, one by one, without an array."""
-
-    may_start: list[bool]
-    waiting: list[float]
-    lengths: list[float]
-
-    @classmethod
-    def of(cls, workable: list[bool], *, step: float, hours: float) -> BruteForce:
-        may_start = []
-        for first in range(len(workable)):
-            covered, place = 0.0, first
-            while covered < hours - 1e-9 and place < len(workable) and workable[place]:
-                covered, place = covered + step, place + 1
-            may_start.append(covered >= hours - 1e-9)
-        waiting = []
-        for first in range(len(workable)):
-            place = first
-            while place < len(workable) and not may_start[place]:
-                place += 1
-            waiting.append((place - first) * step if place < len(workable) else float("nan"))
-        lengths, length = [], 0.0
-        for flag in [*workable, False]:
-            if flag:
-                length += step
-            else:
-                lengths += [length] if length >= hours - 1e-9 else []
-                length = 0.0
-        return cls(may_start, waiting, lengths)
+def brute_force(
+    workable: list[bool], *, step: float, hours: float
+) -> tuple[list[bool], list[float], list[float]]:
+    """The same numbers by looking at every time, one by one: whether one may start, the wait, the lengths."""
+    may_start = []
+    for first in range(len(workable)):
+        covered, place = 0.0, first
+        while covered < hours - 1e-9 and place < len(workable) and workable[place]:
+            covered, place = covered + step, place + 1
+        may_start.append(covered >= hours - 1e-9)
+    waiting = []
+    for first in range(len(workable)):
+        later = [place for place in range(first, len(workable)) if may_start[place]]
+        waiting.append((later[0] - first) * step if later else float("nan"))
+    lengths, length = [], 0.0
+    for flag in [*workable, False]:
+        if not flag and length >= hours - 1e-9:
+            lengths.append(length)
+        length = length + step if flag else 0.0
+    return may_start, waiting, lengths
 
 
 @pytest.mark.parametrize("hours", [0.5, 1.0, 5.0, 6.5, 24.0, 300.0])
@@ -74,16 +63,17 @@ def test_windows_are_those_of_brute_force(hours: float, step: float) -> None:
     hs = np.exp(0.5 * smooth)
     hs[random.integers(0, 900, 5)] = np.nan
     found = weather_windows(series(hs, step=step), 1.2, hours=hours)
-    by_hand = BruteForce.of([value <= 1.2 for value in hs.tolist()], step=step, hours=hours)
-    assert found.dataset["may_start"].to_numpy().tolist() == by_hand.may_start
-    assert np.array_equal(found.dataset["waiting"], by_hand.waiting, equal_nan=True)
-    assert found.dataset["length"].to_numpy().tolist() == by_hand.lengths
-    known = [wait for wait in by_hand.waiting if wait == wait]
+    workable = [value <= 1.2 for value in hs.tolist()]
+    may_start, waiting, lengths = brute_force(workable, step=step, hours=hours)
+    assert found.dataset["may_start"].to_numpy().tolist() == may_start
+    assert np.array_equal(found.dataset["waiting"], waiting, equal_nan=True)
+    assert found.dataset["length"].to_numpy().tolist() == lengths
+    known = [wait for wait in waiting if wait == wait]
     if known:
         assert found.waiting_mean == pytest.approx(sum(known) / len(known))
         assert found.waiting_p90 == pytest.approx(np.percentile(known, 90))
     assert found.unknown_percent == pytest.approx(100.0 * np.isnan(hs).mean())
-    assert found.censored_percent == pytest.approx(100.0 * np.isnan(by_hand.waiting).mean())
+    assert found.censored_percent == pytest.approx(100.0 * np.isnan(waiting).mean())
 
 
 def test_waiting_is_that_of_alternating_renewal() -> None:
