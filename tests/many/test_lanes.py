@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import subprocess
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -117,15 +116,6 @@ def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int)
 
 
 @needs_lanes
-def test_a_member_does_not_depend_on_what_runs_it() -> None:
-    study: dict[str, Any] = {"over": {"seed": range(1, 9)}, "keep": {"track": TRACK}, "lanes": 4, **STORM}
-    alone = ensemble(case("case2"), pack=8, **study).dataset.track
-    with ThreadPoolExecutor(2) as threads:
-        threaded = ensemble(case("case2"), pack=4, executor=threads, **study).dataset.track
-    assert np.array_equal(alone, threaded)
-
-
-@needs_lanes
 def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
     scene = case("case2")
     names = {
@@ -194,29 +184,16 @@ def test_lanes_that_fail_altogether_and_a_processor_without_them_are_told(monkey
     assert "no lanes" in reason(pendulum, [{"start": 1.0}] * 2)
 
 
-def drifting(*, seed: int, drift: bool, memory: str = "per-pair") -> Scene:
-    given: dict[str, Any] = {
-        "hs": 2.0,
-        "tp": 8.0,
-        "seed": seed,
-        "count": 40,
-        "drift": drift,
-        "memory": memory,
-    }
-    return cases.vessel(database=drifting_hull(), **given)
+def drifting(*, seed: int, drift: bool) -> Scene:
+    return cases.vessel(database=drifting_hull(), hs=2.0, tp=8.0, seed=seed, count=40, drift=drift)
 
 
 @needs_lanes
 @pytest.mark.parametrize("drift", [[False, True], [True, False], [True]])
 def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     """In lanes beside those that have it too, whichever is first."""
-    keep = {"sway": Kept(channel="vessel_motion", what="mean", names={"motion": "sway"})}
-    study: dict[str, Any] = {
-        "over": {"seed": [1, 2], "drift": drift},
-        "t_end": 20.0,
-        "rtol": 1e-8,
-        "keep": keep,
-    }
+    study: dict[str, Any] = {"over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8}
+    study["keep"] = {"sway": Kept(channel="vessel_motion", what="mean", names={"motion": "sway"})}
     alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
     assert np.abs(alone.sway - beside.sway).max() < 1e-5
     assert (beside.kept_apart == "").all()

@@ -18,13 +18,16 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
 FINE: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.1}
-HOIST = [
-    Stage(name="wait", duration=2.0),
-    Stage(name="raise", duration=3.0, commands={"hoist.rate": -0.4}),
-    Stage(name="hold", duration=2.0, commands={"hoist.rate": 0.0}),
-]
+
+
+def hoist(name: str, rate: float) -> Stage:
+    return Stage(name=name, duration=3.0, commands={"hoist.rate": rate})
+
+
+HOIST = [Stage(name="wait", duration=2.0), hoist("raise", -0.4), hoist("hold", 0.0)]
+HOOK = Kept(channel="hook_load", interval=0.5)
 KEEP: dict[str, Any] = {
-    "hook": Kept(channel="hook_load", interval=0.5),
+    "hook": HOOK,
     "raised": "line_unstretched_length[stage=hold].min",
     "end": "stage[raise].end",
 }
@@ -35,10 +38,8 @@ def lift(rung: str = "quasi-static") -> Scene:
     scene = Scene(name="hoisting")
     scene.add_vessel(shipped_database())
     scene.add_crane(slew=-1.2, s1=1.4, s2=1.0)
-    scene.add_hoist(
-        mass=60e3, size=(4.0, 4.0, 4.0), length=14.0, EA=4e8, rung=rung,
-        winch={"lag": 0.3, "maximum_rate": 1.0},
-    )  # fmt: skip
+    winch = {"lag": 0.3, "maximum_rate": 1.0}
+    scene.add_hoist(mass=60e3, size=(4.0, 4.0, 4.0), length=14.0, EA=4e8, rung=rung, winch=winch)
     scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=1, count=30)
     return scene
 
@@ -135,10 +136,7 @@ def test_stages_with_limits_are_run_as_alone_and_say_why() -> None:
 
 @pytest.mark.parametrize("integrator", ["rk4", "rk-low-storage"])
 def test_fixed_steps_run_side_by_side_as_alone(integrator: str) -> None:
-    study: dict[str, Any] = {
-        "over": {"seed": [1, 2, 3, 4]}, "t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01,
-        "keep": {"hook": Kept(channel="hook_load", interval=0.5)},
-    }  # fmt: skip
-    alone, beside = in_both(lift(), **study)
+    how: dict[str, Any] = {"t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01}
+    alone, beside = in_both(lift(), over={"seed": [1, 2, 3, 4]}, keep={"hook": HOOK}, **how)
     assert (beside.kept_apart == "").all()
     assert np.abs(beside.hook - alone.hook).max() < 1e-9 * np.abs(alone.hook).max()

@@ -48,11 +48,9 @@ def test_packs_threads_processes_and_a_resumed_store_give_the_same(
     pack: int, lifts: Ensemble, tmp_path: Path
 ) -> None:
     same: dict[str, Any] = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
-    with ThreadPoolExecutor(2) as threads:
-        assert ensemble(feeder(), executor=threads, **same).dataset.identical(lifts.dataset)
-    with ProcessPoolExecutor(2) as processes:
-        done = ensemble(feeder(), executor=processes, store=tmp_path / "s", **same)
-    assert done.dataset.identical(lifts.dataset)
+    for pool, given in ((ThreadPoolExecutor, {}), (ProcessPoolExecutor, {"store": tmp_path / "s"})):
+        with pool(2) as executor:
+            assert ensemble(feeder(), executor=executor, **given, **same).dataset.identical(lifts.dataset)
     for gone in sorted((tmp_path / "s").glob("pack_*.nc"))[::2]:
         gone.unlink()
     assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(lifts.dataset)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from kink_scenes import random_kinked
 from reference_problems import four_bars
 from trade_scenes import pendulum, promise, shares, summary
 
-from seacrane import SampledController, Scene, SceneError, cases, simulate
+from seacrane import SampledController, SceneError, cases, simulate
 from seacrane.accuracy.expected import scale_of
-from seacrane.accuracy.quantities import compare, quantities_of
+from seacrane.accuracy.quantities import quantities_of
 from seacrane.inputs.frames import rotation_matrix
 
 
@@ -45,69 +44,6 @@ def test_a_roll_has_the_scale_of_an_angle() -> None:
     assert [scale_of(one) for one in named.values()] == ["rad", "rad", "m"]
     result = simulate(scene, 20.0, accuracy={"roll": 1e-5})
     assert float(result.settings["rtol"]) >= 1e-4
-
-
-@dataclass(frozen=True, kw_only=True)
-class Word:
-    """An accuracy asked for, and what came of it; the estimate is None where it was refused."""
-
-    scene: Scene
-    part: float
-    limit: float
-    estimate: float | None = None
-    error: float = 0.0
-
-    @property
-    def kept(self) -> bool:
-        return self.estimate is None or self.error <= self.limit
-
-
-def word(rng: np.random.Generator, *, t_end: float) -> Word:
-    """Of a random scene with kinks, stops, wires and slewing whose motion two tight runs agree on."""
-    span: dict[str, Any] = {"t_end": t_end, "dt_out": 0.25, "channels": ["position"]}
-    while True:
-        scene = random_kinked(rng)
-        truth, other = (
-            np.asarray(simulate(scene, integrator=name, rtol=1e-11, maximum_step=0.05, **span)["position"])
-            for name in ("dop853", "verner76")
-        )
-        size = max(float(np.abs(truth - truth[0]).max()), 0.01)
-        part = 10.0 ** rng.uniform(-6.0, -2.0)
-        if compare(truth, other).largest < 0.1 * part * size:
-            break
-    asked = Word(scene=scene, part=part, limit=part * size)
-    try:
-        result = simulate(scene, accuracy={"position": asked.limit}, **span)
-    except SceneError:
-        return asked
-    estimate = float(result.stats["error_estimate_position"])
-    return replace(asked, estimate=estimate, error=compare(truth, np.asarray(result["position"])).largest)
-
-
-def told(words: list[Word]) -> str:
-    refused = [w for w in words if w.estimate is None]
-    low = [w for w in words if w.estimate is not None and w.error > w.estimate]
-    broken = [(w.scene.name, w.part, w.error / w.limit) for w in words if not w.kept]
-    return f"{len(words)} scenes: {len(refused)} refused, {len(low)} above their estimate, broken {broken}"
-
-
-def test_accuracies_hold_over_kinks_stops_and_wires() -> None:
-    rng = np.random.default_rng(12)
-    words = [word(rng, t_end=10.0) for _ in range(8)]
-    assert all(w.kept for w in words), told(words)
-    assert sum(w.estimate is None for w in words) <= 2, told(words)
-
-
-@pytest.mark.slow("hundreds of random scenes")
-def test_accuracies_hold_on_200_random_scenes_with_kinks_stops_and_wires(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    rng = np.random.default_rng(2028)
-    words = [word(rng, t_end=20.0) for _ in range(200)]
-    with capsys.disabled():
-        print("\n" + told(words))
-    assert sum(w.kept for w in words) >= 198, told(words)
-    assert sum(w.estimate is None for w in words) <= 10, told(words)
 
 
 def four_bar_error(limit: float) -> tuple[float, float]:

@@ -89,32 +89,6 @@ def test_ctrl_c_returns_what_was_recorded(name: str) -> None:
     assert told["more"] in (None, [False, 2.0])
 
 
-def test_ctrl_c_several_times_in_a_row_loses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pressed again while outputs are brought home; test_streaming.py has the same for runs to a file."""
-    result = Run.judged_result
-
-    def pressed(run: Run, most: int | None = None) -> Any:
-        for _ in range(3):
-            signal.raise_signal(signal.SIGINT)
-        found = result(run, most)
-        signal.raise_signal(signal.SIGINT)
-        return found
-
-    def press(now: float, measured: Any) -> dict[str, float]:
-        if now > 1.0:
-            signal.raise_signal(signal.SIGINT)
-        return {}
-
-    monkeypatch.setattr(Run, "judged_result", pressed)
-    ticks = [SampledController(period=0.5, function=press)]
-    told = simulate(ball_on_a_pin(), t_end=1e6, dt_out=0.5, controllers=ticks)
-    assert told.interrupted
-    assert told.time[-1] == 1.5
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    with pytest.raises(KeyboardInterrupt):
-        signal.raise_signal(signal.SIGINT)
-
-
 def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
     """It carries what was recorded, and the next run is its own."""
 

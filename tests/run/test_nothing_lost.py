@@ -40,8 +40,7 @@ def reference(stiffness: float = 0.0, t_end: float = SETTINGS["t_end"]) -> Resul
 
 def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settings: Any) -> int:
     """The number of a process that runs a pendulum to a file."""
-    number = os.fork()
-    if number:
+    if number := os.fork():
         return number
     ends = 1
     try:
@@ -131,16 +130,15 @@ def stale(seed: int, path: Path) -> None:
     rng = random.Random(seed)
     for _ in range(4):
         stiffness, t_end = rng.choice([0.0, 5.0]), rng.choice([20.0, SETTINGS["t_end"]])
-        if rng.random() < 0.4:
-            before = contents(path)
+        killed = rng.random() < 0.4
+        before, whole = contents(path), reference(stiffness, t_end)
+        if killed:
             killed_somewhere(path, rng, stiffness=stiffness, t_end=t_end)
             if contents(path).get(path.name) != before.get(path.name):  # it had reached its end
-                whole = reference(stiffness, t_end)
                 assert is_start_of(Result.load(path), whole)
                 assert Result.load(path).time.size == whole.time.size
             continue
         resume, overwrite = rng.random() < 0.5, rng.random() < 0.3
-        before = contents(path)
         given = {"resume": resume, "overwrite": overwrite, **SETTINGS, "t_end": t_end}
         try:
             told = simulate_to_file(pendulum(stiffness), path, **given)
@@ -151,7 +149,6 @@ def stale(seed: int, path: Path) -> None:
         assert result.time.size == told.outputs
         assert np.diff(result.time).max() < 1.5 * SETTINGS["dt_out"]
         assert result.time[-1] == t_end
-        whole = reference(stiffness, t_end)
         # Where a finished run went on to a later end, it landed on its first one.
         np.testing.assert_allclose(result["position"], whole["position"], atol=1e-3)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 import pytest
@@ -83,11 +84,8 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
 def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene = Scene(name="heavy")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    lines = scene.add_line(
-        name="hoist", rung="with mass", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=4e8,
-        length=100.0, mass_per_length=20.0, segments=8,
-    )  # fmt: skip
-    first = lines[0]
+    wire: dict[str, Any] = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
+    first, *_ = scene.add_line("hoist", rung="with mass", first="ground", second="load", **wire)
     points = np.asarray(first.points)
     points[0, 2] = up
     scene.replace(first.name, kind="load", points=points)

@@ -14,7 +14,6 @@ import pytest
 import seacrane
 import seacrane as sc
 from seacrane.errors import KeywordError
-from seacrane.warnings import FailedMembersWarning
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
 
 SHORT = {"rtol": 1e-2, "dt_out": 0.1}
@@ -103,20 +102,6 @@ def test_a_load_beside_the_plane_of_a_deck_is_told(aside: float, told_of: bool) 
     scene.add_joint("stands", kind="weld", first="barge", second="box", point=(0, y, 2), axis=(0, 0, 1))
     scene.add_seat("stands")
     assert ("'barge'" in told(lambda: sc.simulate(scene, 0.1)).get("LoadOffDeckWarning", "")) == told_of
-
-
-def test_an_ensemble_in_which_some_fail_says_how_many_and_why() -> None:
-    scene = sc.Scene(name="drop")
-    scene.add_body("load", mass=1e3, inertia=(1e2,) * 3)
-
-    def light(result: sc.Result) -> float:
-        assert result.scene is not None
-        if result.scene.bodies["load"].mass > 1.5e3:
-            raise ValueError("too heavy")
-        return 1.0
-
-    with pytest.warns(FailedMembersWarning, match="1 of 3 members failed, .* member 2, by .*: too heavy"):
-        sc.ensemble(scene, over={"bodies.load.mass": [1e3, 1.2e3, 2e3]}, keep={"light": light}, t_end=0.2)
 
 
 def hung(*parts: Any) -> sc.Scene:
