@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import warnings
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -34,19 +33,15 @@ from seacrane.sea import jonswap
 
 @pytest.fixture(scope="module")
 def tested() -> AllowableHs:
-    return sc.allowable_hs(
-        vessel(), criteria=[HEAVE, PITCH], tp=[7.0, 9.0], direction_deg=[135.0, 180.0], hs=[1.0, 2.0, 3.0],
-        **SHORT,
-    )  # fmt: skip
+    seas: dict[str, Any] = {"tp": [7.0, 9.0], "direction_deg": [135.0, 180.0], "hs": [1.0, 2.0, 3.0]}
+    return sc.allowable_hs(vessel(), criteria=[HEAVE, PITCH], **seas, **SHORT)
 
 
 @pytest.fixture(scope="module")
 def slack() -> AllowableHs:
     tension = sc.Criterion(channel="line_tension", maximum=4.0 * WEIGHT, exposure=900.0)
-    return sc.allowable_hs(
-        soft_wire(), criteria=[tension], tp=8.0, direction_deg=120.0, hs=[2.0, 4.0, 6.0],
-        **SHORT,
-    )  # fmt: skip
+    seas: dict[str, Any] = {"tp": 8.0, "direction_deg": 120.0, "hs": [2.0, 4.0, 6.0]}
+    return sc.allowable_hs(soft_wire(), criteria=[tension], **seas, **SHORT)
 
 
 def by_frequency(scene: sc.Scene, criteria: Any, **given: Any) -> AllowableHs:
@@ -116,10 +111,10 @@ def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
 def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> None:
     assert np.all(tested.dataset["domain"] == "frequency")
     assert np.nanmax(tested.dataset["difference"]) < 0.05
-    cell = sc.allowable_hs(
-        vessel(), criteria=[HEAVE, PITCH], tp=9.0, direction_deg=135.0, hs=[1.0, 2.0],
-        domain="time", **SHORT,
-    ).dataset.isel(tp=0, direction_deg=0)  # fmt: skip
+    sea: dict[str, Any] = {"tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "domain": "time"}
+    cell = sc.allowable_hs(vessel(), criteria=[HEAVE, PITCH], **sea, **SHORT).dataset.isel(
+        tp=0, direction_deg=0
+    )
     linear = tested.dataset.sel(tp=9.0, direction_deg=135.0)
     assert cell["domain"] == "time"
     assert cell["governing"] == linear["governing"] == "heave"
@@ -255,25 +250,17 @@ def test_alpha_lowers_the_forecast_and_nothing_else() -> None:
         alpha.at(1.0, hours=80.0)
 
 
-@pytest.mark.parametrize(
-    ("levels", "allowance", "hs"),
-    [
-        ([1.0, 2.0, 4.0], 0.5, 0.5),
-        ([1.0, 2.0, 4.0], 3.0, 2.5),
-        ([1.0, 2.0, 4.0], 5.0, np.inf),
+def test_the_first_crossing() -> None:
+    nan, inf = np.nan, np.inf
+    for levels, allowance, hs in (
+        ([1.0, 2.0, 4.0], 0.5, 0.5), ([1.0, 2.0, 4.0], 3.0, 2.5), ([1.0, 2.0, 4.0], 5.0, inf),
         ([1.0, 0.5, 4.0], 0.9, 0.9),  # the first crossing counts
-        ([1.0, np.inf, 4.0], 3.0, 1.0),  # runs that failed allow no more than the Hs below
-        ([np.inf, 1.0, 4.0], 3.0, np.nan),  # not known, which is not zero
-        ([1.0, 2.0, 4.0], 0.0, 0.0),
-    ],
-)
-def test_the_first_crossing(levels: list[float], allowance: float, hs: float) -> None:
-    assert first_crossing([1.0, 2.0, 3.0], levels, allowance) == pytest.approx(hs, nan_ok=True)
-
-
-def test_seeds_that_failed_are_no_evidence() -> None:
-    assert seeds_level(HEAVE, np.array([1.0, 2.0, np.nan]), 900.0).value == np.inf
-    with_one_failed = seeds_level(HEAVE, np.array([1.0, 1.2, 1.1, np.nan]), 900.0)
+        ([1.0, inf, 4.0], 3.0, 1.0),  # runs that failed allow no more than the Hs below
+        ([inf, 1.0, 4.0], 3.0, nan), ([1.0, 2.0, 4.0], 0.0, 0.0),  # not known is not zero
+    ):  # fmt: skip
+        assert first_crossing([1.0, 2.0, 3.0], levels, allowance) == pytest.approx(hs, nan_ok=True)
+    assert seeds_level(HEAVE, np.array([1.0, 2.0, nan]), 900.0).value == inf  # failed seeds are no evidence
+    with_one_failed = seeds_level(HEAVE, np.array([1.0, 1.2, 1.1, nan]), 900.0)
     assert with_one_failed.low < with_one_failed.value < with_one_failed.high
 
 
@@ -372,27 +359,21 @@ def test_progress_is_shown_of_every_step(monkeypatch: Any, capsys: pytest.Captur
         assert f"{step}: 100%" in said
 
 
+@pytest.mark.filterwarnings("ignore::UserWarning")
 def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is() -> None:
     """Runs begin in the linear steady state, which keeps the lengths of lines."""
-    found = {}
+    found, weight = {}, 5e3 * 9.80665
+    limit = sc.Criterion(channel="line_tension[hoist]", maximum=1.75 * weight, exposure=1800.0)
+    how: dict[str, Any] = {"seeds": range(1, 4), "duration": 150.0, "start_up": 50.0, "rtol": 1e-3}
     for rung in ("elastic", "quasi-static"):
         scene = sc.Scene(name=rung)
         scene.add_vessel(shipped_database())
         scene.add_sea(hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
         scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
-        scene.add_line(
-            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], EA=1e8,
-            tension_at_start=5e3 * 9.80665, rung=rung, damping_ratio=0.05,
-        )  # fmt: skip
-        limit = sc.Criterion(
-            channel="line_tension", names={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
-        )
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            table = sc.allowable_hs(
-                scene, criteria=[limit], tp=[7.0], direction_deg=[120.0], domain="time",
-                seeds=range(1, 4), duration=150.0, start_up=50.0, hs=(1.0, 1.5, 2.0), rtol=1e-3,
-            )  # fmt: skip
+        line: dict[str, Any] = {"tension_at_start": weight, "rung": rung, "damping_ratio": 0.05, "EA": 1e8}
+        scene.add_line("hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], **line)
+        sea: dict[str, Any] = {"tp": [7.0], "direction_deg": [120.0], "hs": (1.0, 1.5, 2.0)}
+        table = sc.allowable_hs(scene, criteria=[limit], domain="time", **sea, **how)
         assert not table.failures
         found[rung] = float(table.dataset["allowable_hs"].values[0, 0])
     assert found["quasi-static"] == pytest.approx(found["elastic"], rel=0.05)

@@ -153,21 +153,22 @@ def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp
 def test_what_a_scene_refuses_in_a_stage_names_the_stage() -> None:
     on = Stage(name="on", duration=1.0)
     tight = [until(Until.tension("wire", minimum=1e6), DOWN, "pull", 2.0), on]
-    lost = [on, until(Until.depth("lode", minimum=1.0), DOWN, "down")]
-    swell = until(Until.channel("wave_elevation", minimum=1.0), DOWN, "wait")
-    deck = on_deck(damping_ratio=0.1)
+    swell = [until(Until.channel("wave_elevation", minimum=1.0), DOWN, "wait")]
+    always = [until(Until.tension("wire", minimum=0.0), DOWN, "x")]
     for scene, stages, given, message in (
-        (hanging(), [swell], {}, "stage 'wait': until wave_elevation"),
-        (
-            hanging(),
-            [until(Until.tension("wire", minimum=0.0), DOWN, "x")],
-            {},
-            "stage 'x': would end at once",
-        ),
+        (hanging(), swell, {}, "stage 'wait': until wave_elevation"),
+        (hanging(), always, {}, "stage 'x': would end at once"),
         (hanging(), tight, {"first": "on"}, "first is 'on', and stage 'pull' .*start="),
         (hanging(), tight, {"first": "on", "start": "rest"}, "first is 'on', and stage 'pull' .*start="),
-        (hanging(), lost, {}, "stage 'down': waits for immersed 'lode'"),
-        (deck, [*lift_off(), on], {"first": "on"}, "first is 'on'.*no rest state found"),
+        (
+            on_deck(damping_ratio=0.1),
+            [*lift_off(), on],
+            {"first": "on"},
+            "first is 'on'.*no rest state found",
+        ),
     ):
         with pytest.raises(SceneError, match=message):
             simulate_stages(scene, stages, **given)
+    lost = [on, until(Until.depth("lode", minimum=1.0), DOWN, "down")]
+    with pytest.raises(SceneError, match="stage 'down': waits for immersed 'lode'"):
+        StagedRun(hanging(), lost)  # before anything runs
