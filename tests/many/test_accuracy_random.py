@@ -24,7 +24,7 @@ def test_accuracies_hold_on_a_sample_of_random_lifts() -> None:
 
 
 @pytest.mark.slow("hundreds of random lifts")
-def test_accuracies_hold_on_400_random_lifts(capsys: pytest.CaptureFixture[str]) -> None:
+def test_accuracies_hold_on_400_random_lifts(capsys: Any) -> None:
     words = [word(number, seed=SEED) for number in range(ALL)]
     with capsys.disabled():
         print("\n" + told(words))
@@ -37,7 +37,7 @@ def test_accuracies_hold_on_400_random_lifts(capsys: pytest.CaptureFixture[str])
 def test_a_rough_run_goes_on_where_a_void_opens(number: int) -> None:
     """A step up to the kink turned back before it: its last stages saw the rate of the other side."""
     scene, _ = scene_of(number, seed=SEED)
-    span: dict[str, Any] = {"t_end": 8.0, "dt_out": 0.1, "channels": ["position"]}
+    span = {"t_end": 8.0, "dt_out": 0.1, "channels": ["position"]}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         rough = simulate(scene, integrator="tsit5", rtol=1e-3, **span)
@@ -64,7 +64,7 @@ def test_a_burst_that_ends_at_the_pistons_end_is_as_accurate_as_told(
         viscous_friction=friction, spool_lag=0.05, air=0.01, makeup_flow=0.01, rupture_time=time,
         rupture_area=area,
     )  # fmt: skip
-    span: dict[str, Any] = {"t_end": 5.0, "dt_out": 0.1, "channels": ["position"]}
+    span = {"t_end": 5.0, "dt_out": 0.1, "channels": ["position"]}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         truth, other = (

@@ -106,7 +106,7 @@ def test_a_swing_of_a_crane_load_is_known_better() -> None:
 def test_a_hook_load_follows_the_square_of_the_swing() -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
+    given = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
         sea = with_sea(scene, {"seed": 2, "hs": hs})
@@ -120,12 +120,12 @@ def test_a_hook_load_follows_the_square_of_the_swing() -> None:
 
 
 def mean_of(**given: Any) -> Any:
-    usual: dict[str, Any] = {"values": np.arange(12.0), "controls": np.arange(12.0)}
+    usual = {"values": np.arange(12.0), "controls": np.arange(12.0)}
     return controlled_mean(**{**usual, "many_controls": np.arange(50.0), **given})
 
 
 def control_of(**given: Any) -> Any:
-    usual: dict[str, Any] = {"channel": "position[vessel, z]", "t_end": 40.0}
+    usual = {"channel": "position[vessel, z]", "t_end": 40.0}
     return LinearControl(given.pop("make", partial(vessel, memory="none"))(), **usual | given)
 
 
@@ -194,7 +194,7 @@ def test_the_control_of_a_load_in_water_is_the_run_in_small_waves() -> None:
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
 def test_drag_in_the_sea_as_described_damps_a_control() -> None:
-    how: dict[str, Any] = {"channel": "position[box, z]", "t_end": 100.0, "after": 20.0, "words": {"hs": 2.0}}
+    how = {"channel": "position[box, z]", "t_end": 100.0, "after": 20.0, "words": {"hs": 2.0}}
     free, braked = (LinearControl(lowered_load(drag, EA=2e6), **how) for drag in (0.0, 5.0))
     seeds = range(1, 5)
     assert braked.extremes(seeds).mean() < 0.98 * free.extremes(seeds).mean()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +17,7 @@ from seacrane.warnings import AccuracyNotHeldWarning
 
 LIMIT = 1e-4
 TRACK = {"track": Kept(channel="position", names={"body": "bob"})}
-GIVEN: dict[str, Any] = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
+GIVEN = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
 STARTS = {"start": [1.0 + 0.02 * place for place in range(40)]}
 
 
@@ -45,19 +44,14 @@ def test_one_method_is_chosen_at_little_cost(chosen: Ensemble, tmp_path: Path) -
     assert not set(told.probes) & set(told.checks)
     method = {"integrator": told.method.integrator, "rtol": told.method.used_rtol}
     assert ensemble(pendulum, over=STARTS, **method, **GIVEN).dataset.identical(chosen.dataset)
-    asked: dict[str, Any] = {
-        "over": STARTS,
-        "accuracy": {"position": LIMIT},
-        "store": tmp_path / "s",
-        **GIVEN,
-    }
+    asked = {"over": STARTS, "accuracy": {"position": LIMIT}, "store": tmp_path / "s", **GIVEN}
     with ThreadPoolExecutor(2) as executor:
         there = ensemble(pendulum, executor=executor, **asked)
     for one in (there, ensemble(pendulum, **asked)):
         assert one.dataset.identical(chosen.dataset)
         assert one.accuracy == told
     roll = {"roll": Kept(channel="vessel_motion", what="maximum", names={"motion": "roll"})}
-    storms: dict[str, Any] = {"over": {"seed": range(1, 26)}, "keep": roll, "t_end": 20.0, "dt_out": 0.5}
+    storms = {"over": {"seed": range(1, 26)}, "keep": roll, "t_end": 20.0, "dt_out": 0.5}
     at_sea = ensemble(vessel(hs=1.0, memory="passive"), accuracy={"roll": 1e-3}, **storms).accuracy
     assert at_sea is not None and at_sea.held
     assert (len(at_sea.probes), len(at_sea.checks)) == (1, 1)
@@ -72,7 +66,7 @@ def test_members_wilder_than_their_probes_are_found() -> None:
 
 
 def test_bad_input_is_named() -> None:
-    usual: dict[str, Any] = {"over": STARTS, "accuracy": {"position": LIMIT}, **GIVEN}
+    usual = {"over": STARTS, "accuracy": {"position": LIMIT}, **GIVEN}
     for given, message in (
         ({"rtol": 1e-3}, "accuracy chooses"), ({"accuracy": {}}, "accuracy is empty"),
         ({"accuracy": {"posture": 1.0}}, "'posture'"), ({"accuracy": {"position": 0.0}}, "position is 0.0"),

@@ -26,14 +26,7 @@ from ensemble_studies import (
     two_numbers_or_three,
 )
 
-from seacrane import (
-    Kept,
-    Scene,
-    SceneError,
-    SimulationError,
-    ensemble,
-    simulate,
-)
+from seacrane import Kept, Scene, SceneError, SimulationError, ensemble, simulate
 from seacrane.cases import vessel
 from seacrane.description.databases import without_databases
 from seacrane.description.file import described
@@ -73,7 +66,7 @@ def test_members_are_what_simulate_gives(serial: Ensemble) -> None:
 @pytest.mark.parametrize("pack", [1, 4, 100])
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
 def test_results_are_the_same_to_the_bit(pool: Any, pack: int, serial: Ensemble, tmp_path: Path) -> None:
-    how: dict[str, Any] = {"pack": pack, "store": tmp_path / "store", **SWING}
+    how = {"pack": pack, "store": tmp_path / "store", **SWING}
     with pool(2) as executor:
         there = ensemble(pendulum, over=GRID, keep=KEEP, executor=executor, **how)
     assert there.dataset.identical(serial.dataset)
@@ -82,7 +75,7 @@ def test_results_are_the_same_to_the_bit(pool: Any, pack: int, serial: Ensemble,
 
 def test_dask_gives_the_same(afloat: Scene) -> None:
     distributed = pytest.importorskip("distributed", reason="pip install 'seacrane[ensemble]'")
-    given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "t_end": 2.0, "rtol": 1e-3}
+    given = {"over": {"seed": [1, 2, 3]}, "t_end": 2.0, "rtol": 1e-3}
     given["keep"] = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
     workers = {"n_workers": 2, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
     with distributed.LocalCluster(**workers) as cluster, distributed.Client(cluster) as client:
@@ -91,7 +84,7 @@ def test_dask_gives_the_same(afloat: Scene) -> None:
 
 
 def test_seas_of_a_scene_are_those_of_add_sea(afloat: Scene) -> None:
-    words: dict[str, Any] = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
+    words = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
     made, asked = with_sea(afloat, words), vessel(**words)
     assert asked.waves is not None and afloat.waves is not None
     known = replace(asked.waves.provenance, repeat_period_s=None, repeat_found=None)
@@ -114,8 +107,6 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
             heading_deg=20.0,
         )  # fmt: skip
     made, asked = with_sea(scenes[0], {"seed": 1}).waves, scenes[1].waves
-    assert made is not None
-    assert asked is not None
     own, other = made.hull(), asked.hull()
     assert (own.position, own.heading, own.cutoff) == (other.position, other.heading, other.cutoff)
     assert np.allclose(own.transfer, other.transfer, rtol=1e-12)
@@ -155,7 +146,7 @@ def test_a_design_fills_every_part_of_its_ranges() -> None:
 @pytest.mark.parametrize("stored", [False, True])
 def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
     """And ends it where asked; one of another shape has failed too."""
-    given: dict[str, Any] = {"over": {"start": [1.0, 2.0, 3.0, 4.0]}, "keep": {"lowest": lowest}, **SWING}
+    given = {"over": {"start": [1.0, 2.0, 3.0, 4.0]}, "keep": {"lowest": lowest}, **SWING}
     told = "ValueError: no such start"
     there = ensemble(fails_in_the_middle, store=tmp_path / "store" if stored else None, **given)
     assert there.failures == {2: told}
@@ -173,7 +164,7 @@ def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
 def test_a_killed_worker_loses_only_what_was_in_flight(tmp_path: Path, monkeypatch: Any) -> None:
     monkeypatch.setenv("SEACRANE_TEST_PARENT", str(os.getpid()))
     over = {"start": [1.0, 2.0, 3.0, 4.0, 5.0], "mark": [str(tmp_path / "mark")]}
-    given: dict[str, Any] = {"over": over, "keep": KEEP, "store": tmp_path / "store", **SWING}
+    given = {"over": over, "keep": KEEP, "store": tmp_path / "store", **SWING}
     with ProcessPoolExecutor(2) as executor, pytest.raises(SimulationError, match=r"pack \d was lost"):
         ensemble(dies_once, executor=executor, **given)
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "store").glob("pack_*")}
@@ -243,7 +234,7 @@ def test_a_full_disk_is_named_and_loses_nothing(tmp_path: Path) -> None:
     ],
 )
 def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: str, tmp_path: Path) -> None:
-    given: dict[str, Any] = {"source": pendulum, "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
+    given = {"source": pendulum, "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
                              "keep": {"lowest": lowest}, "store": tmp_path / "store", **SWING}  # fmt: skip
     first = ensemble(**given)
     with pytest.raises(SceneError, match=f"is of another study: .*{named}"):
@@ -251,7 +242,7 @@ def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: s
     assert ensemble(**given).dataset.identical(first.dataset)
 
 
-def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_of_another_version_is_named(monkeypatch: Any) -> None:
     with ProcessPoolExecutor(1) as executor:
         executor.submit(os.getpid).result()  # it is there, with the version of before
         monkeypatch.setattr("seacrane.ensembles.filling.__version__", "9.9")
@@ -278,7 +269,7 @@ def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -
     ],
 )
 def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
-    usual: dict[str, Any] = {"source": pendulum(), "over": {"gravity": [9.0]}, "keep": KEEP, **SWING}
+    usual = {"source": pendulum(), "over": {"gravity": [9.0]}, "keep": KEEP, **SWING}
     with pytest.raises(SceneError, match=message):
         ensemble(**{**usual, **given})
 
@@ -295,7 +286,7 @@ def test_another_database_is_refused(afloat: Scene) -> None:
 
 def test_members_begin_where_they_are_told(tmp_path: Path) -> None:
     """A state for all, or a function of each scene; a store of another start is refused."""
-    asked: dict[str, Any] = {"over": {"start": [1.0]}, "keep": {"lowest": lowest}, **SWING}
+    asked = {"over": {"start": [1.0]}, "keep": {"lowest": lowest}, **SWING}
     half = simulate(pendulum(), **SWING | {"t_end": 1.0}).state
     whole = simulate(pendulum(), **SWING)["position"]
     later = ensemble(pendulum, **asked, start=half, store=tmp_path / "later")

@@ -27,7 +27,7 @@ LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
 needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
 TRACK = Kept(channel="position", names={"body": "payload"}, interval=2.0)
 MORE = "the lifts differ in what lanes share: in"
-STORM: dict[str, Any] = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
+STORM = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
 
 
 @cache
@@ -103,7 +103,7 @@ def stats(result: Result) -> list[float]:
 @needs_lanes
 @pytest.mark.parametrize("lanes", LANES)
 def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int) -> None:
-    study: dict[str, Any] = {"over": {"seed": range(1, 6)}, "keep": {"track": TRACK, "stats": stats},
+    study = {"over": {"seed": range(1, 6)}, "keep": {"track": TRACK, "stats": stats},
                              "t_end": 20.0, "dt_out": 1.0, "channels": ("position",)}  # fmt: skip
     fine = ensemble(case("case2"), rtol=1e-8, lanes=1, **study).dataset
     for rtol, bound in ((1e-2, 2e-2), (1e-5, 2e-5)):
@@ -141,7 +141,7 @@ def why(result: Result) -> float:
     return float(result.stats.get("lanes", 1))
 
 
-REASONS: list[str] = []
+REASONS = []
 
 
 def reason(source: Any, over: Any, **given: Any) -> str:
@@ -192,7 +192,7 @@ def drifting(*, seed: int, drift: bool) -> Scene:
 @pytest.mark.parametrize("drift", [[False, True], [True, False], [True]])
 def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     """In lanes beside those that have it too, whichever is first."""
-    study: dict[str, Any] = {"over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8}
+    study = {"over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8}
     study["keep"] = {"sway": Kept(channel="vessel_motion", what="mean", names={"motion": "sway"})}
     alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
     assert np.abs(alone.sway - beside.sway).max() < 1e-5
@@ -203,7 +203,7 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
 
 @needs_lanes
 def test_what_the_first_of_the_runs_decides_is_the_same_in_all() -> None:
-    given: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-6, "formulation": "recursive"}
+    given = {"t_end": 1.0, "rtol": 1e-6, "formulation": "recursive"}
     for other in ({"rtol": 1e-5}, {"maximum_step": 0.01}, {"t_end": 2.0}, {"integrator": "tsit5"}):
         runs = [Run(pendulum(), **given), Run(pendulum(), **given | other)]
         assert advance_side_by_side(runs, 4, lambda _: None)
@@ -217,7 +217,7 @@ def test_what_the_first_of_the_runs_decides_is_the_same_in_all() -> None:
 
 def beside_and_alone(scenes: list[Scene]) -> tuple[list[str], list[float]]:
     """Why runs were kept apart, and the largest difference of poses of each from its run alone."""
-    given: dict[str, Any] = {"rtol": 1e-9, "formulation": "recursive", "integrator": "dopri5", "dt_out": 0.5}
+    given = {"rtol": 1e-9, "formulation": "recursive", "integrator": "dopri5", "dt_out": 0.5}
     runs, alone = ([Run(scene, 1.0, **given) for scene in scenes] for _ in range(2))
     assert advance_side_by_side(runs, 4, lambda _: None)
     off = []
@@ -265,7 +265,7 @@ def test_a_cylinder_stands_on_the_side_of_its_own_lift(
 @needs_lanes
 def test_the_dataset_says_who_was_by_itself_and_why(tmp_path: Path) -> None:
     keep = {"z": Kept(channel="position"), "lanes": why}
-    how: dict[str, Any] = {"lanes": 4, "t_end": 2.0, "rtol": 1e-6, "store": tmp_path / "packs"}
+    how = {"lanes": 4, "t_end": 2.0, "rtol": 1e-6, "store": tmp_path / "packs"}
     made = ensemble(pendulum, over=[{"start": 1.0}] * 5, keep=keep, **how)
     told = ["", "", "", "", "there is no other run beside it"]
     assert made.dataset.kept_apart.to_numpy().tolist() == told
@@ -343,7 +343,7 @@ def test_bad_input_is_named() -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/cpuinfo").is_file(), reason="Linux tells what its processor can do")
-def test_instructions_are_those_that_linux_tells_of(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_instructions_are_those_that_linux_tells_of(monkeypatch: Any) -> None:
     """Whichever compiler made the core; Linux leaves out what it keeps no registers of."""
     monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[2] / "tools" / "wheel"))
     from processor import lanes_of_this_processor
@@ -356,7 +356,7 @@ def test_instructions_are_those_that_linux_tells_of(monkeypatch: pytest.MonkeyPa
 @needs_lanes
 def test_lanes_are_the_default_where_a_sea_varies() -> None:
     keep = {"lanes": why}
-    study: dict[str, Any] = {"keep": keep, "t_end": 0.5, "rtol": 1e-2}
+    study = {"keep": keep, "t_end": 0.5, "rtol": 1e-2}
     assert (ensemble(case("vessel"), over={"seed": [1, 2]}, **study).dataset.lanes == 4).all()
     assert (ensemble(case("vessel"), over={"seed": [1, 2]}, pack=2, **study).dataset.lanes == 1).all()
     assert (ensemble(case("vessel"), over={"gravity": [9.8, 9.81]}, **study).dataset.lanes == 1).all()

@@ -96,7 +96,7 @@ def test_lanes_may_differ_in_masses_and_loads(over: dict[str, tuple[float, ...]]
 
 @pytest.mark.parametrize("kind", ["elastic", "quasi-static", "compensated"])
 def test_seeds_of_an_ordinary_lift_run_side_by_side_as_alone(kind: str) -> None:
-    study: dict[str, Any] = {"over": {"seed": [1, 2, 3, 4]}, "t_end": 8.0, "rtol": 1e-8, "dt_out": 1.0}
+    study = {"over": {"seed": [1, 2, 3, 4]}, "t_end": 8.0, "rtol": 1e-8, "dt_out": 1.0}
     study["keep"] = {"hook": Kept(channel="hook_load", interval=1.0)}
     alone, beside = (ensemble(KINDS[kind], lanes=lanes, **study).dataset for lanes in (1, 4))
     assert (beside.kept_apart == "").all()
@@ -112,7 +112,7 @@ def stopped(start: float, stiffness: float = 200.0) -> Scene:
 
 def test_all_lanes_end_a_step_where_one_meets_a_kink() -> None:
     """Two of four swing against their stop."""
-    given: dict[str, Any] = {"t_end": 0.35, "rtol": 1e-9, "formulation": "recursive", "dt_out": 0.05}
+    given = {"t_end": 0.35, "rtol": 1e-9, "formulation": "recursive", "dt_out": 0.05}
     starts = (0.0, 3.0, 0.1, -3.5)
     runs, alone = ([Run(stopped(one), **given) for one in starts] for _ in range(2))
     assert advance_side_by_side(runs, 4, lambda _: None)
@@ -136,7 +136,7 @@ def struck(bob: float) -> Scene:
 
 
 def test_drivers_move_all_lanes_and_strike_them() -> None:
-    given: dict[str, Any] = {"t_end": 1.5, "rtol": 1e-9, "formulation": "recursive", "dt_out": 0.25}
+    given = {"t_end": 1.5, "rtol": 1e-9, "formulation": "recursive", "dt_out": 0.25}
     runs, alone = ([Run(struck(one), **given) for one in (1.0, 2.0, 3.0, 4.0)] for _ in range(2))
     assert advance_side_by_side(runs, 4, lambda _: None)
     assert all("kept_apart" not in run.lanes for run in runs)

@@ -17,7 +17,7 @@ pytestmark = [
     pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
-FINE: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.1}
+FINE = {"rtol": 1e-8, "dt_out": 0.1}
 
 
 def hoist(name: str, rate: float) -> Stage:
@@ -26,11 +26,7 @@ def hoist(name: str, rate: float) -> Stage:
 
 HOIST = [Stage(name="wait", duration=2.0), hoist("raise", -0.4), hoist("hold", 0.0)]
 HOOK = Kept(channel="hook_load", interval=0.5)
-KEEP: dict[str, Any] = {
-    "hook": HOOK,
-    "raised": "line_unstretched_length[stage=hold].min",
-    "end": "stage[raise].end",
-}
+KEEP = {"hook": HOOK, "raised": "line_unstretched_length[stage=hold].min", "end": "stage[raise].end"}
 
 
 @cache
@@ -84,14 +80,14 @@ PULL = [
     Stage(name="stand", duration=1.0),
     Stage(name="pull", duration=3.0, commands={"rail.displacement": Move(to=1.0, over=2.0)}),
 ]
-CART: dict[str, Any] = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"}, interval=0.5)}
-OVER: dict[str, Any] = {"seed": [1, 2, 3], "mass": [9.0, 4.0], "kind": ["prismatic", "cylindrical"]}
+CART = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"}, interval=0.5)}
+OVER = {"seed": [1, 2, 3], "mass": [9.0, 4.0], "kind": ["prismatic", "cylindrical"]}
 
 
 @pytest.mark.parametrize("stages", [(), PULL])
 def test_the_order_of_names_changes_nothing(stages: Any) -> None:
     """To the bit, nor who is beside whom: masses in lanes of one kind of joint."""
-    study: dict[str, Any] = {"keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages}
+    study = {"keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages}
     study |= {} if stages else {"t_end": 3.0}
     orders = [["seed", "mass", "kind"], ["kind", "mass", "seed"], ["mass", "kind", "seed"]]
     found = [ensemble(cart, over={name: OVER[name] for name in order}, **study).dataset for order in orders]
@@ -136,7 +132,7 @@ def test_stages_with_limits_are_run_as_alone_and_say_why() -> None:
 
 @pytest.mark.parametrize("integrator", ["rk4", "rk-low-storage"])
 def test_fixed_steps_run_side_by_side_as_alone(integrator: str) -> None:
-    how: dict[str, Any] = {"t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01}
+    how = {"t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01}
     alone, beside = in_both(lift(), over={"seed": [1, 2, 3, 4]}, keep={"hook": HOOK}, **how)
     assert (beside.kept_apart == "").all()
     assert np.abs(beside.hook - alone.hook).max() < 1e-9 * np.abs(alone.hook).max()

@@ -43,7 +43,7 @@ drifting = cache(drifting_hull)
 def afloat(rng: np.random.Generator) -> Callable[[], Scene]:
     """A ship, with its crane and load or without, made anew at each call."""
     name = str(rng.choice(["vessel", "vessel", "case2"]))
-    given: dict[str, Any] = {
+    given = {
         "memory": str(rng.choice(MEMORIES)), "drift": bool(rng.integers(2)), "hs": float(rng.uniform(1, 4)),
         "count": 30,
     }  # fmt: skip

@@ -33,14 +33,14 @@ from seacrane.sea import jonswap
 
 @pytest.fixture(scope="module")
 def tested() -> AllowableHs:
-    seas: dict[str, Any] = {"tp": [7.0, 9.0], "direction_deg": [135.0, 180.0], "hs": [1.0, 2.0, 3.0]}
+    seas = {"tp": [7.0, 9.0], "direction_deg": [135.0, 180.0], "hs": [1.0, 2.0, 3.0]}
     return sc.allowable_hs(vessel(), criteria=[HEAVE, PITCH], **seas, **SHORT)
 
 
 @pytest.fixture(scope="module")
 def slack() -> AllowableHs:
     tension = sc.Criterion(channel="line_tension", maximum=4.0 * WEIGHT, exposure=900.0)
-    seas: dict[str, Any] = {"tp": 8.0, "direction_deg": 120.0, "hs": [2.0, 4.0, 6.0]}
+    seas = {"tp": 8.0, "direction_deg": 120.0, "hs": [2.0, 4.0, 6.0]}
     return sc.allowable_hs(soft_wire(), criteria=[tension], **seas, **SHORT)
 
 
@@ -87,7 +87,6 @@ def _difference_of_run_and_model(hs: float, criteria: tuple[sc.Criterion, ...]) 
     rest = sc.equilibrium(scene, time=50.0)
     still = held(scene, time=50.0).copy(waves=scene.waves)
     linear = LinearSeas(still, rest, criteria)
-    assert still.waves is not None
     start, told = linear.in_waves(still.waves, 50.0, 50.0 + 0.5 * np.arange(101))
     run = sc.simulate(
         still, t_end=100.0, start=start, dt_out=0.5, rtol=1e-9, channels=[one.channel for one in criteria]
@@ -111,7 +110,7 @@ def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
 def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> None:
     assert np.all(tested.dataset["domain"] == "frequency")
     assert np.nanmax(tested.dataset["difference"]) < 0.05
-    sea: dict[str, Any] = {"tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "domain": "time"}
+    sea = {"tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "domain": "time"}
     cell = sc.allowable_hs(vessel(), criteria=[HEAVE, PITCH], **sea, **SHORT).dataset.isel(
         tp=0, direction_deg=0
     )
@@ -126,7 +125,7 @@ def test_runs_begin_without_the_transient_of_a_soft_mooring() -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
     sway = sc.Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
                      statistic="significant", name="sway")  # fmt: skip
-    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
+    asked = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
     runs = sc.allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
     linear = sc.allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
     found = runs.dataset.isel(tp=0, direction_deg=0)
@@ -158,7 +157,7 @@ def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs) -> None:
     assert cell["domain"] == "time"
     assert "line tension" in str(cell["reason"].item())
     assert float(cell["difference"][0]) > slack.dataset.attrs["linear_within"]
-    asked: dict[str, Any] = {"tp": 8.0, "direction_deg": 120.0}
+    asked = {"tp": 8.0, "direction_deg": 120.0}
     linear = by_frequency(soft_wire(), slack.criteria, **asked).dataset["allowable_hs"][0, 0]
     assert not cell["low"] <= linear <= cell["high"]
     tension = sc.Criterion(channel="line_tension", maximum=1.5 * WEIGHT, exposure=900.0)
@@ -220,13 +219,7 @@ def test_what_the_linear_model_has_not_is_left_to_runs() -> None:
 
 
 def test_threads_and_a_store_change_nothing(tmp_path: Path) -> None:
-    short: dict[str, Any] = {
-        "hs": [1.0, 2.0],
-        "domain": "time",
-        "duration": 200.0,
-        "start_up": 50.0,
-        "seeds": [1, 2, 3],
-    }
+    short = {"hs": [1.0, 2.0], "domain": "time", "duration": 200.0, "start_up": 50.0, "seeds": [1, 2, 3]}
     alone, store = asked(**short), {"store": tmp_path / "storms"}
     with ThreadPoolExecutor(2) as executor:
         stored = asked(**short, executor=executor, **store)
@@ -309,7 +302,7 @@ def test_between_directions_of_a_circle() -> None:
     assert over_circle(directions[:1], values[:1], np.array([0.0]))[0] == 1.0
 
 
-ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0]}
+ASKED = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0]}
 
 
 def asked(**given: Any) -> AllowableHs:
@@ -351,7 +344,7 @@ def test_what_makes_no_sense_is_refused(make: Any, given: dict[str, Any], messag
         make(**given)
 
 
-def test_progress_is_shown_of_every_step(monkeypatch: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_progress_is_shown_of_every_step(monkeypatch: Any, capsys: Any) -> None:
     monkeypatch.setattr("seacrane.operability.allowable.DELAY", 0.0)
     asked(duration=100.0, start_up=0.0, seeds=[1, 2, 3], linear_within=1e-9, progress=True)
     said = capsys.readouterr().err
@@ -364,15 +357,15 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is() -> 
     """Runs begin in the linear steady state, which keeps the lengths of lines."""
     found, weight = {}, 5e3 * 9.80665
     limit = sc.Criterion(channel="line_tension[hoist]", maximum=1.75 * weight, exposure=1800.0)
-    how: dict[str, Any] = {"seeds": range(1, 4), "duration": 150.0, "start_up": 50.0, "rtol": 1e-3}
+    how = {"seeds": range(1, 4), "duration": 150.0, "start_up": 50.0, "rtol": 1e-3}
     for rung in ("elastic", "quasi-static"):
         scene = sc.Scene(name=rung)
         scene.add_vessel(shipped_database())
         scene.add_sea(hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
         scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
-        line: dict[str, Any] = {"tension_at_start": weight, "rung": rung, "damping_ratio": 0.05, "EA": 1e8}
+        line = {"tension_at_start": weight, "rung": rung, "damping_ratio": 0.05, "EA": 1e8}
         scene.add_line("hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], **line)
-        sea: dict[str, Any] = {"tp": [7.0], "direction_deg": [120.0], "hs": (1.0, 1.5, 2.0)}
+        sea = {"tp": [7.0], "direction_deg": [120.0], "hs": (1.0, 1.5, 2.0)}
         table = sc.allowable_hs(scene, criteria=[limit], domain="time", **sea, **how)
         assert not table.failures
         found[rung] = float(table.dataset["allowable_hs"].values[0, 0])

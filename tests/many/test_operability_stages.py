@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from stage_scenes import MASS, G, heaving
 
@@ -13,13 +11,7 @@ LOWER = Until.length("wire", minimum=20.0)
 STAGES = [Stage(name="hang", duration=8.0),
           Stage(name="down", until=LOWER, maximum_duration=9.0, commands={"wire.rate": 0.4})]  # fmt: skip
 TENSION = Criterion(channel="line_tension[wire]", maximum=1.15 * MASS * G)
-ASKED: dict[str, Any] = {
-    "criteria": [TENSION],
-    "tp": 8.0,
-    "direction_deg": 0.0,
-    "hs": [2.0, 4.0],
-    "seeds": (1, 2, 3),
-}
+ASKED = {"criteria": [TENSION], "tp": 8.0, "direction_deg": 0.0, "hs": [2.0, 4.0], "seeds": (1, 2, 3)}
 
 
 @pytest.mark.parametrize("ramp", [pytest.param(0.0, marks=pytest.mark.warns("AssemblyWarning")), 5.0])

@@ -105,7 +105,6 @@ def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str, database: Hy
     made, settings = SCENES[name]
     given = {"t_end": 5.0, "dt_out": 0.5} | ({} if "dt" in settings else {"rtol": 1e-4}) | settings
     first, other = made(database, 1), made(database, 2)
-    assert other.waves is not None
     alone, again = Run(other, **given), Run(first, **given).in_sea(other.waves)
     for run in (alone, again):
         run.advance(given["t_end"])
@@ -129,7 +128,7 @@ WORDS: dict[str, list[Any]] = {
 @pytest.mark.parametrize("word", WORDS)
 def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
     scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
-    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
+    given = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
     there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, **given)
     for value in WORDS[word]:
         alone = simulate(with_sea(scene, {word: value}), **given)
@@ -157,9 +156,9 @@ def test_a_sea_that_cannot_be_made_again_is_refused(database: HydroDatabase) -> 
             ensemble(scene, over={"seed": [1, 2]}, keep=PATH)
 
 
-def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def counted(monkeypatch: Any) -> list[str]:
     """Names of what is compiled from now on."""
-    names: list[str] = []
+    names = []
     compile_scene = _core.compile
 
     def counting(**given: Any) -> _core.Model:
@@ -170,9 +169,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-def test_a_scene_is_compiled_once_for_all_its_seas(
-    database: HydroDatabase, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scene_is_compiled_once_for_all_its_seas(database: HydroDatabase, monkeypatch: Any) -> None:
     scene = cases.vessel(database=database)
     path, given = "bodies.vessel.mass", {"t_end": 1.0, "rtol": 1e-3}
     masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
@@ -195,8 +192,8 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     scene = cases.vessel(database=database, spreading=3.0)
     mass = float(scene.bodies["vessel"].mass)
     over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
-    given: dict[str, Any] = {"over": over, "keep": PATH, "lanes": 1, "t_end": 1.0, "rtol": 1e-3}
-    with pool(2) as executor:  # type: ignore[call-arg]
+    given = {"over": over, "keep": PATH, "lanes": 1, "t_end": 1.0, "rtol": 1e-3}
+    with pool(2) as executor:
         there = ensemble(scene, executor=executor, pack=3, **given)
     assert there.failures == {}
     assert there.dataset.identical(ensemble(scene, **given).dataset)
@@ -213,7 +210,6 @@ def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: Hydr
 def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) -> None:
     scene = cases.vessel(database=database)
     waves, run, calm = scene.waves, Run(scene, 1.0), Run(cases.vessel(database=database, hs=0.0), 1.0)
-    assert waves is not None
     scene.use_actual_position()
     for one, sea, words in ((calm, waves, "no sea"), (run, replace(waves, hulls={}), "other vessels"),
                             (run, scene.waves, "another kind of position")):  # fmt: skip
@@ -237,7 +233,7 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
     scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
+    given = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
     given |= {"integrator": "tsit5", "channels": ["position"]}
     there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
     with warnings.catch_warnings():

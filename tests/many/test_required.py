@@ -22,7 +22,7 @@ from seacrane.water import BoxPart
 LENGTH, RATIO, G = 5.0, 0.02, 9.80665
 OMEGA = math.sqrt(G / LENGTH)
 PERIODS = 5
-RUN: dict[str, Any] = {"t_end": (PERIODS + 0.25) * 2.0 * math.pi / OMEGA, "dt_out": 0.02, "rtol": 1e-9}
+RUN = {"t_end": (PERIODS + 0.25) * 2.0 * math.pi / OMEGA, "dt_out": 0.02, "rtol": 1e-9}
 LAST = {"last": f"position[bob, x, after={(PERIODS - 0.5) * 2.0 * math.pi / OMEGA:.6g}].max"}
 SWING = 0.02  # m
 
@@ -119,7 +119,7 @@ def beside_a_given_ship() -> sc.Scene:
 
 
 def executed(choice: Choice, scene: sc.Scene) -> sc.Scene:
-    held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
+    held = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
     exec(choice.script, held)
     made: sc.Scene = held["scene"]
     return made
@@ -142,18 +142,15 @@ def test_what_damping_takes_and_what_drag_of_nothing_does_not() -> None:
     assert all(row.changes == {"mass": 0.0} for row in asked.rows if row.stable)
 
 
-def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(monkeypatch: Any) -> None:
     monkeypatch.setattr(Loss, "share", property(lambda self: self.evaluations))
     monkeypatch.setattr(Loss, "spread", property(lambda self: 0.0))
     peak = {"peak": "hook_load[hoist].max"}
     scene = slung()
     found = sc.required(scene, keep=peak, within=0.02, t_end=3.0)
-    assert found.least is not None
     assert [row.of for row in found.taken] and found.least.evaluations < 0.5
     assert len({row.of for row in found.taken}) == len(found.taken)
-    held: dict[str, Any] = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses}
+    held = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses}
     exec(found.script, held)
     least = sc.simulate(held["scene"], 3.0)["hook_load"].max()
     full = sc.simulate(scene, 3.0)["hook_load"].max()
@@ -200,7 +197,7 @@ def test_oil_that_holds_is_as_good_as_a_driver() -> None:
     """And a start that is a function is that of each scene."""
     scene = on_oil()
     (held,) = [choice for choice in choices_of(scene) if choice.of == "drives"]
-    given: dict[str, Any] = {"keep": {"peak": "hook_load[hoist].max"}, "repeats": 1, "choices": [held]}
+    given = {"keep": {"peak": "hook_load[hoist].max"}, "repeats": 1, "choices": [held]}
     found = sc.required(scene, t_end=2.0, start="rest", **given)
     (row,) = found.rows
     assert row.evaluations < 1.0
@@ -233,7 +230,6 @@ def test_slow_drift_is_left_out_or_missed() -> None:
 def test_fewer_waves_keep_their_drift_and_their_loads_over_the_heading() -> None:
     scene = drifting()
     scene.use_actual_position()
-    assert scene.waves is not None
     few, all_of_them = needs.strongest(scene.waves, 5), needs.strongest(scene.waves, 20)
     kept = np.isin(scene.waves.omega, few.omega)
     assert kept.sum() == 5

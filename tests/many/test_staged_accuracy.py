@@ -56,11 +56,7 @@ def swinging_mass() -> sc.Scene:
     scene = sc.Scene(name="harmonic", gravity=0.0)
     scene.add_body("load", mass=MASS, inertia=(1.0, 1.0, 1.0), position=(1.0, 0.0, 0.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", axis=(1.0, 0.0, 0.0))
-    spring: dict[str, Any] = {
-        "first_point": (-20, 0, 0),
-        "natural_length": 20.0,
-        "stiffness": MASS * OMEGA**2,
-    }
+    spring = {"first_point": (-20, 0, 0), "natural_length": 20.0, "stiffness": MASS * OMEGA**2}
     scene.add_spring("hold", first="ground", second="load", **spring)
     return scene
 
@@ -159,7 +155,7 @@ def test_an_accuracy_of_a_random_staged_lift_holds(number: int) -> None:
 
 
 @pytest.mark.slow("hundreds of random lifts")
-def test_accuracies_hold_on_400_random_staged_lifts(capsys: pytest.CaptureFixture[str]) -> None:
+def test_accuracies_hold_on_400_random_staged_lifts(capsys: Any) -> None:
     words = [word(number) for number in range(400)]
     with capsys.disabled():
         print("\n" + told(words))
@@ -192,7 +188,7 @@ accuracy = {"stage[fall].end" = 1e-3, "contact_press.max" = 100.0}
 """
 
 
-def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path, capsys: Any) -> None:
     path = tmp_path / "drop.toml"
     path.write_text(LIFT)
     lift = sc.Lift.load(path)

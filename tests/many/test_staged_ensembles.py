@@ -44,13 +44,13 @@ def lift_at(rate: float, most: float = 30.0) -> list[sc.Stage]:
 
 
 STAGES = lift_at(-0.5)
-KEEP: dict[str, Any] = {
+KEEP = {
     "peak": "hook_load[stage=up].max",
     "whole": "hook_load.max",
     "lifted": "stage[lift].end",
     "took": "stage[lift].duration",
 }
-HOW: dict[str, Any] = {"dt_out": 0.02, "rtol": 1e-5}
+HOW = {"dt_out": 0.02, "rtol": 1e-5}
 
 
 @pytest.fixture(scope="module")
@@ -128,10 +128,10 @@ def test_a_member_that_never_reaches_a_stage_says_so() -> None:
 
 
 def test_a_store_goes_on_and_tells_other_stages_apart(
-    tmp_path: Path, lifts: Ensemble, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, lifts: Ensemble, monkeypatch: Any
 ) -> None:
     """Stopped in the third member: the first two are read, the others run; another rate is another study."""
-    asked: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
+    asked = {"over": {"seed": [1, 2, 3]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
     steps = iter(range(1000))
 
     def stopping(run: Any) -> Any:
@@ -157,14 +157,14 @@ def test_a_store_goes_on_and_tells_other_stages_apart(
 
 def test_seeds_are_added_until_the_peak_is_known() -> None:
     keep = {"peak": "hook_load[hoist, stage=up].max"}
-    how: dict[str, Any] = {"over": {"seed": range(60)}, "until": {"peak.mean": 0.1}, "keep": keep, **HOW}
+    how = {"over": {"seed": range(60)}, "until": {"peak.mean": 0.1}, "keep": keep, **HOW}
     (one,) = sc.ensemble(feeder(hs=0.5), stages=STAGES, **how).certainty
     assert one.seeds in (20, 40, 60)
 
 
 @pytest.mark.warns("FailedMembersWarning")
 def test_what_contradicts_is_refused_by_name() -> None:
-    usual: dict[str, Any] = {"stages": STAGES, "over": {"seed": [1]}, "keep": KEEP}
+    usual = {"stages": STAGES, "over": {"seed": [1]}, "keep": KEEP}
     for given, words in (
         ({"t_end": 10.0}, r"t_end is 10\.0"), ({"stages": "lift"}, "stages is 'lift'"),
         ({"lanes": 4, "over": {"seed": [1], "start_time": [1.0]}}, "lanes is 4.* start_time"),
@@ -183,7 +183,7 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
     bound = 1.85 * MASS * G
     up = Criterion(channel="hook_load[stage=up]", maximum=bound, statistic="p90")
     criteria = [up, Criterion(channel="hook_load", maximum=bound, name="whole", statistic="p90")]
-    how: dict[str, Any] = {"dt_out": 0.05, "rtol": 1e-4}
+    how = {"dt_out": 0.05, "rtol": 1e-4}
     told = allowable_hs(scene, criteria=criteria, tp=[8.0], direction_deg=[180.0], hs=heights, seeds=seeds,
                         stages=STAGES, **how)  # fmt: skip
     how["start"] = sc.equilibrium(scene)

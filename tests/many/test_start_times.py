@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import matplotlib.figure
 import numpy as np
@@ -19,7 +18,7 @@ from seacrane.ensembles.other_sea import with_sea
 from seacrane.statistics import distribution
 from seacrane.warnings import FewSeedsWarning
 
-OVER: dict[str, Any] = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
+OVER = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +46,7 @@ def test_each_begins_in_the_state_of_its_sea_to_the_bit(lifts: Ensemble) -> None
 def test_packs_threads_processes_and_a_resumed_store_give_the_same(
     pack: int, lifts: Ensemble, tmp_path: Path
 ) -> None:
-    same: dict[str, Any] = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
+    same = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
     for pool, given in ((ThreadPoolExecutor, {}), (ProcessPoolExecutor, {"store": tmp_path / "s"})):
         with pool(2) as executor:
             assert ensemble(feeder(), executor=executor, **given, **same).dataset.identical(lifts.dataset)

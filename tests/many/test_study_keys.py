@@ -173,7 +173,7 @@ def test_bad_input_is_named_with_its_line(study: Path) -> None:
         assert not (study.parent / "out").exists()
 
 
-def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: Any) -> None:
     path = tmp_path / "swing.toml"
     path.write_text(SWING)
     assert main(["study", str(path), "--out", str(tmp_path / "out")]) == 0

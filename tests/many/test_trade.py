@@ -120,12 +120,12 @@ def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
 
 
 def test_a_later_call_goes_on_and_another_scene_begins_anew(
-    case2: sc.Scene, measured: Trade, folder: Path, monkeypatch: pytest.MonkeyPatch
+    case2: sc.Scene, measured: Trade, folder: Path, monkeypatch: Any
 ) -> None:
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()
     path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
-    called: list[str] = []
+    called = []
 
     def filled(*arguments: object, **given: object) -> Row:
         called.append("one")
@@ -146,7 +146,7 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
 def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Integrator) -> None:
     """The table of integrators is asked in place of the scene: it tells the truth, and the grid has all."""
-    given: dict[str, Any] = {"t_end": 0.2, "dt_out": 0.2, "integrator": known.name, "channels": ["position"]}
+    given = {"t_end": 0.2, "dt_out": 0.2, "integrator": known.name, "channels": ["position"]}
     runs = [sc.Run(pendulum(), dt=dt, **given) for dt in (0.05, 0.025)]
     assert all(run.advance(0.2) for run in runs)
     few, many = (run.core.statistics()["steps"] for run in runs)
@@ -206,7 +206,6 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
 
 def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
     waves = case2.waves
-    assert waves is not None
     half = simpler_scenes.strongest(waves, 100)
     assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
     load = [np.sum(np.abs(w.hull().transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
@@ -263,8 +262,8 @@ def test_what_cannot_change_the_front_is_not_measured() -> None:
         assert ladders.next() == following and ladders.open == (following is not None)
 
 
-def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: pytest.MonkeyPatch) -> None:
-    units: list[str] = []
+def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: Any) -> None:
+    units = []
 
     def counted(bench: object, row: Row, **given: object) -> Row:
         units.append(row.key)

@@ -292,4 +292,4 @@ def test_the_picture_has_both_shares_and_three_waiting_times(table: AllowableHs)
     shares, waits = figure.axes
     assert len(shares.patches) == 24 and len(waits.lines) == 3
     with pytest.raises(SceneError, match="windows is"):
-        plot_weather_windows(table)  # type: ignore[arg-type]
+        plot_weather_windows(table)

@@ -47,7 +47,7 @@ def test_a_look_that_fails_keeps_the_run(place: str, tmp_path: Path, monkeypatch
         np.testing.assert_allclose(result["position"][-1], expected["position"][-1], rtol=1e-6)
 
 
-def test_an_estimate_or_a_derived_channel_that_fails_keeps_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_estimate_or_a_derived_channel_that_fails_keeps_the_run(monkeypatch: Any) -> None:
     with monkeypatch.context() as patch:
         patch.setattr(seacrane.accuracy.choice, "model_errors", fails)
         with pytest.warns(UnjudgedWarning, match="error of the model"):

@@ -129,7 +129,6 @@ def test_what_is_pickled_is_all_that_the_constructor_takes(kind: type) -> None:
             samples += getattr(scene, field.name).values()
     (sample, *_) = [one for one in samples if type(one) in (kind, *kind.__subclasses__())]
     if kind is not Curve:  # made by Curve.pieces
-        assert told is not None
         own = inspect.signature(type(sample)).parameters if type(sample) is not kind else {}
         taken = {*re.findall(r", (\w+): ", told.group(1)), *(one for one in own if one != "matrices")}
         assert set(sample.__getstate__()) == taken
@@ -185,7 +184,6 @@ def test_c_functions_are_copied_here_and_refused_elsewhere() -> None:
     scene = Scene()
     scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
     address = ctypes.cast(function, ctypes.c_void_p).value
-    assert address is not None
     scene.add_function_force(name="pull", body="box", address=address)
     assert copy.deepcopy(scene) == scene
     with pytest.raises(SceneError, match="function force 'pull': its C function has no address in another"):

@@ -67,7 +67,7 @@ def test_no_energy_is_lost_with_restitution_one() -> None:
 def test_chattering_ends_in_an_error_that_names_limit_joint_and_time() -> None:
     restitution = 0.95
     end = np.sqrt(2.0 * HEIGHT / GRAVITY) * (1.0 + restitution) / (1.0 - restitution)
-    how: dict[str, Any] = {"t_end": 40.0, "dt_out": 1.0, "rtol": 1e-6}
+    how = {"t_end": 40.0, "dt_out": 1.0, "rtol": 1e-6}
     with pytest.raises(ChatteringError, match=r"'floor' on joint 'air': chatters, .* at t = ([\d.]+) s") as e:
         simulate(ball(restitution=restitution, sticking_speed=0.0), **how)
     assert f"t = {end:.4f}" in str(e.value)
@@ -168,12 +168,7 @@ def thrown(restitution: float) -> Scene:
     scene = Scene(name="thrown", gravity=0.0)
     scene.add_body("a", mass=2.0, inertia=(0.5, 0.7, 0.9), position=(0, 0, 0), velocity=(-1.0, 0.2, 0))
     scene.add_body("b", mass=5.0, inertia=(1.5, 1.1, 0.6), position=(1, 0, 0), velocity=(2.0, 0, 0.5))
-    ends: dict[str, Any] = {
-        "first": "a",
-        "second": "b",
-        "point": (0, 0.1, 0.2),
-        "second_point": (1.0, -0.2, 0),
-    }
+    ends = {"first": "a", "second": "b", "point": (0, 0.1, 0.2), "second_point": (1.0, -0.2, 0)}
     scene.add_joint(kind="distance", name="wire", length=3.0, **ends)
     scene.add_line(joint="wire", rung="rigid", restitution=restitution)
     return scene
@@ -228,7 +223,7 @@ def test_a_run_goes_on_bit_for_bit_with_the_limits_that_hold(
     formulation: str, integrator: str, setting: dict[str, float], tmp_path: Path
 ) -> None:
     """Stopped taut, slack, and taut again, from files: the same events and states follow."""
-    settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "t_end": 4.0, **setting}
+    settings = {"integrator": integrator, "formulation": formulation, "t_end": 4.0, **setting}
     whole = Run(pendulum(restitution=0.2), **settings)
     for stop, closed in ((0.3, ["wire"]), (1.2, []), (2.3, ["wire"])):
         whole.advance(stop)

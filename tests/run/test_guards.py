@@ -12,17 +12,7 @@ import numpy as np
 import pytest
 from multibody_runs import ramp
 
-from seacrane import (
-    Curve,
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    SimulationError,
-    State,
-    _core,
-    simulate,
-)
+from seacrane import Curve, Result, Run, Scene, SceneError, SimulationError, State, _core, simulate
 from seacrane._core import integrators
 from seacrane.analysis import linearise
 from seacrane.answers import report
@@ -94,7 +84,6 @@ def hanging(length: float = 2.0, **start: Any) -> Scene:
 def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept(formulation: str) -> None:
     scene = box()
     address = ctypes.cast(fails_later, ctypes.c_void_p).value
-    assert address is not None
     scene.add_function_force(name="pull", body="box", address=address, parameters=[])
     with pytest.raises(SimulationError, match=r"function force 'pull': force \(nan, 0, 0\) N") as caught:
         simulate(scene, t_end=1.0, dt_out=0.1, formulation=formulation)
@@ -127,7 +116,7 @@ STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to}
 def test_the_limits_told_are_those_of_the_methods(method: str) -> None:
     """Energy over 2000 steps of an undamped oscillator, a little below and above the limit."""
     limit = _core.integrator(method).stable_up_to
-    settings: dict[str, Any] = {"integrator": method, "t_end": 1900 * limit, "dt_out": 10.0 * limit}
+    settings = {"integrator": method, "t_end": 1900 * limit, "dt_out": 10.0 * limit}
     kept = simulate(slide(1.0), dt=0.95 * limit, **settings)
     assert np.abs(kept["velocity"][:, 0, 0]).max() < 1.0
     with pytest.raises((SimulationError, AssertionError)):
@@ -151,7 +140,6 @@ def test_a_run_that_one_fast_mode_makes_slow_tells_the_mode_and_the_body(integra
     with pytest.warns(StiffWarning, match=r"mode, (\S+) per s .* moves body 'stiff'") as caught:
         result = simulate(held(5e3), t_end=20.0, integrator=integrator, channels=["position"])
     told = re.search(r"mode, (\S+) per s", str(caught[0].message))
-    assert told is not None
     # A double eigenvalue: half of its digits are told.
     assert float(told[1]) == pytest.approx(5e3, rel=1e-3)
     assert "fastest mode" in str(result.stats["validity"])
@@ -214,12 +202,11 @@ def pendulum() -> Scene:
 
 @pytest.mark.filterwarnings("ignore::seacrane.validity.left_range.FullTurnWarning")
 def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
-    settings: dict[str, Any] = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
+    settings = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
     free = simulate(pendulum(), **settings)
     share = np.abs(free["energy_balance"]).max() / 10.0
     with pytest.raises(SimulationError, match=r"energy_balance is .* beyond energy_limit = ") as caught:
         simulate(pendulum(), energy_limit=0.1 * share, **settings)
-    assert caught.value.result is not None
     kept = caught.value.result
     assert 0 < kept.time.size < free.time.size
     np.testing.assert_array_equal(kept["energy_balance"], free["energy_balance"][: kept.time.size])

@@ -76,7 +76,7 @@ def run_script(body: str) -> dict[str, Any]:
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=GENEROUS, check=False
     )
     assert finished.returncode == 0, finished.stderr
-    out: dict[str, Any] = json.loads(finished.stdout.splitlines()[-1])
+    out = json.loads(finished.stdout.splitlines()[-1])
     return out
 
 
@@ -102,7 +102,7 @@ def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
             simulate(ball_on_a_pin(), t_end=1e6, dt_out=10.0)
     finally:
         signal.signal(signal.SIGALRM, before)
-    assert caught.value.result.interrupted  # type: ignore[attr-defined]
+    assert caught.value.result.interrupted
     assert not simulate(ball_on_a_pin(), t_end=1.0).interrupted
 
 
@@ -110,7 +110,6 @@ def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
 def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "seacrane", "run", "case1", "--out", str(tmp_path), "--t-end", "1e5"]
     process = subprocess.Popen([*command, "--progress"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    assert process.stderr is not None
     said = b""
     while b"simulated" not in said:  # the bar appears when the loop is about to start
         piece = process.stderr.read1(4096)

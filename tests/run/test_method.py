@@ -14,7 +14,7 @@ from seacrane.run.shorthand import METHOD_WORDS, OUTPUT_WORDS, Shorthand
 
 METHOD = Method(integrator="rk4", dt=0.05, formulation="redundant", maximum_step=0.5)
 OUTPUTS = Outputs(dt_out=0.25, channels=["position"])
-WORDS: dict[str, Any] = {
+WORDS = {
     "integrator": "rk4", "dt": 0.05, "formulation": "redundant", "maximum_step": 0.5, "dt_out": 0.25,
     "channels": ["position"],
 }  # fmt: skip

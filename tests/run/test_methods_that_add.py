@@ -34,7 +34,7 @@ def known(scene: Scene, returned: Any) -> bool:
 
 
 @contextmanager
-def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, list[bool]]]:
+def watched(monkeypatch: Any) -> Iterator[dict[str, list[bool]]]:
     """Of each method that is called by a user, whether what it returned was known to the scene."""
     seen: dict[str, list[bool]] = {}
 
@@ -83,7 +83,7 @@ def everything() -> None:
 
 
 @pytest.mark.warns("SeabedWarning")
-def test_every_method_returns_what_it_added_as_the_scene_holds_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_method_returns_what_it_added_as_the_scene_holds_it(monkeypatch: Any) -> None:
     with watched(monkeypatch) as seen:
         everything()
     assert sorted(seen) == METHODS

@@ -82,7 +82,7 @@ def test_the_last_of_several_threads_gives_back() -> None:
 
 
 @pytest.fixture
-def seen(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+def seen(monkeypatch: Any) -> list[tuple[str, int]]:
     """Routine and threads of each call of NumPy's linear algebra with matrices that it would share out."""
     out: list[tuple[str, int]] = []
     _smallest_damping.cache_clear()
@@ -136,7 +136,7 @@ def test_members_have_one_thread_whatever_runs_beside_them() -> None:
     """Their number changes bits: a member in a pool would else depend on what the others do just then."""
     keep = {"threads": lambda result: float(max(threads()))}
     over = {"seed": [1, 2, 3, 4]}
-    study: dict[str, Any] = {"keep": keep, "t_end": 0.5, "pack": 1, "lanes": 1}
+    study = {"keep": keep, "t_end": 0.5, "pack": 1, "lanes": 1}
     scene = cases.vessel(memory="none")
     with ThreadPoolExecutor(2) as pool:
         for executor in (None, pool):

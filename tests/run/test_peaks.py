@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -54,7 +53,7 @@ def test_peaks_are_those_of_a_dense_record(integrator: str) -> None:
         EA = 10.0 ** random.uniform(6.0, 8.5)
         scene = hung(EA=EA, fall=0.02 * random.random(), damping=0.02, hangs=hangs)
         period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * EA))
-        how: dict[str, Any] = {"integrator": integrator, "formulation": "redundant"}
+        how = {"integrator": integrator, "formulation": "redundant"}
         how |= {"dt": period / 25.0} if integrator == "rk4" else {}
         seldom, often = (sc.simulate(scene, 2.0, dt_out=dt_out, **how) for dt_out in (0.3, period / 50.0))
         for channel in ("line_tension", "hook_load"):
@@ -147,7 +146,7 @@ def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str
     scene, angle = sc.Scene(name="pendulum", gravity=GRAVITY), 0.8
     place = LENGTH * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     scene.add_body("mass", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=place)
-    ends: dict[str, Any] = {"first": "ground", "second": "mass", "point": (0, 0, 0), "second_point": place}
+    ends = {"first": "ground", "second": "mass", "point": (0, 0, 0), "second_point": place}
     scene.add_joint("rod", kind="distance", **ends, length=LENGTH)
     result = sc.simulate(scene, 9.0, dt_out=1.3, formulation=formulation)
     least, most = result.reached("tension")
@@ -217,7 +216,7 @@ def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_
 
 
 def test_members_in_lanes_keep_the_peaks_of_runs_by_themselves() -> None:
-    given: dict[str, Any] = {
+    given = {
         "over": {"seed": [1, 2, 3]}, "t_end": 8.0, "dt_out": 2.0,
         "keep": {"roll": "roll.max", "torque": "slew_torque.max", "heave": "heave.min"},
     }  # fmt: skip

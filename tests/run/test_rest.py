@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
 
 import numpy as np
 import pytest
@@ -84,7 +83,7 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
 def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene = Scene(name="heavy")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    wire: dict[str, Any] = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
+    wire = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
     first, *_ = scene.add_line("hoist", rung="with mass", first="ground", second="load", **wire)
     points = np.asarray(first.points)
     points[0, 2] = up
@@ -105,7 +104,6 @@ def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
     scene = Scene(name="heeled")
     scene.add_vessel(shipped_database(), memory="none")
     roles = scene.add_crane(slew=-np.pi / 2, s1=2.0, s2=2.0, held=True)
-    assert roles.tip is not None
     body, head = roles.tip
     x, y, z = scene.place_of(body=body, point=head)
     scene.add_body(name="load", mass=50e3, inertia=(1e5,) * 3, position=(x, y, z - 15))

@@ -33,7 +33,7 @@ def chain() -> Scene:
         last, here = np.array(ends[i]), np.array(ends[i + 1])
         scene.add_body(name=f"body {i}", mass=2.0, inertia=(0.1, 0.2, 0.15), position=here,
                        angular_velocity=(1.0, -2.0, 9.0 if kind == "revolute" else 1.0))  # fmt: skip
-        extra: dict[str, Any] = {"second_point": here} if kind == "distance" else {}
+        extra = {"second_point": here} if kind == "distance" else {}
         first = "ground" if i == 0 else f"body {i - 1}"
         scene.add_joint(kind=kind, name=f"joint {i}", first=first, second=f"body {i}",
                         point=last if i == 0 else 0.5 * (last + here), **extra)  # fmt: skip
@@ -71,7 +71,7 @@ def parts(state: State, **change: Any) -> State:
 
 @pytest.mark.parametrize("change", [{"integrator": "tsit5"}, {"formulation": "redundant"}])
 def test_other_settings_start_from_the_values(change: dict[str, str]) -> None:
-    settings: dict[str, Any] = {"rtol": 1e-10, "formulation": "recursive"}
+    settings = {"rtol": 1e-10, "formulation": "recursive"}
     whole = run(crank(), **settings)
     whole.advance(STOP)
     left = whole.core.state

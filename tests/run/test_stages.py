@@ -271,7 +271,7 @@ def test_a_ship_in_waves_does_not_notice_that_its_cargo_is_fastened_anew() -> No
         scene.add_joint(kind="weld", name=name, first="vessel", second="cargo")
     stages = [Stage(name="bolted", duration=12.0),
               Stage(name="lashed", duration=8.0, release=["bolts"], connect=["lashings"])]  # fmt: skip
-    settings: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.5}
+    settings = {"rtol": 1e-8, "dt_out": 0.5}
     result = simulate_stages(scene, stages, **settings)
     scene.remove("lashings")
     whole = simulate(scene, 20.0, **settings)
@@ -420,7 +420,7 @@ def test_a_stage_that_fails_is_told_with_what_was_recorded() -> None:
 
 
 def test_a_file_holds_the_stages_that_are_over_whenever_the_process_ends(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: Any
 ) -> None:
     path, states = tmp_path / "lift.nc", []
     saved = Result.save
@@ -470,10 +470,10 @@ def noted(calls: list[float], period: float = 0.1) -> SampledController:
 
 def test_a_controller_goes_on_through_stages_as_in_one_run() -> None:
     """And where a stage is run again, at the same times."""
-    how: dict[str, Any] = {"integrator": "rk4", "dt": 0.01, "dt_out": 0.05}
-    once: list[float] = []
+    how = {"integrator": "rk4", "dt": 0.01, "dt_out": 0.05}
+    once = []
     whole = simulate(motored(), 1.0, controllers=[noted(once)], **how)
-    calls: list[float] = []
+    calls = []
     stages = [Stage(name="one", duration=0.37), Stage(name="two", duration=0.63)]
     run = carried_out(motored(), stages, controllers=[noted(calls)], **how)
     result = run.result()
@@ -481,7 +481,7 @@ def test_a_controller_goes_on_through_stages_as_in_one_run() -> None:
     shared = np.isin(result.time.round(9), whole.time.round(9))
     assert_allclose(result["position"][shared], whole["position"], atol=1e-11)
     begin, again = run.begun["two"], calls[:4]
-    given: dict[str, Any] = {"start": begin.state, "outputs_from": 0.0, "controllers": [noted(again)], **how}
+    given = {"start": begin.state, "outputs_from": 0.0, "controllers": [noted(again)], **how}
     other = carried_out(begin.scene, stages[1:], **given)
     assert again == calls
     np.testing.assert_array_equal(other.state.values, run.state.values)
@@ -490,7 +490,7 @@ def test_a_controller_goes_on_through_stages_as_in_one_run() -> None:
 @pytest.mark.parametrize("period", [0.03, 0.4])
 def test_a_condition_is_located_without_calling_controllers_twice(period: float) -> None:
     """The bob turns by a staircase of torques; the angle at the end is the condition's."""
-    calls: list[float] = []
+    calls = []
     until = Until.channel("coordinate", joint_coordinate="angle", minimum=0.2)
     stages = [Stage(name="turn", until=until, maximum_duration=5.0), Stage(name="go on", duration=0.5)]
     result = simulate_stages(motored(), stages, controllers=[noted(calls, period)], rtol=1e-10, dt_out=0.17)
@@ -511,7 +511,7 @@ def test_a_condition_is_located_without_calling_controllers_twice(period: float)
 def test_inputs_of_what_is_absent_are_left_out() -> None:
     scene = motored()
     scene.add_point_force(name="push", body="bob", force=(0.0, 0.0, 0.0))
-    seen: list[float] = []
+    seen = []
 
     def function(now: float, measured: Any) -> dict[str, Any]:
         seen.append(now)

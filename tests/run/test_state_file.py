@@ -49,7 +49,7 @@ def all_runs() -> list[tuple[str, str, str]]:
 def begin(one: tuple[str, str, str], start: State | None = None) -> Run:
     name, integrator, formulation = one
     method = _core.integrator(integrator)
-    settings: dict[str, Any] = {"dt": STEPS[method.order]} if method.setting == "dt" else {}
+    settings = {"dt": STEPS[method.order]} if method.setting == "dt" else {}
     settings |= {"integrator": integrator, "formulation": formulation, "rtol": 1e-7, "channels": CHANNELS}
     return Run(scenes(name), t_end=END, dt_out=0.1, start=start, outputs_from=0.0, **settings)
 
@@ -64,9 +64,9 @@ def told(run: Run) -> dict[str, Array]:
 def go_on(folder: str) -> None:
     """What the new process does."""
     for path in Path(folder).glob("*.state"):
-        run = begin(tuple(path.stem.split("!")), State.load(path))  # type: ignore[arg-type]
+        run = begin(tuple(path.stem.split("!")), State.load(path))
         run.advance(END)
-        np.savez(path.with_suffix(".npz"), **told(run))  # type: ignore[arg-type]
+        np.savez(path.with_suffix(".npz"), **told(run))
 
 
 def test_a_run_goes_on_in_a_new_process_bit_for_bit(tmp_path: Path) -> None:
@@ -192,7 +192,6 @@ def test_a_state_of_another_scene_is_refused(saved: Path) -> None:
 def test_a_state_does_not_replace_a_result(saved: Path, tmp_path: Path, monkeypatch: Any) -> None:
     result = simulate(SCENES["chain"](), t_end=0.5)
     path = result.save(tmp_path / "chain.nc")
-    assert result.state is not None
     with pytest.raises(FileExistsError, match=r"chain\.nc is there and is not a state file"):
         result.state.save(path)
     assert Result.load(path).time.size == result.time.size

@@ -175,11 +175,11 @@ def test_gm_of_a_ship_with_its_crane_by_its_weights() -> None:
 
 
 def rotation(body: object) -> np.ndarray:
-    return rotation_matrix(body.quaternion)  # type: ignore[attr-defined]
+    return rotation_matrix(body.quaternion)
 
 
 def turned(body: object) -> np.ndarray:
-    return np.asarray(rotation(body) @ body.center_of_mass)  # type: ignore[attr-defined]
+    return np.asarray(rotation(body) @ body.center_of_mass)
 
 
 def test_what_cannot_be_reached_is_refused() -> None:
@@ -201,7 +201,7 @@ def test_what_cannot_be_reached_is_refused() -> None:
         (jib, {"radius": 5.0}, "there are none"),
     ):  # fmt: skip
         with pytest.raises(sc.SceneError, match=words):
-            sc.statics(scene, **asked)  # type: ignore[arg-type]
+            sc.statics(scene, **asked)
 
 
 def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from seacrane.inputs.drafts import draft_of
 from seacrane.lift.study_run import run_study
 from seacrane.warnings import LostMembersWarning
 
-GIVEN: dict[str, Any] = {
+GIVEN = {
     "source": pendulum,
     "over": {"start": [1.0, 2.0, 3.0]},
     "keep": {"lowest": lowest, "track": KEEP["track"]},
@@ -91,7 +91,7 @@ def test_what_is_lost_is_told_and_run_again(store: Path, harm: Any, told: str, w
 def test_a_study_that_is_none_is_refused(store: Path) -> None:
     study = next(store.rglob("study.json"))
     many = {"grid": True, "axes": {a: [*range(2000)] for a in "abcd"}}
-    texts: list[Any] = [
+    texts = [
         b"[" * 100_000, b"[" + b"[]," * 2_000_000 + b"[]]", b"\xff\xfe", [], {"format": "x"}, {},
         {"grid": True, "axes": {"a": 3}}, {"grid": True, "axes": {"a": [[1]]}},
         {"axes": {"a": [1], "b": [1, 2]}}, {"axes": {"failure": [1]}}, many,

@@ -23,7 +23,7 @@ GENEROUS = 60.0  # s
 
 
 @pytest.fixture(autouse=True)
-def small_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+def small_pieces(monkeypatch: Any) -> None:
     monkeypatch.setattr(stream, "MOST_ROWS", 16)
 
 
@@ -50,9 +50,7 @@ def same(one: sc.Result, two: sc.Result) -> None:
     assert one.events == two.events
 
 
-def stopping_after(
-    pieces: int, monkeypatch: pytest.MonkeyPatch, error: type[BaseException] | None = None
-) -> None:
+def stopping_after(pieces: int, monkeypatch: Any, error: type[BaseException] | None = None) -> None:
     """Ctrl-C, or an error, while a piece is on its way to the disk."""
     append = stream.ResultFile.append
     done = []
@@ -70,7 +68,7 @@ def stopping_after(
 
 @pytest.mark.parametrize("outputs", [1, 16, 17, 200])
 def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> None:
-    settings: dict[str, Any] = {"t_end": 0.1 * (outputs - 1), "dt_out": 0.1}
+    settings = {"t_end": 0.1 * (outputs - 1), "dt_out": 0.1}
     told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
     assert (told.outputs, told.interrupted) == (outputs, False)
     whole, read = sc.simulate(cases.case2(), **settings), told.load()
@@ -95,12 +93,10 @@ def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -
 @pytest.mark.warns("LargeSwingWarning")
 @pytest.mark.parametrize("memory", ["per-pair", "convolution"])
 @pytest.mark.slow("long runs")
-def test_a_stopped_run_goes_on_to_the_same_file(
-    memory: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, monkeypatch: Any) -> None:
     scene = cases.case2(memory=memory)
     # Long enough for the loop to ask Python several times, also on a machine ten times as fast.
-    settings: dict[str, Any] = {"t_end": 300.0, "dt_out": 0.1, "rtol": 1e-11}
+    settings = {"t_end": 300.0, "dt_out": 0.1, "rtol": 1e-11}
     for pieces in (2, 3):
         with monkeypatch.context() as patch:
             stopping_after(pieces, patch)
@@ -167,15 +163,13 @@ def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
     assert "could not write" in text and f"until {partial.time[-1]:.6g} s are kept in {left}" in text
     assert all(np.isfinite(values).all() for values in partial.channels.values())
     assert [p.name for p in tmp_path.iterdir()] == [left.name]
-    settings: dict[str, Any] = {"t_end": float(partial.time[-1]) + 10.0, "dt_out": 0.5}
+    settings = {"t_end": float(partial.time[-1]) + 10.0, "dt_out": 0.5}
     told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
     same(sc.simulate(cases.case2(), **settings), told.load())
 
 
 @pytest.mark.warns(sometimes=["LargeSwingWarning"])  # runs go as far as the machine brings them
-def test_a_write_that_fails_once_is_made_up_for_at_the_end(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_write_that_fails_once_is_made_up_for_at_the_end(tmp_path: Path, monkeypatch: Any) -> None:
     stopping_after(3, monkeypatch, MemoryError)
     with pytest.raises(sc.SimulationError, match="memory ran out"):
         sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
@@ -185,9 +179,7 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(
     assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
 
 
-def test_ctrl_c_while_a_piece_is_written_waits_for_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_ctrl_c_while_a_piece_is_written_waits_for_it(tmp_path: Path, monkeypatch: Any) -> None:
     """Pressed before and after every write of it, and while the result's file is made."""
     append, finish = PartialFile.append, stream.ResultFile.finish
     seen = []
@@ -254,7 +246,7 @@ def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
     assert sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
 
 
-RESUME: dict[str, Any] = {"resume": True, "t_end": 3.0}
+RESUME = {"resume": True, "t_end": 3.0}
 CONTROLLERS = {"controllers": [sc.SampledController(period=1.0, function=lambda now, measured: {})]}
 OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"t_end": 1.0}, FileExistsError, "t_end 2.0, this run 1.0"),
@@ -362,7 +354,7 @@ def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     """Once for the run, however many pieces it has, and of what was before a stop too."""
     with pytest.warns(SteepSeaWarning):
         scene = cases.vessel(hs=24.0)
-    settings: dict[str, Any] = {"dt_out": 0.01, "channels": ["vessel_motion"]}
+    settings = {"dt_out": 0.01, "channels": ["vessel_motion"]}
     with pytest.warns(LargeHeelWarning) as caught:
         told = sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
     assert len([w for w in caught if w.category is LargeHeelWarning]) <= 2  # roll, pitch

@@ -80,7 +80,7 @@ def on_deck(slew: float, height: float) -> sc.Scene:
 )
 def test_a_load_that_stands_on_no_deck_is_told_by_name(slew: float, height: float, category: str) -> None:
     for run in ("described", "stages"):
-        said = told(lambda run=run: RUNS[run](on_deck(slew, height)))  # type: ignore[misc]
+        said = told(lambda run=run: RUNS[run](on_deck(slew, height)))
         about = {name for name in said if name in ("LoadInHullWarning", "LoadOffDeckWarning")}
         assert about == ({category} if category else set())
         assert all("'load'" in said[name] for name in about)
@@ -117,15 +117,15 @@ def hung(*parts: Any) -> sc.Scene:
 def wire(**slip: Any) -> sc.Scene:
     scene = sc.Scene(name="wire")
     scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, -90))
-    given: dict[str, Any] = {"EA": 4e8, "length": 99.0, "mass_per_length": 25.0, "diameter": 0.06} | slip
+    given = {"EA": 4e8, "length": 99.0, "mass_per_length": 25.0, "diameter": 0.06} | slip
     given |= {"first": "ground", "first_point": (0, 0, 10), "second": "load", "medium": "sea"}
     scene.add_line("wire", rung="with mass", segments=5, **given)
     return scene
 
 
-ROPE: dict[str, Any] = {"mass_per_length": 4.3, "diameter": 0.08, "EA": 1.2e8}
+ROPE = {"mass_per_length": 4.3, "diameter": 0.08, "EA": 1.2e8}
 BOX = (4, 3, 2)
-RIGHT: dict[str, Any] = {
+RIGHT = {
     "plate": partial(PlatePart, size=(4, 3), thickness=0.02),
     "cylinder": partial(CylinderPart, length=4.0, diameter=0.3),
     "box": partial(BoxPart, size=BOX),
@@ -133,7 +133,7 @@ RIGHT: dict[str, Any] = {
     "fibre rope": ROPE,
     "chain": {"mass_per_length": 126.0, "diameter": 0.076, "EA": 4.9e8},
 }
-SLIPS: dict[str, Any] = {
+SLIPS = {
     "plate, thickness in mm": partial(PlatePart, size=(4, 3), thickness=20.0),
     "plate, thickness in cm": partial(PlatePart, size=(4, 3), thickness=2.0),
     "cylinder, diameter in mm": partial(CylinderPart, length=4.0, diameter=300.0),
@@ -168,7 +168,7 @@ def test_a_ship_whose_motion_is_given_makes_no_slip_of_what_is_on_it() -> None:
     scene.add_body("box", mass=2e4, size=(4, 3, 2), position=(0, 0, 11.05))
     feet = [(x, y, -1) for x in (-2, 2) for y in (-1.5, 1.5)]
     scene.add_contact("box", on="vessel", points=feet, place=(0, 0, 10.0), friction=0.3)
-    pads: dict[str, Any] = {"points": [(0, y, 9.5) for y in (-1.0, 1.0)], "surface": "box", "size": (4, 3, 1)}
+    pads = {"points": [(0, y, 9.5) for y in (-1.0, 1.0)], "surface": "box", "size": (4, 3, 1)}
     scene.add_contact("vessel", on="box", place=(0, 0, -2.0), friction=0.2, name="pads", **pads)
     scene.add_point_force("thrust", body="vessel", force=(2e5, 0, 0))
     spring = {"stiffness": 1e6, "natural_length": 6.05, "damping": 1e5}
@@ -184,9 +184,9 @@ CALLS: dict[str, Callable[[sc.Scene], Any]] = {
     "angle_deg": lambda scene: scene.add_hoist(
         mass=1e4, size=(1, 1, 1), EA=1e7, block_mass=1.0, slings={"angle": 60.0, "EA": 1e7}
     ),
-    "size": lambda _: BoxPart(sizes=(1, 1, 1)),  # type: ignore[call-arg]
-    "duration": lambda _: sc.Stage(name="a", durations=1.0),  # type: ignore[call-arg]
-    "channel": lambda _: sc.Criterion(chanel="roll", maximum=1.0),  # type: ignore[call-arg]
+    "size": lambda _: BoxPart(sizes=(1, 1, 1)),
+    "duration": lambda _: sc.Stage(name="a", durations=1.0),
+    "channel": lambda _: sc.Criterion(chanel="roll", maximum=1.0),
     "dt_out": lambda scene: sc.simulate(scene, 1.0, dtout=0.1),
     "title": lambda _: __import__("seacrane").report(1, titel="x"),
     "name=...": lambda scene: scene.add_point_force(body="vessel", force=(1, 0, 0)),
@@ -203,7 +203,7 @@ def test_a_keyword_that_is_not_there_leads_to_the_one_that_is(right: str) -> Non
         CALLS[right](scene)
     with pytest.raises(AttributeError, match="did you mean 'add_vessel'"):
         scene.add_vesel  # noqa: B018
-    hoist: dict[str, Any] = {"mass": 1e4, "size": (1, 1, 1), "length": 8.0, "EA": 1e7}
+    hoist = {"mass": 1e4, "size": (1, 1, 1), "length": 8.0, "EA": 1e7}
     scene.add_hoist(**hoist)
     for again, given in (
         (scene.add_hoist, hoist),

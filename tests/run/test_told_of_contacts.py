@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,9 +22,9 @@ def landing() -> Scene:
     scene.add_body("barge", mass=1e6, size=(30, 10, 4))
     scene.add_joint("moored", kind="weld", first="ground", second="barge")
     scene.add_body("box", mass=1e3, size=(1, 1, 1), position=(0, 0, 3.0))
-    post: dict[str, Any] = {"surface": "post", "place": (-1.0, 0, 4), "size": (0.4, 4.0)}
-    pipe: dict[str, Any] = {"surface": "pipe", "place": (0, 5.0, 4), "size": (1, 1.2, 3)}
-    block: dict[str, Any] = {"surface": "box", "place": (2.0, 0, 4), "size": (1, 2, 3), "stiffness": 1e5}
+    post = {"surface": "post", "place": (-1.0, 0, 4), "size": (0.4, 4.0)}
+    pipe = {"surface": "pipe", "place": (0, 5.0, 4), "size": (1, 1.2, 3)}
+    block = {"surface": "box", "place": (2.0, 0, 4), "size": (1, 2, 3), "stiffness": 1e5}
     scene.add_contact("box", on="barge", points=FEET, place=(0, 0, 2.0), name="deck")
     scene.add_contact("box", on="barge", points=[(-0.5, 0, 0)], name="guide", **post)
     scene.add_contact("box", on="barge", points=[(0, 0.5, 0)], name="pipe", **pipe)

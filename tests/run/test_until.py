@@ -17,7 +17,7 @@ from seacrane.ensembles.targets import WIDENED, Target
 from seacrane.statistics import seed_extremes
 from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
 
-RUN: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
+RUN = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
 REACH = Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})
 KEEP = {"reach": REACH}
 OVER = {"height": [0.4, 1.0], "seed": range(1, 401)}
@@ -51,7 +51,7 @@ def test_every_cell_stops_where_it_is_narrow_enough(grown: Ensemble) -> None:
 @pytest.mark.parametrize(("pool", "pack"), [(ThreadPoolExecutor, 8), (ProcessPoolExecutor, None)])
 def test_it_is_the_same_to_the_bit(pool: Any, pack: int | None, grown: Ensemble, tmp_path: Path) -> None:
     store = tmp_path / "store"
-    given: dict[str, Any] = {"over": OVER, "keep": KEEP, "until": UNTIL, "pack": pack, "store": store, **RUN}
+    given = {"over": OVER, "keep": KEEP, "until": UNTIL, "pack": pack, "store": store, **RUN}
     with pool(2) as executor:
         there = ensemble(storm, executor=executor, **given)
     assert there.dataset.identical(grown.dataset) and there.certainty == grown.certainty
@@ -78,7 +78,7 @@ def test_a_narrower_interval_goes_on_from_the_same_store(grown: Ensemble, tmp_pa
 
 def test_failures_are_told_and_allowed_for(tmp_path: Path) -> None:
     over = {"seed": range(1, 101), "height": [1.0, 2.0]}
-    given: dict[str, Any] = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
+    given = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
     with pytest.warns(
         FailedSeedsWarning, match="reach.mean .height=2.0.: all 20 seeds failed .member 1: Val"
     ):
@@ -139,7 +139,7 @@ def test_smallest_values_are_those_of_the_channel_with_its_sign_changed(
     number: str, failed: tuple[int, ...]
 ) -> None:
     values = np.random.default_rng(3).gumbel(5.0, 1.0, 40)
-    given: dict[str, Any] = {"variable": "x", "half_width": 0.1, "gumbel": True, "number": number}
+    given = {"variable": "x", "half_width": 0.1, "gumbel": True, "number": number}
     up = Target(**given).estimate(values, *failed)
     down = Target(sign=-1.0, **given).estimate(-values, *failed)
     assert (down.value, down.low, down.high) == (-up.value, -up.high, -up.low)
@@ -171,7 +171,7 @@ def test_bad_input_is_named() -> None:
         "track": Kept(channel="position", names={"body": "bob", "axis": "x"}),
         "all": Kept(channel="position", what="maximum"),
     }
-    usual: dict[str, Any] = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}
+    usual = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}
     for given, message in (
         ({"until": {}}, "until is {}"), ({"until": {"reach": 0.02}}, "'reach' is no statistic"),
         ({"until": {"reech.mpm": 0.02}}, "'reech'.*'reach'"), ({"until": {"reach.p99": 0.02}}, "'p99'"),
