@@ -50,9 +50,7 @@ def test_a_rough_run_goes_on_where_a_void_opens(number: int) -> None:
     ("time", "area", "friction"),
     [(2.0768, 4.649e-4, 26278.6), (0.96193, 4.1886e-4, 24993.2), (1.5, 3e-4, 25e3)],
 )
-def test_a_burst_that_ends_at_the_pistons_end_is_as_accurate_as_told(
-    time: float, area: float, friction: float
-) -> None:
+def test_a_burst_to_the_pistons_end_is_as_accurate_as_told(time: float, area: float, friction: float) -> None:
     """Air has a few kPa here: at a tolerance of the highest pressure the piston bounced by centimetres."""
     bore, mass = 0.02, 18e3
     scene = Scene(name="burst")

@@ -165,7 +165,7 @@ def reason(source: Any, over: Any, **given: Any) -> str:
         ([{"start": 1.0}] * 2, {"energy_limit": 1.0}, "energy is watched"),
     ],
 )
-def test_what_lanes_cannot_do_is_run_by_itself_and_says_why(
+def test_what_lanes_cannot_do_runs_by_itself_and_says_why(
     over: Any, given: dict[str, Any], told: str
 ) -> None:
     assert told in reason(pendulum, over, **given)
@@ -254,9 +254,7 @@ def test_a_vessel_is_moored_where_its_own_lift_describes_it() -> None:
         ({"driven": True}, {"driven": True}, ""),
     ],
 )
-def test_a_cylinder_stands_on_the_side_of_its_own_lift(
-    one: dict[str, bool], other: dict[str, bool], told: str
-) -> None:
+def test_a_cylinder_stands_on_the_side_of_its_own_lift(one: Any, other: Any, told: str) -> None:
     why, off = beside_and_alone([luffed(**one), luffed(**other)])
     assert all(told in reason if told else not reason for reason in why)
     assert max(off) <= (0.0 if told else 1e-6)

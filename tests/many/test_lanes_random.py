@@ -207,9 +207,7 @@ MANY = pytest.mark.slow("hundreds of random lifts")
         pytest.param(staged_told_of, range(1000, 1200), (30, 30), marks=MANY),
     ],
 )
-def test_random_members_in_lanes_are_as_alone_or_kept_apart(
-    of: Any, seeds: range, least: tuple[int, int]
-) -> None:
+def test_random_members_in_lanes_are_as_alone_or_kept_apart(of: Any, seeds: range, least: Any) -> None:
     how, wrong = judged(seeds, of)
     assert wrong == {}
     assert how["in lanes"] >= least[0] and how["apart"] >= least[1], how

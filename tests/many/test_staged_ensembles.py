@@ -127,9 +127,7 @@ def test_a_member_that_never_reaches_a_stage_says_so() -> None:
         sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, on_error="raise", **HOW)
 
 
-def test_a_store_goes_on_and_tells_other_stages_apart(
-    tmp_path: Path, lifts: Ensemble, monkeypatch: Any
-) -> None:
+def test_a_store_goes_on_and_tells_other_stages_apart(tmp_path: Path, lifts: Any, monkeypatch: Any) -> None:
     """Stopped in the third member: the first two are read, the others run; another rate is another study."""
     asked = {"over": {"seed": [1, 2, 3]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
     steps = iter(range(1000))

@@ -43,9 +43,7 @@ def test_each_begins_in_the_state_of_its_sea_to_the_bit(lifts: Ensemble) -> None
 
 
 @pytest.mark.parametrize("pack", [1, 4])
-def test_packs_threads_processes_and_a_resumed_store_give_the_same(
-    pack: int, lifts: Ensemble, tmp_path: Path
-) -> None:
+def test_packs_pools_and_a_resumed_store_give_the_same(pack: int, lifts: Ensemble, tmp_path: Path) -> None:
     same = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
     for pool, given in ((ThreadPoolExecutor, {}), (ProcessPoolExecutor, {"store": tmp_path / "s"})):
         with pool(2) as executor:

@@ -119,8 +119,8 @@ def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
     assert {row["rung"] for row in rows} >= {getattr(simpler_scenes, rung) for rung in rungs}
 
 
-def test_a_later_call_goes_on_and_another_scene_begins_anew(
-    case2: sc.Scene, measured: Trade, folder: Path, monkeypatch: Any
+def test_a_later_call_goes_on_another_scene_anew(
+    case2: Any, measured: Any, folder: Path, monkeypatch: Any
 ) -> None:
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()

@@ -33,9 +33,7 @@ def series(hs: Any, *, step: float = 1.0, **given: Any) -> WaveHindcast:
     return WaveHindcast(**{"time": times, "hs": heights, "tp": np.full(heights.size, 9.0), **given})
 
 
-def brute_force(
-    workable: list[bool], *, step: float, hours: float
-) -> tuple[list[bool], list[float], list[float]]:
+def brute_force(workable: Any, *, step: float, hours: float) -> tuple[list[Any], ...]:
     """The same numbers by looking at every time, one by one: whether one may start, the wait, the lengths."""
     may_start = []
     for first in range(len(workable)):
@@ -279,9 +277,7 @@ def windows(allowable: Any = 1.0, **given: Any) -> Any:
         (availability, {"allowable": 1, "scatter": scatter()}, "allowable is 1"),
     ],
 )  # fmt: skip
-def test_what_makes_no_sense_is_refused(
-    table: AllowableHs, make: Any, given: dict[str, Any], message: str
-) -> None:
+def test_what_makes_no_sense_is_refused(table: Any, make: Any, given: Any, message: str) -> None:
     given = given | ({"allowable": table} if given.get("allowable") is True else {})
     with pytest.raises(SceneError, match=message):
         make(**given)

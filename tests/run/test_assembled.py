@@ -23,9 +23,7 @@ def boom(angle: float = 0.0, **body: object) -> Scene:
 
 @pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
 @pytest.mark.parametrize("angle", [-np.pi / 2, 1.0, 0.02])
-def test_a_driver_that_starts_off_the_described_pose_is_told_with_what_it_moved(
-    angle: float, orientation: str
-) -> None:
+def test_a_driver_off_the_described_pose_is_told_with_what_it_moved(angle: float, orientation: str) -> None:
     scene = boom(angle)
     scene.orientation = orientation
     with pytest.warns(AssemblyWarning, match=r"body 'boom' by .* open, m or rad: 'hinge.angle' by") as caught:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -219,8 +218,8 @@ def test_wire_that_stays_taut_changes_nothing_in_a_lift() -> None:
     ("integrator", "setting"),
     [("dopri5", {"rtol": 1e-7}), ("rk4", {"dt": 0.01}), ("rosenbrock", {"rtol": 1e-6})],
 )
-def test_a_run_goes_on_bit_for_bit_with_the_limits_that_hold(
-    formulation: str, integrator: str, setting: dict[str, float], tmp_path: Path
+def test_a_run_goes_on_bit_for_bit_with_its_limits(
+    formulation: str, integrator: str, setting: Any, tmp_path: Any
 ) -> None:
     """Stopped taut, slack, and taut again, from files: the same events and states follow."""
     settings = {"integrator": integrator, "formulation": formulation, "t_end": 4.0, **setting}

@@ -148,9 +148,7 @@ def test_a_run_that_one_fast_mode_makes_slow_tells_the_mode_and_the_body(integra
 @pytest.mark.parametrize(
     ("mode", "given"), [(5e3, {"integrator": "rosenbrock"}), (5.0, {}), (5e3, {"dt_out": 0.001})]
 )
-def test_a_run_that_is_not_slow_looks_for_no_mode(
-    mode: float, given: dict[str, Any], monkeypatch: Any
-) -> None:
+def test_a_run_that_is_not_slow_looks_for_no_mode(mode: float, given: Any, monkeypatch: Any) -> None:
     """Nor one that takes as many steps to show what was asked for."""
     if "dt_out" not in given:
         monkeypatch.setattr(linearise, "jacobian", None)

@@ -66,7 +66,7 @@ def test_random_scenes_with_limits_go_on_bit_for_bit(seeds: Iterable[int], tmp_p
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 @pytest.mark.parametrize("stop", [0.75, 1.0])  # an output; an output at a sample of the history
-def test_a_convolution_goes_on_bit_for_bit_in_every_channel(
+def test_a_convolution_goes_on_to_the_bit_in_every_channel(
     formulation: str, stop: float, tmp_path: Path
 ) -> None:
     scene = cases.case2(memory="convolution")

@@ -228,7 +228,7 @@ def follow(start: float) -> Stage:
                                       {"integrator": "rk4", "dt": 0.004}])  # fmt: skip
 @pytest.mark.parametrize(("scene", "stages"), [(swinging, hoisting), (on_deck, lift_off)])
 def test_a_stage_runs_again_from_its_start_to_the_bit(
-    scene: Any, stages: Any, settings: dict[str, Any], tmp_path: Path
+    scene: Any, stages: Any, settings: Any, tmp_path: Path
 ) -> None:
     run = carried_out(scene(), stages(), **settings)
     whole = run.result()
@@ -419,9 +419,7 @@ def test_a_stage_that_fails_is_told_with_what_was_recorded() -> None:
     assert result.time[-1] == 3.0 and result.stages[0].ended_by == ""
 
 
-def test_a_file_holds_the_stages_that_are_over_whenever_the_process_ends(
-    tmp_path: Path, monkeypatch: Any
-) -> None:
+def test_a_file_holds_stages_that_are_over_when_the_process_ends(tmp_path: Path, monkeypatch: Any) -> None:
     path, states = tmp_path / "lift.nc", []
     saved = Result.save
 

@@ -101,9 +101,7 @@ SLOW = pytest.param({"integrator": "rk4", "dt": 1e-3}, marks=pytest.mark.slow("t
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("method", [{"rtol": 1e-11}, SLOW])
-def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
-    method: Any, formulation: str, tmp_path: Path
-) -> None:
+def test_a_run_stopped_at_any_step_goes_on(method: Any, formulation: str, tmp_path: Any) -> None:
     """Nothing lands on the checkpoint; long enough for the loop to ask on any machine."""
     scene = cases.case2()
     settings = {"t_end": 60.0, "formulation": formulation, "outputs_from": 0.0, **method}

@@ -119,8 +119,8 @@ def test_the_worst_seeds_that_fail_leave_no_interval() -> None:
 @pytest.mark.parametrize(
     ("number", "gumbel"), [("mpm", True), ("mean", True), ("p90", True), ("mean", False)]
 )
-def test_intervals_hold_whatever_failed_seeds_would_have_given(
-    number: str, gumbel: bool, which: str, share: float
+def test_intervals_hold_whatever_failed_seeds_had_given(
+    number: Any, gumbel: Any, which: Any, share: Any
 ) -> None:
     target = Target(variable="x", number=number, half_width=0.1, gumbel=gumbel)
     random, inside, lost = np.random.default_rng(3), 0, round(100 * share)
@@ -135,9 +135,7 @@ def test_intervals_hold_whatever_failed_seeds_would_have_given(
 
 @pytest.mark.parametrize("failed", [(), (3,)])
 @pytest.mark.parametrize("number", ["mpm", "mean", "p90"])
-def test_smallest_values_are_those_of_the_channel_with_its_sign_changed(
-    number: str, failed: tuple[int, ...]
-) -> None:
+def test_smallest_values_are_those_with_the_sign_changed(number: str, failed: Any) -> None:
     values = np.random.default_rng(3).gumbel(5.0, 1.0, 40)
     given = {"variable": "x", "half_width": 0.1, "gumbel": True, "number": number}
     up = Target(**given).estimate(values, *failed)
