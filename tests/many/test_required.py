@@ -38,14 +38,17 @@ def pendulum() -> sc.Scene:
     return scene
 
 
+def held(name: str, **crane: Any) -> sc.Scene:
+    scene = sc.Scene(name=name)
+    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True, **crane)
+    return scene
+
+
 def slung(**more: Any) -> sc.Scene:
     """A load on four slings below a block, whose hoist is shaken by nothing but its own start."""
-    scene = sc.Scene(name="slung")
-    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
-    scene.add_hoist(
-        mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, block_mass=1e3, winch={"lag": 0.2},
-        slings={"angle_deg": 60, "EA": 5e7}, **more,
-    )  # fmt: skip
+    scene = held("slung")
+    rig = {"block_mass": 1e3, "winch": {"lag": 0.2}, "slings": {"angle_deg": 60, "EA": 5e7}}
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, **rig, **more)
     return scene
 
 
@@ -72,11 +75,7 @@ def on_deck() -> sc.Scene:
 def on_oil() -> sc.Scene:
     """A crane that stands on the oil of two cylinders."""
     oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
-    scene = sc.Scene(name="on oil")
-    scene.add_crane(
-        base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True,
-        hydraulics={"main": oil, "knuckle": oil},
-    )  # fmt: skip
+    scene = held("on oil", hydraulics={"main": oil, "knuckle": oil})
     scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7)
     return scene
 
@@ -95,11 +94,10 @@ def drifting(*, drift: bool = True) -> sc.Scene:
 
 def heavy(segments: int = 4, **more: Any) -> sc.Scene:
     """A load on a wire with mass in water, off a winch."""
+    scene = held("heavy")
     wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
-    scene = sc.Scene(name="heavy")
-    scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
-    scene.add_hoist(mass=35e3, size=(6, 4, 4), length=50.0, EA=6e7, rung="with mass", mass_per_length=20.0,
-                    wire=wire, winch={"lag": 0.2})  # fmt: skip
+    line = {"length": 50.0, "EA": 6e7, "rung": "with mass", "mass_per_length": 20.0, "wire": wire}
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, **line)
     return scene
 
 

@@ -17,28 +17,15 @@ from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2
-
-[vessel]
-database = "hull_115"
-memory = "none"
-
-[sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
+vessel = { database = "hull_115", memory = "none" }
+sea = { seed = 7, hs_m = 1.5, tp_s = 8, count = 20 }
+balance = { vessel = "vessel" }
+method = { integrator = "dopri5", rtol = 1e-3 }
 
 [crane]
 foot_m = [33, 10, 10]
 payload = { mass_kg = 20e3, size_m = [4, 4, 3], link_length_m = 8 }
 held = true
-
-[balance]
-vessel = "vessel"
-
-[method]
-integrator = "dopri5"
-rtol = 1e-3
 """
 STUDY = """format = "seacrane study"
 version = 2
@@ -59,12 +46,13 @@ t_end_s = 2
 """
 SWING = """format = "seacrane study"
 version = 2
+over = { "body.position_m.1" = [1, 1.5] }
+accuracy = { position = 1e-3 }
+run = { t_end_s = 2 }
 
-[lift.body]
-name = "bob"
-mass_kg = 2
-inertia_kg_m2 = [0.1, 0.1, 0.1]
-position_m = [1, 0, 0]
+[lift]
+body = { name = "bob", mass_kg = 2, inertia_kg_m2 = [0.1, 0.1, 0.1], position_m = [1, 0, 0] }
+method = { integrator = "rk4", dt_s = 0.1 }
 
 [lift.joint]
 kind = "revolute"
@@ -74,24 +62,11 @@ second = "bob"
 point_m = [0, 0, 0]
 axis = [0, 1, 0]
 
-[lift.method]
-integrator = "rk4"
-dt_s = 0.1
-
-[over]
-body.position_m.1 = [1, 1.5]
-
-[accuracy]
-position = 1e-3
-
 [[keep]]
 name = "lowest"
 channel = "position"
 names = { body = "bob", axis = "z" }
 what = "minimum"
-
-[run]
-t_end_s = 2
 """
 
 

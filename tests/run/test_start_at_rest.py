@@ -17,19 +17,9 @@ from seacrane.run.to_file import simulate_to_file
 WAIT = [sc.Stage(name="wait", duration=2.0)]
 LIFT = """format = "seacrane lift"
 version = 2
-[scene]
-name = "hung"
-[body]
-name = "load"
-mass_kg = 20e3
-size_m = [2, 2, 2]
-position_m = [0, 0, -10]
-[line]
-name = "hoist"
-first = "ground"
-second = "load"
-EA_N = 3e7
-length_m = 8.5
+scene = { name = "hung" }
+body = { name = "load", mass_kg = 20e3, size_m = [2, 2, 2], position_m = [0, 0, -10] }
+line = { name = "hoist", first = "ground", second = "load", EA_N = 3e7, length_m = 8.5 }
 """
 
 
