@@ -56,7 +56,7 @@ def winched(rng: np.random.Generator) -> Scene:
     length = falls * float(np.linalg.norm(place))
     speed = float(rng.uniform(0.1, 0.8)) * falls
     rate: Curve | float = -speed if rng.random() < 0.3 else move(rng, end=-speed)
-    options: dict[str, Any] = {"rate": rate}
+    options = {"rate": rate}
     if rng.random() < 0.65:
         options["minimum_length"] = 0.94 * length - min(speed * float(rng.uniform(0.5, 4.0)), 0.7 * length)
     if rng.random() < 0.6:
@@ -156,7 +156,7 @@ def compensated(rng: np.random.Generator) -> Scene:
         damping_ratio=0.05,
     )  # fmt: skip
     scene.add_winch(line="hoist", lag=float(rng.choice([0.0, 0.1])))
-    bounds: dict[str, float] = {}
+    bounds = {}
     if rng.random() < 0.5:
         bounds["maximum_rate"] = amplitude * omega * float(rng.uniform(0.3, 1.1))
     if rng.random() < 0.5:
@@ -177,7 +177,7 @@ def on_oil(rng: np.random.Generator) -> Scene:
         kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0)
     )
     speed = float(rng.uniform(0.05, 0.3))
-    oil: dict[str, Any] = {
+    oil = {
         "pump_pressure": 25e6, "rated_flow": area * speed, "rated_drop": 1e6,
         "viscous_friction": mass * float(10.0 ** rng.uniform(-0.3, 1.0)),
         "spool_lag": float(rng.choice([0.0, 5e-3, 0.05])), "air": float(rng.choice([0.0, 0.002, 0.01])),
@@ -244,7 +244,7 @@ def scene_of(number: int, *, seed: int) -> tuple[Scene, float]:
 def word(number: int, *, seed: int) -> Word:
     """What `accuracy=` promises on one scene, judged by two other methods at tighter tolerances."""
     scene, part = scene_of(number, seed=seed)
-    span: dict[str, Any] = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
+    span = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         rough = position(scene, integrator="verner76", rtol=1e-6, **span)
@@ -256,7 +256,7 @@ def word(number: int, *, seed: int) -> Word:
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])
         judges = judged(scene, method, result.settings["rtol"], span)
-    known: dict[str, Any] = {
+    known = {
         "number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method,
     }  # fmt: skip
     if isinstance(judges, str):

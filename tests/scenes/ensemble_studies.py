@@ -6,7 +6,6 @@ import os
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -23,7 +22,7 @@ def drifting_hull() -> HydroDatabase:
     return replace(hull, drift=drift)
 
 
-SWING: dict[str, Any] = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
+SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 
 def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
@@ -59,7 +58,7 @@ def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) 
         scene.add_driver(joint="ram", curve=Curve.harmonic(amplitude=0.02, omega=3.0, phase=0.5 * np.pi))
     leaning = float(np.arctan2(line[2], line[0]))
     half = {"arm": angle, "barrel": leaning, "rod": leaning}  # of the turn to behind
-    moved: dict[str, Any] = {}
+    moved = {}
     if behind:
         moved |= {f"bodies.{name}.position": scene.bodies[name].position * (1, 1, -1) for name in half}
         moved["bodies.load.position"] = tip * (1, 1, -1) + down

@@ -25,7 +25,7 @@ from ensemble_studies import KEEP, fails_in_the_middle, lowest, storm
 from seacrane import Kept, ensemble
 from seacrane.ensembles import Ensemble
 
-STARTS: dict[str, Any] = {
+STARTS = {
     "source": fails_in_the_middle, "over": {"start": [1.0, 2.0, 3.0, 4.0, 5.0]},
     "keep": {"track": KEEP["track"], "lowest": lowest}, "t_end": 1.0, "dt_out": 0.5, "pack": 2,
 }  # fmt: skip

@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from random_staged_lifts import hanging, random_stages
@@ -119,7 +119,7 @@ def _word(number: int) -> Word:
     scene, stages = lift_of(number)
     rough = simulate_stages(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-6)
     limit = part * _size(scene, quantity, rough)
-    about: dict[str, Any] = {
+    about = {
         "number": number, "kind": KINDS[number % len(KINDS)].__name__, "quantity": quantity, "limit": limit
     }  # fmt: skip
     try:

@@ -77,7 +77,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
     kind = rng.choice(["case1", "case2", "case2", "case3", "vessel", "chain"])
     if kind == "chain":
         return random_chain(rng)
-    options: dict[str, Any] = {
+    options = {
         "hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
         "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
         "memory": str(rng.choice(["per-pair", "passive"])),
@@ -110,7 +110,7 @@ def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> Pro
     scene = random_scene(rng)
     offered = quantities_of(scene, scene.compile(), None)
     quantity = offered[str(rng.choice(list(offered)))]
-    span: dict[str, Any] = {"t_end": t_end, "channels": list(quantity.channels)}
+    span = {"t_end": t_end, "channels": list(quantity.channels)}
     truth = quantity.values(simulate(scene, integrator="verner76", rtol=1e-12, **span))
     size = float(np.abs(truth - truth[0]).max())
     part = 10.0 ** rng.uniform(-7.0, -2.0)
