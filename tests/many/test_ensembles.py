@@ -235,7 +235,7 @@ def test_a_full_disk_is_named_and_loses_nothing(tmp_path: Path) -> None:
 )
 def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: str, tmp_path: Path) -> None:
     given = {"source": pendulum, "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
-                             "keep": {"lowest": lowest}, "store": tmp_path / "store", **SWING}  # fmt: skip
+             "keep": {"lowest": lowest}, "store": tmp_path / "store", **SWING}  # fmt: skip
     first = ensemble(**given)
     with pytest.raises(SceneError, match=f"is of another study: .*{named}"):
         ensemble(**{**given, **changes})

@@ -52,7 +52,7 @@ def by_frequency(scene: sc.Scene, criteria: Any, **given: Any) -> AllowableHs:
 def test_hs_is_what_the_linear_statistics_say() -> None:
     """2 sqrt(m0) per metre of Hs, from the other implementation of the response."""
     motion = sc.response_statistics(sc.linear_model(vessel()), spectrum=jonswap(hs=1.0, tp=9.0),
-                                 direction=np.radians(135.0), body="vessel")  # fmt: skip
+                                    direction=np.radians(135.0), body="vessel")  # fmt: skip
     wide, low = replace(HEAVE, maximum=1.6, name="wide"), replace(HEAVE, motion=False, name="above")
     found = by_frequency(vessel(), [PITCH, HEAVE, wide, low]).dataset["by_criterion"][:, 0, 0].to_numpy()
     assert found[0] == pytest.approx(PITCH.bound / motion.significant_amplitude[4], rel=1e-4)
@@ -124,7 +124,7 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> No
 def test_runs_begin_without_the_transient_of_a_soft_mooring() -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
     sway = sc.Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
-                     statistic="significant", name="sway")  # fmt: skip
+                        statistic="significant", name="sway")  # fmt: skip
     asked = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
     runs = sc.allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
     linear = sc.allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")

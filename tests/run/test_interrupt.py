@@ -95,12 +95,17 @@ def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
     def alarm(number: int, frame: Any) -> None:
         raise TimeoutError("time is up")
 
+    def soon(now: float, measured: Any) -> dict[str, float]:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        return {}
+
     before = signal.signal(signal.SIGALRM, alarm)
-    signal.setitimer(signal.ITIMER_REAL, 0.2)
     try:
         with pytest.raises(TimeoutError) as caught:
-            simulate(ball_on_a_pin(), t_end=1e6, dt_out=10.0)
+            ticks = [SampledController(period=1e5, function=soon)]
+            simulate(ball_on_a_pin(), t_end=1e6, dt_out=10.0, controllers=ticks)
     finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
     assert caught.value.result.interrupted
     assert not simulate(ball_on_a_pin(), t_end=1.0).interrupted
