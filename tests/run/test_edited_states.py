@@ -6,13 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, State
 from seacrane.hydro import StateSpaceBlock
 
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
-Array = NDArray[np.float64]
 STOP, END = 3.0, 3.2
 SETTINGS: list[dict[str, Any]] = [
     {"formulation": "recursive"},
