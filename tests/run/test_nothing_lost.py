@@ -51,8 +51,8 @@ def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settin
         ends = 0
     except FileExistsError:
         ends = REFUSED
-    except OSError:
-        ends = FULL
+    except OSError as error:
+        ends = FULL if "could not write" in str(error) else ends
     finally:
         os._exit(ends)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
 import subprocess
@@ -134,38 +133,6 @@ def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     np.testing.assert_allclose(*times, atol=1e-5)
     np.testing.assert_allclose(joined["impact_loss"], whole["impact_loss"], atol=1e-3)
     np.testing.assert_allclose(joined["energy_balance"], 0.0, atol=1e-3)
-
-
-FULL = """
-import resource, sys, json
-from pathlib import Path
-from seacrane import cases, simulate_to_file, Result
-from seacrane.result import stream
-stream.MOST_ROWS = 64
-path = Path(sys.argv[1]) / "run.nc"
-resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
-try:
-    simulate_to_file(cases.case2(), path, t_end=1e5, dt_out=0.5)
-except OSError as error:
-    print(json.dumps(str(error)))
-"""
-
-
-@pytest.mark.warns(sometimes=["LargeSwingWarning"])  # runs go as far as the machine brings them
-def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
-    run = subprocess.run([sys.executable, "-c", FULL, str(tmp_path), str(2**21)],
-                         capture_output=True, text=True, check=True, timeout=GENEROUS)  # fmt: skip
-    text = json.loads(run.stdout)
-    left = stream.partial_path(tmp_path / "run.nc")
-    partial = sc.Result.load(left)
-    assert partial.interrupted
-    assert partial.time.size > 300
-    assert "could not write" in text and f"until {partial.time[-1]:.6g} s are kept in {left}" in text
-    assert all(np.isfinite(values).all() for values in partial.channels.values())
-    assert [p.name for p in tmp_path.iterdir()] == [left.name]
-    settings = {"t_end": float(partial.time[-1]) + 10.0, "dt_out": 0.5}
-    told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
-    same(sc.simulate(cases.case2(), **settings), told.load())
 
 
 @pytest.mark.warns(sometimes=["LargeSwingWarning"])  # runs go as far as the machine brings them
