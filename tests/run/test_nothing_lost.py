@@ -165,7 +165,7 @@ def full_disk(seed: int, path: Path) -> None:
     assert ended(writer(path, room=room)) in (0, FULL)
     whole_there = left_at_once(path)
     for result in left_at(path) if whole_there else []:
-        assert is_start_of(result, reference())
+        assert is_start_of(result, reference()) and result.state is not None
     told = simulate_to_file(pendulum(), path, resume=whole_there, **SETTINGS)
     assert is_start_of(told.load(), reference())
     assert [one.name for one in path.parent.iterdir()] == [path.name]
