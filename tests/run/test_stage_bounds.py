@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from random_staged_lifts import BED, HALF, MASS, hanging
-from stage_scenes import heaving, lift_off, on_deck
+from stage_scenes import MASS as DECK_MASS
+from stage_scenes import G, heaving, lift_off, on_deck
 from test_stages import motored, noted
 
 from seacrane import Result, Scene, SceneError, SimulationError, Stage, Until, simulate_stages
@@ -117,6 +118,9 @@ def test_a_stage_alone_takes_over_what_those_before_it_reach() -> None:
     assert paid == pytest.approx(0.4 * (4.0 - 0.5 - 0.2), abs=1e-3)  # from rest, within 1 s and the lag
     raised = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="raise", rtol=1e-8)
     assert raised.curve("position[load, z]")[0] == pytest.approx(1.0, abs=1e-3)
+    stop = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="stop", rtol=1e-8)
+    assert stop["line_tension"][0, 0] == pytest.approx(DECK_MASS * G, rel=1e-6)
+    assert stop["line_unstretched_length"][0, 0] == pytest.approx(18.5)
 
 
 def test_a_stage_alone_goes_on_from_a_state_that_is_given() -> None:

@@ -251,17 +251,6 @@ def test_a_stage_runs_again_from_its_start_to_the_bit(
                 assert np.array_equal(rest[channel][rest.stage(name)][-len(there) + 1 :], there[1:]), channel
 
 
-def test_a_stage_alone_starts_from_its_static_state() -> None:
-    """Its connections, its winch's length and its clock are those that the stages before end with."""
-    whole = simulate_stages(on_deck(damping_ratio=0.1), lift_off()[:3], rtol=1e-8)
-    result = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="stop", rtol=1e-8)
-    assert [span.name for span in result.stages] == ["stop", "let go"]
-    assert result.time[0] == pytest.approx(whole.time[-1], rel=1e-12)
-    assert result["line_tension"][0, 0] == pytest.approx(MASS * G, rel=1e-6)
-    assert result["line_unstretched_length"][0, 0] == pytest.approx(18.5)
-    assert result["velocity"][0].max() == 0.0
-
-
 def test_a_ship_in_waves_does_not_notice_that_its_cargo_is_fastened_anew() -> None:
     """Released and connected by another joint at the same place, while the ship is away from its mean."""
     scene = cases.vessel(count=20)
