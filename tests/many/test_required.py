@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import seacrane
 import seacrane as sc
 from seacrane import needs
 from seacrane.description.file import scene_digest
@@ -159,7 +158,7 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(monkey
 @pytest.mark.parametrize(
     "described",
     [
-        pendulum, slung, wet, on_deck, on_oil, drifting, heavy, beside_a_given_ship, seacrane.cases.case2,
+        pendulum, slung, wet, on_deck, on_oil, drifting, heavy, beside_a_given_ship, sc.cases.case2,
         pytest.param(barges, marks=pytest.mark.slow("fits memories")),
     ],
 )  # fmt: skip

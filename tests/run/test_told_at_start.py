@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-import seacrane
 import seacrane as sc
 from seacrane.errors import KeywordError
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
@@ -215,7 +214,7 @@ def test_a_keyword_that_is_not_there_leads_to_the_one_that_is(right: str) -> Non
 
 def taking_a_scene() -> list[Any]:
     """What of the public face takes a scene first."""
-    found = [getattr(seacrane, name) for name in sorted(seacrane.__all__)]
+    found = [getattr(sc, name) for name in sorted(sc.__all__)]
     return [one for one in found if callable(one) and next(iter(parameters(one)), None) == "scene"]
 
 
