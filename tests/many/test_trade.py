@@ -191,7 +191,7 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     scene = cases.case2(hs=0.0)
     for name, drive in list(scene.actuators.items()):
         start = curve_of("start", drive.feed_forward.evaluate([0.0])[0, 0])
-        scene.replace(name, kind="actuator", feed_forward=start)
+        scene.replace(name, kind="actuator", feed_forward=start, reference=curve_of("start", 0.0))
     quantities = quantities_of(scene, scene.compile(), None)
     run = sc.simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
