@@ -112,8 +112,7 @@ def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int)
 @needs_lanes
 def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
     scene = case("case2")
-    names = {"position", "acceleration", "vessel_motion", "reaction_force", "wave_elevation"}
-    names |= {"actuator_force"} & {*scene.compile().channel_names()}
+    names = ("position", "vessel_motion", "reaction_force", "actuator_force", "wave_elevation")
     keep = {name: Kept(channel=name) for name in names}
     made = ensemble(scene, over={"seed": [1, 2]}, keep=keep, t_end=5.0, rtol=1e-9, lanes=4).dataset
     for seed in (1, 2):
