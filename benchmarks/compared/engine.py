@@ -134,6 +134,6 @@ def going_on() -> Iterator[Row]:
         one.advance(1.5)
     yield Row(
         subject=CRANE, compared="case 2 stopped and continued: every number of the state",
-        reference="the run that was not stopped", unit="", limit=0.0, test="run/test_restart.py",
+        reference="the run that was not stopped", unit="", limit=0.0, test="run/test_state_file.py",
         difference=float(np.abs(values(later) - values(whole)).max()),
     )  # fmt: skip

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import HydroDatabase, Scene, SceneError, ensemble, equilibrium, simulate
+from seacrane import Scene, SceneError, ensemble, equilibrium, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
@@ -59,15 +60,10 @@ def test_a_loose_control_is_left_out_and_it_says_so() -> None:
     assert f"gain {opposite.gain:.2g}" in str(opposite)
 
 
-@pytest.fixture(scope="module")
-def database() -> HydroDatabase:
-    return shipped_database()
-
-
 @pytest.mark.parametrize(
     "channel", ["position[vessel, z]", "velocity[vessel, y]", "acceleration[vessel, x]", "heel[vessel]"]
 )
-def test_the_control_is_the_run_in_small_waves(channel: str, database: HydroDatabase) -> None:
+def test_the_control_is_the_run_in_small_waves(channel: str) -> None:
     """From rest on, with the transient of the start."""
     scene = vessel(hs=0.02, memory="passive", mooring_period=None)
     control = LinearControl(scene, channel, t_end=40.0, after=3.0)
@@ -87,39 +83,30 @@ def lifted() -> Scene:
     scene = Scene(name="over the side")
     scene.add_vessel(shipped_database(), memory="passive")
     scene.add_sea(hs=1.0, tp=8.0, direction_deg=150.0)
-    scene.add_crane(
-        foot=(33.0, 10.0, 10.0), slew=-1.0, s1=1.0, s2=1.5, held=True,
-        payload=Payload(mass=2e4, link_length=8.0),
-    )  # fmt: skip
+    load = Payload(mass=2e4, link_length=8.0)
+    scene.add_crane(foot=(33.0, 10.0, 10.0), slew=-1.0, s1=1.0, s2=1.5, held=True, payload=load)
     scene.add_ballast(heel_deg=0.0)
     return scene
 
 
-def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> None:
+def test_a_swing_of_a_crane_load_is_known_better() -> None:
     """With 20 seeds and the control as well as with three times as many."""
-    scene = lifted()
-    swing = "position[payload, y]"
-    runs = ensemble(
-        scene, over={"seed": range(1, 21)}, keep={"swing": f"{swing[:-1]}, after=10].max"}, t_end=60.0,
-        rtol=1e-2, dt_out=0.5,
-    )  # fmt: skip
+    scene, swing = lifted(), "position[payload, y]"
+    keep = {"swing": f"{swing[:-1]}, after=10].max"}
+    runs = ensemble(scene, over={"seed": range(1, 21)}, keep=keep, t_end=60.0, rtol=1e-2, dt_out=0.5)
     control = LinearControl(scene, swing, t_end=60.0, after=10.0, dt_out=0.5)
-    found = controlled_mean(
-        runs.dataset.swing,
-        controls=control.extremes(range(1, 21)),
-        many_controls=control.extremes(range(1001, 1201)),
-    )
+    own, many = (control.extremes(range(start, stop)) for start, stop in ((1, 21), (1001, 1201)))
+    found = controlled_mean(runs.dataset.swing, controls=own, many_controls=many)
     assert found.used
     assert found.correlation > 0.9
     assert found.gain > 3.0
-    assert found.estimate.low < found.plain.high
-    assert found.plain.low < found.estimate.high
+    assert found.estimate.low < found.plain.high and found.plain.low < found.estimate.high
 
 
-def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
+def test_a_hook_load_follows_the_square_of_the_swing() -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
+    given = {"t_end": 40.0, "after": 5.0, "dt_out": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
         sea = with_sea(scene, {"seed": 2, "hs": hs})
@@ -132,52 +119,48 @@ def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) ->
     assert (control.series(2) - load).std() < 0.5 * (plain - load).std()
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"values": np.arange(9.0)}, r"values of shape \(9,\): give one list of at least 10"),
-        ({"controls": np.arange(11.0)}, "controls: are 11 for 12 values"),
-        ({"many_controls": np.arange(12.0)}, "many_controls: are 12 for 12 values; give more"),
-        ({"values": [np.nan] * 12}, "values: not all are finite"),
-        ({"controls": [1.0] * 12}, "controls: all are 1; were the seeds different"),
-    ],
-)
-def test_bad_numbers_are_named(given: dict[str, Any], message: str) -> None:
-    usual: dict[str, Any] = {"values": np.arange(12.0), "controls": np.arange(12.0)}
-    with pytest.raises(SceneError, match=message):
-        controlled_mean(**{**usual, "many_controls": np.arange(50.0), **given})
+def mean_of(**given: Any) -> Any:
+    usual = {"values": np.arange(12.0), "controls": np.arange(12.0)}
+    return controlled_mean(**{**usual, "many_controls": np.arange(50.0), **given})
+
+
+def control_of(**given: Any) -> Any:
+    usual = {"channel": "position[vessel, z]", "t_end": 40.0}
+    return LinearControl(given.pop("make", partial(vessel, memory="none"))(), **usual | given)
+
+
+def hooked(make: Any = lifted, **given: Any) -> Any:
+    return HookLoadControl(make(), t_end=10.0, **given)
+
+
+def wet() -> Scene:
+    scene = lifted()
+    scene.add_immersed("payload", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
+    return scene
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("make", "given", "message"),
     [
-        ({"channel": "position[vessel, w]"}, "position has no 'w'; its dimensions are body, axis"),
-        ({"channel": "position[vessel]"}, "position.body=vessel.: name its axis"),
-        ({"channel": "hook_load"}, "hook_load is no motion of a body; choose from position"),
-        ({"words": {"seed": 3}}, "'seed' is no word of the sea beside its seed"),
-        ({"after": 50.0}, "t_end is 40 s, after 50 s"),
-        ({"channel": "heel"}, "heel: name its body"),
-        ({"channel": "heel[vesel]"}, "body 'vesel' does not exist"),
-        ({"scene": Scene(name="dry")}, "scene 'dry' has no sea"),
+        (mean_of, {"values": np.arange(9.0)}, r"values of shape \(9,\)"),
+        (mean_of, {"controls": np.arange(11.0)}, "controls: are 11 for 12"),
+        (mean_of, {"controls": [1.0] * 12}, "controls: all are 1"),
+        (control_of, {"channel": "position[vessel]"}, "axis"),
+        (control_of, {"channel": "hook_load"}, "hook_load is no motion"),
+        (control_of, {"words": {"seed": 3}}, "'seed'"),
+        (control_of, {"after": 50.0}, "t_end is 40 s, after 50 s"),
+        (control_of, {"channel": "heel"}, "heel: name its body"),
+        (control_of, {"channel": "heel[vesel]"}, "'vesel'"),
+        (control_of, {"make": partial(Scene, name="dry")}, "'dry' has no sea"),
+        (control_of, {"make": partial(vessel, memory="convolution")}, "is a convolution"),
+        (hooked, {"make": partial(vessel, memory="none")}, "link is None"),
+        (hooked, {"link": "lnk"}, "link is 'lnk'"),
+        (hooked, {"make": wet}, "'payload' is in water"),
     ],
 )
-def test_a_control_that_makes_no_sense(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
-    usual: dict[str, Any] = {"scene": vessel(memory="none"), "channel": "position[vessel, z]", "t_end": 40.0}
-    asked = {**usual, **given}
+def test_what_makes_no_sense_is_refused(make: Any, given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
-        LinearControl(asked.pop("scene"), **asked)
-
-
-def test_a_link_that_is_none_is_named(database: HydroDatabase) -> None:
-    with pytest.raises(SceneError, match="link is None; no load hangs from a link"):
-        HookLoadControl(vessel(memory="none"), t_end=10.0)
-    with pytest.raises(SceneError, match="link is 'lnk'; choose from link"):
-        HookLoadControl(lifted(), t_end=10.0, link="lnk")
-
-
-def test_a_convolution_is_refused(database: HydroDatabase) -> None:
-    with pytest.raises(SceneError, match="is a convolution"):
-        LinearControl(vessel(memory="convolution"), "position[vessel, z]", t_end=10.0)
+        make(**given)
 
 
 def lowered_load(drag: float, *, depth: float = 12.0, EA: float = 1e7) -> Scene:
@@ -211,21 +194,9 @@ def test_the_control_of_a_load_in_water_is_the_run_in_small_waves() -> None:
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
 def test_drag_in_the_sea_as_described_damps_a_control() -> None:
-    free, braked = (
-        LinearControl(
-            lowered_load(drag, EA=2e6), "position[box, z]", t_end=100.0, after=20.0, words={"hs": 2.0}
-        )
-        for drag in (0.0, 5.0)
-    )
+    how = {"channel": "position[box, z]", "t_end": 100.0, "after": 20.0, "words": {"hs": 2.0}}
+    free, braked = (LinearControl(lowered_load(drag, EA=2e6), **how) for drag in (0.0, 5.0))
     seeds = range(1, 5)
     assert braked.extremes(seeds).mean() < 0.98 * free.extremes(seeds).mean()
-
-
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
-def test_controls_that_know_no_water_are_refused_by_name() -> None:
     with pytest.raises(SceneError, match="crosses the surface at rest"):
         LinearControl(lowered_load(1.0, depth=0.2), "position[box, z]", t_end=10.0)
-    hooked = lifted()
-    hooked.add_immersed("payload", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
-    with pytest.raises(SceneError, match="load 'payload' is in water"):
-        HookLoadControl(hooked, t_end=10.0)

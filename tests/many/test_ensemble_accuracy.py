@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +17,7 @@ from seacrane.warnings import AccuracyNotHeldWarning
 
 LIMIT = 1e-4
 TRACK = {"track": Kept(channel="position", names={"body": "bob"})}
-GIVEN: dict[str, Any] = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
+GIVEN = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
 STARTS = {"start": [1.0 + 0.02 * place for place in range(40)]}
 
 
@@ -36,69 +35,42 @@ def test_every_member_is_as_accurate_as_asked(chosen: Ensemble) -> None:
         assert np.linalg.norm(error, axis=-1).max() < LIMIT
 
 
-def test_one_method_is_chosen_at_little_cost(chosen: Ensemble) -> None:
+def test_one_method_is_chosen_at_little_cost(chosen: Ensemble, tmp_path: Path) -> None:
+    """And alike on threads and resumed; of 25 storms one is the probe and one is checked."""
     told = chosen.accuracy
-    assert told is not None
-    assert told.held
+    assert told is not None and told.held
     assert told.cost < 1.2
-    assert len(told.probes) == 1
-    assert len(told.checks) == 2
+    assert (len(told.probes), len(told.checks)) == (1, 2)
     assert not set(told.probes) & set(told.checks)
-    same = ensemble(
-        pendulum, over=STARTS, integrator=told.method.integrator, rtol=told.method.used_rtol, **GIVEN
-    )
-    assert same.dataset.identical(chosen.dataset)
-
-
-def test_a_sea_is_as_cheap() -> None:
-    """Of 25 storms one is the probe and one is checked."""
-    given: dict[str, Any] = {"over": {"seed": range(1, 26)}}
-    roll = {"roll": Kept(channel="vessel_motion", what="maximum", names={"motion": "roll"})}
-    told = ensemble(
-        vessel(hs=1.0, memory="passive"), keep=roll, accuracy={"roll": 1e-3}, t_end=20.0, dt_out=0.5, **given
-    ).accuracy
-    assert told is not None
-    assert (len(told.probes), len(told.checks)) == (1, 1)
-    assert told.held
-    assert told.cost < 1.2
-
-
-def test_it_is_the_same_on_threads_and_resumed(chosen: Ensemble, tmp_path: Path) -> None:
-    given: dict[str, Any] = {
-        "over": STARTS,
-        "accuracy": {"position": LIMIT},
-        "store": tmp_path / "store",
-        **GIVEN,
-    }
+    method = {"integrator": told.method.integrator, "rtol": told.method.used_rtol}
+    assert ensemble(pendulum, over=STARTS, **method, **GIVEN).dataset.identical(chosen.dataset)
+    asked = {"over": STARTS, "accuracy": {"position": LIMIT}, "store": tmp_path / "s", **GIVEN}
     with ThreadPoolExecutor(2) as executor:
-        there = ensemble(pendulum, executor=executor, **given)
-    again = ensemble(pendulum, **given)
-    for one in (there, again):
+        there = ensemble(pendulum, executor=executor, **asked)
+    for one in (there, ensemble(pendulum, **asked)):
         assert one.dataset.identical(chosen.dataset)
-        assert one.accuracy == chosen.accuracy
+        assert one.accuracy == told
+    roll = {"roll": Kept(channel="vessel_motion", what="maximum", names={"motion": "roll"})}
+    storms = {"over": {"seed": range(1, 26)}, "keep": roll, "t_end": 20.0, "dt_out": 0.5}
+    at_sea = ensemble(vessel(hs=1.0, memory="passive"), accuracy={"roll": 1e-3}, **storms).accuracy
+    assert at_sea is not None and at_sea.held
+    assert (len(at_sea.probes), len(at_sea.checks)) == (1, 1)
+    assert at_sea.cost < 1.2
 
 
 def test_members_wilder_than_their_probes_are_found() -> None:
     rows = [{"gravity": 1e-3 if place == 15 else 1e5} for place in range(30)]
-    with pytest.warns(
-        AccuracyNotHeldWarning, match=r"1 of 1 members .* are beyond it; worst is member \d+ \(grav"
-    ):
+    with pytest.warns(AccuracyNotHeldWarning, match=r"1 of 1 members .*worst is member \d+ \(grav"):
         found = ensemble(pendulum(), over=rows, accuracy={"position": LIMIT}, **GIVEN)
-    assert found.accuracy is not None
-    assert not found.accuracy.held
+    assert found.accuracy is not None and not found.accuracy.held
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"rtol": 1e-3}, "accuracy chooses integrator, rtol and dt itself"),
-        ({"accuracy": {}}, "accuracy is empty"),
-        ({"accuracy": {"posture": 1.0}}, "channel 'posture' does not exist"),
-        ({"accuracy": {"position": 0.0}}, "position is 0.0; give a finite number above zero"),
-        ({"accuracy": 0.1}, "accuracy is 0.1; give a mapping"),
-    ],
-)
-def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
-    usual: dict[str, Any] = {"over": STARTS, "accuracy": {"position": LIMIT}, **GIVEN}
-    with pytest.raises(SceneError, match=message):
-        ensemble(pendulum, **{**usual, **given})
+def test_bad_input_is_named() -> None:
+    usual = {"over": STARTS, "accuracy": {"position": LIMIT}, **GIVEN}
+    for given, message in (
+        ({"rtol": 1e-3}, "accuracy chooses"), ({"accuracy": {}}, "accuracy is empty"),
+        ({"accuracy": {"posture": 1.0}}, "'posture'"), ({"accuracy": {"position": 0.0}}, "position is 0.0"),
+        ({"accuracy": 0.1}, "accuracy is 0.1"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            ensemble(pendulum, **{**usual, **given})

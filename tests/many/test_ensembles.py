@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import gc
 import os
-import pickle
 import resource
 import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -28,35 +26,16 @@ from ensemble_studies import (
     two_numbers_or_three,
 )
 
-from seacrane import (
-    FileFormatError,
-    HydroDatabase,
-    Kept,
-    Method,
-    Outputs,
-    Result,
-    Scene,
-    SceneError,
-    SimulationError,
-    ensemble,
-    simulate,
-)
+from seacrane import Kept, Scene, SceneError, SimulationError, ensemble, simulate
 from seacrane.cases import vessel
 from seacrane.description.databases import without_databases
 from seacrane.description.file import described
 from seacrane.ensembles import Ensemble, LatinHypercube
-from seacrane.ensembles.job import Job
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.ensembles.study import Study
 from seacrane.errors import WorkerVersionError
 from seacrane.hydro import DriftCoefficients, shipped_database
 
 GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
-
-
-@pytest.fixture(scope="module")
-def database() -> HydroDatabase:
-    return shipped_database()
 
 
 @pytest.fixture(scope="module")
@@ -71,53 +50,43 @@ def serial() -> Ensemble:
 
 def test_members_are_what_simulate_gives(serial: Ensemble) -> None:
     result = simulate(pendulum(start=2.0, mass=5.0), **SWING)
-    z = result.select("position", body="bob", axis="z")
-    one = serial.dataset.sel(start=2.0, mass=5.0)
-    assert np.array_equal(one.track, result.select("position", body="bob")[::5])
-    assert np.array_equal(one.time, result.time[::5])
-    assert one.highest == z[result.time >= 1.0].max()
-    assert np.array_equal(one["mean"], result.select("position", body="bob").mean(axis=0))
-    assert one.scatter == result.select("position", body="bob", axis="x").std()
-    assert one.lowest == z.min()
+    place = result.select("position", body="bob")
+    one, late = serial.dataset.sel(start=2.0, mass=5.0), result.time >= 1.0
+    assert np.array_equal(one.track, place[::5]) and np.array_equal(one.time, result.time[::5])
+    assert np.array_equal(one["mean"], place.mean(axis=0))
+    assert (one.highest, one.lowest, one.scatter) == (
+        place[late, 2].max(),
+        place[:, 2].min(),
+        place[:, 0].std(),
+    )
     assert serial.dataset.track.attrs["units"] == "m"
     assert serial.failures == {}
 
 
 @pytest.mark.parametrize("pack", [1, 4, 100])
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
-def test_results_are_the_same_to_the_bit(
-    pool: type[Executor], pack: int, serial: Ensemble, tmp_path: Path
-) -> None:
-    with pool(2) as executor:  # type: ignore[call-arg]
-        there = ensemble(
-            pendulum, over=GRID, keep=KEEP, executor=executor, pack=pack, store=tmp_path / "store", **SWING
-        )
+def test_results_are_the_same_to_the_bit(pool: Any, pack: int, serial: Ensemble, tmp_path: Path) -> None:
+    how = {"pack": pack, "store": tmp_path / "store", **SWING}
+    with pool(2) as executor:
+        there = ensemble(pendulum, over=GRID, keep=KEEP, executor=executor, **how)
     assert there.dataset.identical(serial.dataset)
     assert Ensemble.load(tmp_path / "store").dataset.identical(serial.dataset)
 
 
-def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
-    distributed = pytest.importorskip(
-        "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
-    )
-    given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "t_end": 2.0, "rtol": 1e-3}
-    keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        there = ensemble(afloat, keep=keep, executor=client.get_executor(), **given)
-    assert there.dataset.identical(ensemble(afloat, keep=keep, **given).dataset)
+def test_dask_gives_the_same(afloat: Scene) -> None:
+    distributed = pytest.importorskip("distributed", reason="pip install 'seacrane[ensemble]'")
+    given = {"over": {"seed": [1, 2, 3]}, "t_end": 2.0, "rtol": 1e-3}
+    given["keep"] = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
+    workers = {"n_workers": 2, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**workers) as cluster, distributed.Client(cluster) as client:
+        there = ensemble(afloat, executor=client.get_executor(), **given)
+    assert there.dataset.identical(ensemble(afloat, **given).dataset)
 
 
-def test_seas_of_a_scene_are_those_of_add_sea(afloat: Scene, database: HydroDatabase) -> None:
-    words: dict[str, Any] = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
-    assert afloat.waves is not None
+def test_seas_of_a_scene_are_those_of_add_sea(afloat: Scene) -> None:
+    words = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
     made, asked = with_sea(afloat, words), vessel(**words)
-    assert made.waves is not None
-    assert asked.waves is not None
+    assert asked.waves is not None and afloat.waves is not None
     known = replace(asked.waves.provenance, repeat_period_s=None, repeat_found=None)
     asked.waves = replace(asked.waves, provenance=known)
     assert described(made)["waves"] == described(asked)["waves"]
@@ -138,8 +107,6 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
             heading_deg=20.0,
         )  # fmt: skip
     made, asked = with_sea(scenes[0], {"seed": 1}).waves, scenes[1].waves
-    assert made is not None
-    assert asked is not None
     own, other = made.hull(), asked.hull()
     assert (own.position, own.heading, own.cutoff) == (other.position, other.heading, other.cutoff)
     assert np.allclose(own.transfer, other.transfer, rtol=1e-12)
@@ -178,63 +145,34 @@ def test_a_design_fills_every_part_of_its_ranges() -> None:
 @pytest.mark.warns("FailedMembersWarning")
 @pytest.mark.parametrize("stored", [False, True])
 def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
-    there = ensemble(
-        fails_in_the_middle,
-        over={"start": [1.0, 2.0, 3.0, 4.0]},
-        keep={"lowest": lowest},
-        store=tmp_path / "store" if stored else None,
-        **SWING,
-    )
-    assert there.failures == {2: "ValueError: no such start"}
+    """And ends it where asked; one of another shape has failed too."""
+    given = {"over": {"start": [1.0, 2.0, 3.0, 4.0]}, "keep": {"lowest": lowest}, **SWING}
+    told = "ValueError: no such start"
+    there = ensemble(fails_in_the_middle, store=tmp_path / "store" if stored else None, **given)
+    assert there.failures == {2: told}
     assert np.isnan(there.dataset.lowest.to_numpy()).tolist() == [False, False, True, False]
-    assert there.dataset.failure.sel(start=3.0) == "ValueError: no such start"
-
-
-def test_the_first_failure_ends_it_where_asked(tmp_path: Path) -> None:
-    given: dict[str, Any] = {
-        "over": {"start": [1.0, 2.0, 3.0, 4.0]},
-        "keep": {"lowest": lowest},
-        "store": tmp_path / "store",
-        "on_error": "raise",
-        **SWING,
-    }
+    assert there.dataset.failure.sel(start=3.0) == told
     for _ in range(2):
-        with pytest.raises(
-            SimulationError, match=r"member 2 \(start=3.0\) failed: ValueError: no such start"
-        ):
-            ensemble(fails_in_the_middle, **given)
-    left = Ensemble.load(tmp_path / "store")
-    assert left.dataset.failure.to_numpy().tolist() == ["", "", "ValueError: no such start", "not run"]
+        with pytest.raises(SimulationError, match=rf"member 2 \(start=3.0\) failed: {told}"):
+            ensemble(fails_in_the_middle, store=tmp_path / "other", on_error="raise", **given)
+    left = Ensemble.load(tmp_path / "other")
+    assert left.dataset.failure.to_numpy().tolist() == ["", "", told, "not run"]
+    unlike = ensemble(short_or_long, **given | {"keep": {"numbers": two_numbers_or_three}})
+    assert 2 in unlike.failures and "numbers has dimensions" in unlike.failures[2]
 
 
-@pytest.mark.warns("FailedMembersWarning")
-def test_members_of_other_shapes_are_failures() -> None:
-    there = ensemble(
-        short_or_long, over={"start": [1.0, 2.0, 3.0]}, keep={"numbers": two_numbers_or_three}, **SWING
-    )
-    assert list(there.failures) == [2]
-    assert "numbers has dimensions" in there.failures[2]
-
-
-def test_a_killed_worker_loses_only_what_was_in_flight(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_killed_worker_loses_only_what_was_in_flight(tmp_path: Path, monkeypatch: Any) -> None:
     monkeypatch.setenv("SEACRANE_TEST_PARENT", str(os.getpid()))
     over = {"start": [1.0, 2.0, 3.0, 4.0, 5.0], "mark": [str(tmp_path / "mark")]}
-    given: dict[str, Any] = {"over": over, "keep": KEEP, "store": tmp_path / "store", **SWING}
-    with (
-        ProcessPoolExecutor(2) as executor,
-        pytest.raises(SimulationError, match=r"pack \d was lost with its worker"),
-    ):
+    given = {"over": over, "keep": KEEP, "store": tmp_path / "store", **SWING}
+    with ProcessPoolExecutor(2) as executor, pytest.raises(SimulationError, match=r"pack \d was lost"):
         ensemble(dies_once, executor=executor, **given)
-    before = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "store").glob("pack_*")}
-    assert before
-    assert "pack_0000002.nc" not in before
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "store").glob("pack_*")}
+    assert before and "pack_0000002.nc" not in {path.name for path in before}
     with ProcessPoolExecutor(2) as executor:
         resumed = ensemble(dies_once, executor=executor, **given)
-    assert all((tmp_path / "store" / name).stat().st_mtime_ns == kept for name, kept in before.items())
-    whole = ensemble(dies_once, over=over, keep=KEEP, **SWING)
-    assert resumed.dataset.identical(whole.dataset)
+    assert all(path.stat().st_mtime_ns == kept for path, kept in before.items())
+    assert resumed.dataset.identical(ensemble(dies_once, over=over, keep=KEEP, **SWING).dataset)
 
 
 INTERRUPTED = """
@@ -253,11 +191,7 @@ with ThreadPoolExecutor(2) as pool:
 )
 def test_ctrl_c_keeps_what_came_back(where: str, tmp_path: Path) -> None:
     store = tmp_path / "store"
-    path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
-    child = subprocess.Popen(
-        [sys.executable, "-c", INTERRUPTED, str(store), where],
-        env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.PIPE,
-    )  # fmt: skip
+    child = subprocess.Popen([sys.executable, "-c", INTERRUPTED, str(store), where], stderr=subprocess.PIPE)
     until = time.monotonic() + 60.0
     while len(list(store.glob("pack_*.nc"))) < 3 and time.monotonic() < until:
         time.sleep(0.01)
@@ -291,113 +225,59 @@ def test_a_full_disk_is_named_and_loses_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changes", "named"),
     [
-        ({"rtol": 1e-5}, "method differ"),
-        ({"t_end": 3.0}, "t_end differ"),
-        ({"over": {"start": [1.0, 2.0], "mass": [2.0, 6.0]}}, "first and last member, over differ"),
-        ({"keep": {"lowest": max}}, "keep differ"),
+        ({"rtol": 1e-5}, "method"),
+        ({"t_end": 3.0}, "t_end"),
+        ({"over": {"start": [1.0, 2.0], "mass": [2.0, 6.0]}}, "first and last member, over"),
+        ({"keep": {"lowest": max}}, "keep"),
         ({"source": short_or_long, "over": {"start": [1.0]}}, "scene, first and last member"),
-        ({"pack": 2}, "members in a pack differ"),
+        ({"pack": 2}, "members in a pack"),
     ],
 )
 def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: str, tmp_path: Path) -> None:
-    given: dict[str, Any] = {
-        "source": pendulum,
-        "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
-        "keep": {"lowest": lowest},
-        "store": tmp_path / "store",
-        **SWING,
-    }
+    given = {"source": pendulum, "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
+             "keep": {"lowest": lowest}, "store": tmp_path / "store", **SWING}  # fmt: skip
     first = ensemble(**given)
     with pytest.raises(SceneError, match=f"is of another study: .*{named}"):
         ensemble(**{**given, **changes})
     assert ensemble(**given).dataset.identical(first.dataset)
 
 
-def test_members_that_are_stored_leave_no_object_behind(tmp_path: Path) -> None:
-    """Each leaves several where they are kept until the end."""
-    alive: list[int] = []
-
-    def counted(_: Result) -> float:
-        alive.append(0)
-        if len(alive) % 40 == 0:
-            gc.collect()
-            alive[-1] = len(gc.get_objects())
-        return 0.0
-
-    starts = np.linspace(1.0, 2.0, 120).tolist()
-    ensemble(
-        pendulum, over={"start": starts}, keep={"nothing": counted}, store=tmp_path / "store", pack=20,
-        **SWING | {"t_end": 0.1},
-    )  # fmt: skip
-    first, *_, last = [count for count in alive if count]
-    assert last - first < 80
-
-
-def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "letter.txt").write_text("dear")
-    with pytest.raises(SceneError, match="holds something else than an ensemble"):
-        ensemble(pendulum, over=GRID, keep=KEEP, store=tmp_path, **SWING)
-    with pytest.raises(FileFormatError, match=r"has no study\.json"):
-        Ensemble.load(tmp_path)
-
-
-def test_a_damaged_pack_is_named(tmp_path: Path) -> None:
-    ensemble(pendulum, over=GRID, keep={"lowest": lowest}, store=tmp_path / "store", **SWING)
-    (tmp_path / "store" / "pack_0000001.nc").write_bytes(b"nothing")
-    with pytest.raises(FileFormatError, match=r"pack_0000001\.nc: is no pack"):
-        Ensemble.load(tmp_path / "store")
-
-
-def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_of_another_version_is_named(monkeypatch: Any) -> None:
     with ProcessPoolExecutor(1) as executor:
         executor.submit(os.getpid).result()  # it is there, with the version of before
         monkeypatch.setattr("seacrane.ensembles.filling.__version__", "9.9")
-        with pytest.raises(
-            WorkerVersionError, match=r"a worker has seacrane .*, and the ensemble is of 9\.9"
-        ):
+        with pytest.raises(WorkerVersionError, match=r"9\.9"):
             ensemble(pendulum, over=GRID, keep=KEEP, executor=executor, **SWING)
-
-
-def test_a_job_is_read_once_in_a_process() -> None:
-    study = Study(source=pendulum(), t_end=1.0, method=Method(), outputs=Outputs(), keep=KEEP)
-    data = pickle.dumps(Job(study))
-    assert pickle.loads(data) is pickle.loads(data)
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"over": {"bodies.bob.mas": [1.0]}}, r"no parameter 'bodies.bob.mas'; nearest: 'bodies.bob.mass'"),
-        ({"over": {"seed": [1, 2]}}, "scene 'pendulum' has no sea"),
-        ({"over": {"gravity": range(1000), "baumgarte": range(1001)}}, "are 1001000 members"),
-        ({"over": {"gravity": range(10**9)}}, "1000000000 gravity are 1000000000 members"),
+        ({"over": {"bodies.bob.mas": [1.0]}}, r"'bodies.bob.mas'.*'bodies.bob.mass'"),
+        ({"over": {"seed": [1, 2]}}, "'pendulum' has no sea"),
+        ({"over": {"gravity": range(1000), "baumgarte": range(1001)}}, "1001000 members"),
+        ({"over": {"gravity": range(10**9)}}, "1000000000 members"),
         ({"over": {}}, "over is empty"),
-        ({"over": {"gravity": []}}, "gravity has no values"),
         ({"over": {"gravity": [1.0, 1.0]}}, "gravity has 1.0 twice"),
-        ({"over": {"gravity": [[1.0]]}}, "give numbers or texts"),
-        ({"over": [{"gravity": 1.0}, {"baumgarte": 1.0}]}, r"over\[1\] has baumgarte, over\[0\] has gravity"),
-        ({"keep": {}}, "keep is {}"),
+        ({"over": [{"gravity": 1.0}, {"baumgarte": 1.0}]}, r"over\[1\] has baumgarte"),
         ({"keep": {"failure": lowest}}, "'failure' is taken"),
         ({"keep": {"x": 3}}, "keep: x is 3"),
-        ({"keep": {"x": Kept(channel="position", interval=0.15)}}, "no multiple of the output interval"),
-        ({"keep": {"x": Kept(channel="position", after=5.0)}}, "after is 5 s, the run ends at 2 s"),
-        ({"on_error": "ignore"}, "on_error is 'ignore'"),
-        ({"executor": 4}, "executor is 4"),
-        ({"pack": 0}, "pack is 0"),
-        ({"source": 3}, "ensemble of 3"),
-        ({"store": "nowhere/at/all"}, "there is no folder nowhere/at"),
+        ({"keep": {"x": Kept(channel="position", interval=0.15)}}, "multiple of the output interval"),
+        ({"keep": {"x": Kept(channel="position", after=5.0)}}, "after is 5 s"),
+        ({"store": "nowhere/at/all"}, "no folder nowhere/at"),
+        ({"store": Path(__file__).parent}, "something else than an ensemble"),
     ],
 )
 def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
-    usual: dict[str, Any] = {"source": pendulum(), "over": {"gravity": [9.0]}, "keep": KEEP, **SWING}
+    usual = {"source": pendulum(), "over": {"gravity": [9.0]}, "keep": KEEP, **SWING}
     with pytest.raises(SceneError, match=message):
         ensemble(**{**usual, **given})
 
 
-def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> None:
+def test_another_database_is_refused(afloat: Scene) -> None:
     keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
-    scene = without_databases(afloat)
-    with pytest.raises(SceneError, match="vessel 'vessel' has no database, which a sea needs"):
+    scene, database = without_databases(afloat), shipped_database()
+    with pytest.raises(SceneError, match="'vessel' has no database"):
         ensemble(scene, over={"seed": [1]}, keep=keep)
     scene.replace("vessel", kind="vessel", database=replace(database, force=1.1 * database.force))
     with pytest.raises(SceneError, match="the waves load vessel 'vessel' otherwise"):
@@ -406,14 +286,13 @@ def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> 
 
 def test_members_begin_where_they_are_told(tmp_path: Path) -> None:
     """A state for all, or a function of each scene; a store of another start is refused."""
-    asked: dict[str, Any] = {"over": {"start": [1.0]}, "keep": {"lowest": lowest}, **SWING}
-    half = simulate(pendulum(), **SWING | {"t_end": 1.0})
+    asked = {"over": {"start": [1.0]}, "keep": {"lowest": lowest}, **SWING}
+    half = simulate(pendulum(), **SWING | {"t_end": 1.0}).state
     whole = simulate(pendulum(), **SWING)["position"]
-    later = ensemble(pendulum, **asked, start=half.state, store=tmp_path / "later")
+    later = ensemble(pendulum, **asked, start=half, store=tmp_path / "later")
     assert float(later.dataset.lowest[0]) == pytest.approx(whole[10:, 0, 2].min(), rel=1e-6)
-    by_scene = ensemble(pendulum, **asked, start=lambda scene: half.state)
+    by_scene = ensemble(pendulum, **asked, start=lambda scene: half)
     assert float(by_scene.dataset.lowest[0]) == float(later.dataset.lowest[0])
-    with pytest.raises(SceneError, match="start"):
-        ensemble(pendulum, **asked, store=tmp_path / "later")
-    with pytest.raises(SceneError, match=r"start is 1\.0; give a seacrane\.State, 'rest', or a function"):
-        ensemble(pendulum, **asked, start=1.0)  # type: ignore[arg-type]
+    for given in ({"store": tmp_path / "later"}, {"start": 1.0}):
+        with pytest.raises(SceneError, match="start"):
+            ensemble(pendulum, **asked, **given)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,24 +11,22 @@ from ensemble_studies import cart, luffed
 from stage_scenes import on_deck
 
 from seacrane import Kept, Move, Scene, Stage, Until, ensemble, shipped_database
-from seacrane.ensembles import Ensemble
 from seacrane.run.lanes import module_of
 
 pytestmark = [
     pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
-FINE: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.1}
-HOIST = [
-    Stage(name="wait", duration=2.0),
-    Stage(name="raise", duration=3.0, commands={"hoist.rate": -0.4}),
-    Stage(name="hold", duration=2.0, commands={"hoist.rate": 0.0}),
-]
-KEEP: dict[str, Any] = {
-    "hook": Kept(channel="hook_load", interval=0.5),
-    "raised": "line_unstretched_length[stage=hold].min",
-    "end": "stage[raise].end",
-}
+FINE = {"rtol": 1e-8, "dt_out": 0.1}
+
+
+def hoist(name: str, rate: float) -> Stage:
+    return Stage(name=name, duration=3.0, commands={"hoist.rate": rate})
+
+
+HOIST = [Stage(name="wait", duration=2.0), hoist("raise", -0.4), hoist("hold", 0.0)]
+HOOK = Kept(channel="hook_load", interval=0.5)
+KEEP = {"hook": HOOK, "raised": "line_unstretched_length[stage=hold].min", "end": "stage[raise].end"}
 
 
 @cache
@@ -38,10 +34,8 @@ def lift(rung: str = "quasi-static") -> Scene:
     scene = Scene(name="hoisting")
     scene.add_vessel(shipped_database())
     scene.add_crane(slew=-1.2, s1=1.4, s2=1.0)
-    scene.add_hoist(
-        mass=60e3, size=(4.0, 4.0, 4.0), length=14.0, EA=4e8, rung=rung,
-        winch={"lag": 0.3, "maximum_rate": 1.0},
-    )  # fmt: skip
+    winch = {"lag": 0.3, "maximum_rate": 1.0}
+    scene.add_hoist(mass=60e3, size=(4.0, 4.0, 4.0), length=14.0, EA=4e8, rung=rung, winch=winch)
     scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=1, count=30)
     return scene
 
@@ -65,40 +59,35 @@ def test_stages_that_end_at_times_run_side_by_side_as_alone(rung: str) -> None:
 
 def rolling() -> list[Stage]:
     """Ends as the ship rolls: at another time in every sea."""
-    return [
-        Stage(
-            name="raise", until=Until.channel("vessel_motion", motion="roll", maximum=-0.3),
-            maximum_duration=60.0, commands={"hoist.rate": -0.1},
-        ),
-        Stage(name="hold", duration=4.0, commands={"hoist.rate": 0.0}),
-    ]  # fmt: skip
+    leans = Until.channel("vessel_motion", motion="roll", maximum=-0.3)
+    up, hold = {"hoist.rate": -0.1}, {"hoist.rate": 0.0}
+    first = Stage(name="raise", until=leans, maximum_duration=60.0, commands=up)
+    return [first, Stage(name="hold", duration=4.0, commands=hold)]
 
 
 def test_members_whose_stages_end_at_their_own_times_meet_again() -> None:
-    alone, beside = in_both(lift(), stages=rolling(), over={"seed": [1, 2, 3, 4]}, keep=KEEP | {
-        "hook": "hook_load[hoist, stage=hold].max"
-    }, **FINE)  # fmt: skip
+    keep = KEEP | {"hook": "hook_load[hoist, stage=hold].max"}
+    alone, beside = in_both(lift(), stages=rolling(), over={"seed": [1, 2, 3, 4]}, keep=keep, **FINE)
     ends = alone.end.to_numpy()
     assert len(set(ends.tolist())) == 4
     assert np.abs(beside.end - alone.end).max() < 1e-5
     assert np.abs(beside.hook - alone.hook).max() < 1e-5 * np.abs(alone.hook).max()
     told = sorted(beside.kept_apart.to_numpy().tolist())
     assert told[:3] == [""] * 3 and told[3].startswith("from t = ") and "no other lift is alike" in told[3]
-    assert beside.attrs["side_by_side"].endswith("1 (in part, no other lift is alike at that time)")
 
 
 PULL = [
     Stage(name="stand", duration=1.0),
     Stage(name="pull", duration=3.0, commands={"rail.displacement": Move(to=1.0, over=2.0)}),
 ]
-CART: dict[str, Any] = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"}, interval=0.5)}
-OVER: dict[str, Any] = {"seed": [1, 2, 3], "mass": [9.0, 4.0], "kind": ["prismatic", "cylindrical"]}
+CART = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"}, interval=0.5)}
+OVER = {"seed": [1, 2, 3], "mass": [9.0, 4.0], "kind": ["prismatic", "cylindrical"]}
 
 
 @pytest.mark.parametrize("stages", [(), PULL])
 def test_the_order_of_names_changes_nothing(stages: Any) -> None:
     """To the bit, nor who is beside whom: masses in lanes of one kind of joint."""
-    study: dict[str, Any] = {"keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages}
+    study = {"keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages}
     study |= {} if stages else {"t_end": 3.0}
     orders = [["seed", "mass", "kind"], ["kind", "mass", "seed"], ["mass", "kind", "seed"]]
     found = [ensemble(cart, over={name: OVER[name] for name in order}, **study).dataset for order in orders]
@@ -130,36 +119,6 @@ def test_lifts_on_different_sides_go_beside_those_on_their_own() -> None:
     assert np.abs(alone.turn[0] - alone.turn[1]).max() > 0.1
 
 
-@pytest.mark.parametrize("stages", [(), PULL])
-def test_a_store_killed_in_a_pack_has_the_same_bits(stages: Any, tmp_path: Path) -> None:
-    ran: list[int] = []
-
-    def watched(**given: Any) -> Scene:
-        ran.append(1)
-        if len(ran) == kill:
-            raise KeyboardInterrupt
-        return cart(**given)
-
-    study: dict[str, Any] = {
-        "over": OVER, "keep": CART, "lanes": 4, "dt_out": 0.1, "rtol": 1e-5, "stages": stages,
-        **({} if stages else {"t_end": 3.0}),
-    }  # fmt: skip
-    kill = 0
-    whole = ensemble(watched, **study).dataset
-    before = len(ran) - 12  # of identity and order
-    ran.clear()
-    kill = before + 7 + 2  # in the middle of the second pack
-    with pytest.raises(KeyboardInterrupt):
-        ensemble(watched, store=tmp_path / "packs", **study)
-    left = Ensemble.load(tmp_path / "packs").dataset
-    assert 0 < int((left.failure == "").sum()) < 12
-    kill = 0
-    with ThreadPoolExecutor(2) as executor:
-        resumed = ensemble(watched, store=tmp_path / "packs", executor=executor, **study).dataset
-    assert np.array_equal(resumed.x, whole.x)
-    assert (resumed.kept_apart == whole.kept_apart).all()
-
-
 def test_stages_with_limits_are_run_as_alone_and_say_why() -> None:
     scene = on_deck(damping_ratio=0.1)
     scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0), position=(40.0, 0.0, 0.0))
@@ -173,22 +132,7 @@ def test_stages_with_limits_are_run_as_alone_and_say_why() -> None:
 
 @pytest.mark.parametrize("integrator", ["rk4", "rk-low-storage"])
 def test_fixed_steps_run_side_by_side_as_alone(integrator: str) -> None:
-    study: dict[str, Any] = {
-        "over": {"seed": [1, 2, 3, 4]}, "t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01,
-        "keep": {"hook": Kept(channel="hook_load", interval=0.5)},
-    }  # fmt: skip
-    alone, beside = in_both(lift(), **study)
+    how = {"t_end": 4.0, "dt_out": 0.5, "integrator": integrator, "dt": 0.01}
+    alone, beside = in_both(lift(), over={"seed": [1, 2, 3, 4]}, keep={"hook": HOOK}, **how)
     assert (beside.kept_apart == "").all()
     assert np.abs(beside.hook - alone.hook).max() < 1e-9 * np.abs(alone.hook).max()
-
-
-def test_one_remark_says_how_members_are_stepped(capfd: pytest.CaptureFixture[str]) -> None:
-    given: dict[str, Any] = {"keep": CART, "t_end": 0.5, "dt_out": 0.1}
-    told = ensemble(cart, over=[{"seed": 1, "mass": 4.0}] * 5, lanes=4, progress=True, **given)
-    why = "4 in 4 lanes, by themselves 1 (there is no other run beside it)"
-    assert told.dataset.attrs["side_by_side"] == why and why in capfd.readouterr().err
-    one = ensemble(cart, over={"mass": [4.0, 5.0], "kind": ["prismatic"], "seed": [1]}, lanes=1, **given)
-    assert one.dataset.attrs["side_by_side"] == "2 one by one: lanes is 1"
-    scene = cart(seed=1, mass=4.0)
-    alone = ensemble(scene, over={"gravity": [9.8, 9.81]}, **given).dataset.attrs["side_by_side"]
-    assert alone == "2 one by one: lanes is 1, as it is by default where no word of the sea varies"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import warnings
 from collections import Counter
 from collections.abc import Callable
@@ -11,14 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import cart
+from ensemble_studies import drifting_hull
 from limit_scenes import limited
 from random_scenes import KINDS, Shape, build
 
-from seacrane import Kept, Result, Run, Scene, SceneError, SeacraneError, Stage, Until, cases, ensemble
+from seacrane import Result, Run, Scene, SceneError, SeacraneError, Stage, Until, cases
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import _paths, with_values
-from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, module_of
 from seacrane.run.lifts_in_lanes import LiftsInLanes
@@ -39,19 +37,13 @@ METHODS: list[dict[str, Any]] = [
 MEMORIES = ("per-pair", "per-pair", "by-motion", "convolution")
 
 
-@cache
-def drifting() -> HydroDatabase:
-    """The shipped hull, with mean drift forces."""
-    hull = shipped_database()
-    mean = np.tile([-2e4, 3e4, 0.0, 0.0, 0.0, 1e5], (len(hull.heading), len(hull.omega), 1))
-    drift = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=mean)
-    return dataclasses.replace(hull, drift=drift)
+drifting = cache(drifting_hull)
 
 
 def afloat(rng: np.random.Generator) -> Callable[[], Scene]:
     """A ship, with its crane and load or without, made anew at each call."""
     name = str(rng.choice(["vessel", "vessel", "case2"]))
-    given: dict[str, Any] = {
+    given = {
         "memory": str(rng.choice(MEMORIES)), "drift": bool(rng.integers(2)), "hs": float(rng.uniform(1, 4)),
         "count": 30,
     }  # fmt: skip
@@ -192,53 +184,33 @@ def told_of(seed: int) -> tuple[str, str]:
     return "in lanes" if lanes > 1 else "apart", wrong
 
 
-def judged(
-    seeds: range, told_of: Callable[[int], tuple[str, str]] = told_of
-) -> tuple[Counter[str], dict[int, str]]:
+def judged(seeds: range, told_of: Any = told_of) -> tuple[Counter[str], dict[int, str]]:
     how, wrong = Counter[str](), {}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for seed in seeds:
             went, bad = told_of(seed)
             how[went] += 1
-            if bad:
-                wrong[seed] = bad
+            wrong |= {seed: bad} if bad else {}
     return how, wrong
 
 
-def test_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
-    how, wrong = judged(range(20))
+MANY = pytest.mark.slow("hundreds of random lifts")
+
+
+@pytest.mark.parametrize(
+    ("of", "seeds", "least"),
+    [
+        (told_of, range(20), (3, 3)),
+        (staged_told_of, range(10), (3, 2)),
+        pytest.param(told_of, range(1000, 1400), (60, 60), marks=MANY),
+        pytest.param(staged_told_of, range(1000, 1200), (30, 30), marks=MANY),
+    ],
+)
+def test_random_members_in_lanes_are_as_alone_or_kept_apart(of: Any, seeds: range, least: Any) -> None:
+    how, wrong = judged(seeds, of)
     assert wrong == {}
-    assert how["in lanes"] >= 3 and how["apart"] >= 3, how
-
-
-def test_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
-    how, wrong = judged(range(10), staged_told_of)
-    assert wrong == {}
-    assert how["in lanes"] >= 3 and how["apart"] >= 2, how
-
-
-@pytest.mark.slow("many ensembles")
-def test_orders_of_names_change_neither_numbers_nor_neighbours() -> None:
-    for seed in range(6):
-        rng = np.random.default_rng(seed)
-        axes: dict[str, list[Any]] = {
-            "seed": list(range(1, int(rng.integers(2, 7)))), "stiffness": rng.uniform(20.0, 60.0, 2).tolist(),
-            "kind": ["prismatic", "cylindrical"][: int(rng.integers(1, 3))],
-            "mass": rng.uniform(3.0, 9.0, int(rng.integers(1, 4))).tolist(),
-        }  # fmt: skip
-        found = []
-        for _ in range(3):
-            names = rng.permutation(sorted(axes)).tolist()
-            keep = {"x": Kept(channel="position", names={"body": "cart", "axis": "x"})}
-            told = ensemble(
-                cart, over={name: axes[name] for name in names}, keep=keep, lanes=4, t_end=0.5, dt_out=0.25
-            ).dataset
-            found.append(told.transpose(*sorted(axes), ...))
-        for other in found[1:]:
-            assert np.array_equal(other.x, found[0].x)
-            assert (other.kept_apart == found[0].kept_apart).all()
-            assert other.attrs["side_by_side"] == found[0].attrs["side_by_side"]
+    assert how["in lanes"] >= least[0] and how["apart"] >= least[1], how
 
 
 def test_a_stage_without_a_sling_begins_with_extremes_of_its_own() -> None:
@@ -249,17 +221,3 @@ def test_a_stage_without_a_sling_begins_with_extremes_of_its_own() -> None:
 def test_steps_of_given_length_do_not_end_where_a_strike_would_end_others() -> None:
     assert staged_told_of(1086) == ("in lanes", "")
     assert told_of(1111) == ("in lanes", "")
-
-
-@pytest.mark.slow("hundreds of random lifts")
-def test_many_random_lifts_in_stages_are_as_alone_or_kept_apart() -> None:
-    how, wrong = judged(range(1000, 1200), staged_told_of)
-    assert wrong == {}
-    assert how["in lanes"] >= 30 and how["apart"] >= 30, how
-
-
-@pytest.mark.slow("hundreds of random lifts")
-def test_many_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
-    how, wrong = judged(range(1000, 1400))
-    assert wrong == {}
-    assert how["in lanes"] >= 60 and how["apart"] >= 60, how

@@ -2,30 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from stage_scenes import MASS, G, heaving
 
 from seacrane import Criterion, SceneError, Stage, Until, allowable_hs
 
-STAGES = [
-    Stage(name="hang", duration=8.0),
-    Stage(
-        name="down",
-        until=Until.length("wire", minimum=20.0),
-        maximum_duration=9.0,
-        commands={"wire.rate": 0.4},
-    ),
-]
+LOWER = Until.length("wire", minimum=20.0)
+STAGES = [Stage(name="hang", duration=8.0),
+          Stage(name="down", until=LOWER, maximum_duration=9.0, commands={"wire.rate": 0.4})]  # fmt: skip
 TENSION = Criterion(channel="line_tension[wire]", maximum=1.15 * MASS * G)
-ASKED: dict[str, Any] = {
-    "criteria": [TENSION],
-    "tp": 8.0,
-    "direction_deg": 0.0,
-    "hs": [2.0, 4.0],
-    "seeds": (1, 2, 3),
-}
+ASKED = {"criteria": [TENSION], "tp": 8.0, "direction_deg": 0.0, "hs": [2.0, 4.0], "seeds": (1, 2, 3)}
 
 
 @pytest.mark.parametrize("ramp", [pytest.param(0.0, marks=pytest.mark.warns("AssemblyWarning")), 5.0])

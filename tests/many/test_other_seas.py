@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
-from seacrane.description.waves import Waves
 from seacrane.ensembles import job
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import with_values
@@ -61,52 +60,51 @@ def in_a_current(database: HydroDatabase, seed: int) -> Scene:
 def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
     """Events take the model of other sets of limits."""
     scene = cases.vessel(database=database, seed=seed, hs=4.0)
-    scene.add_body(
-        name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0.0, 25.0, 10.0), velocity=(0.0, 0.0, 3.0)
-    )
-    scene.add_joint(
-        kind="distance", name="wire", first="vessel", second="load", point=(0.0, 25.0, 20.0),
-        second_point=(0.0, 25.0, 10.0),
-    )  # fmt: skip
+    low, high = (0.0, 25.0, 10.0), (0.0, 25.0, 20.0)
+    scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=low, velocity=(0.0, 0.0, 3.0))
+    scene.add_joint(kind="distance", name="wire", first="vessel", second="load", point=high, second_point=low)
     scene.add_line(joint="wire", rung="rigid")
     return scene
 
 
+def case2(database: HydroDatabase, seed: int) -> Scene:
+    return cases.case2(database=database, seed=seed)
+
+
+def case1(database: HydroDatabase, seed: int) -> Scene:
+    return cases.case1(database=database, seed=seed)
+
+
+def slow_case2(database: HydroDatabase, seed: int) -> Scene:
+    return cases.case2(database=database, seed=seed, tp=6.0 + seed, phase="slow", spreading=3.0, count=20)
+
+
+def paper(database: HydroDatabase, seed: int) -> Scene:
+    return cases.vessel(database=database, kinematics="paper", seed=seed)
+
+
+def convolution(database: HydroDatabase, seed: int) -> Scene:
+    return cases.vessel(database=database, memory="convolution", seed=seed)
+
+
 SCENES: dict[str, tuple[Callable[[HydroDatabase, int], Scene], dict[str, Any]]] = {
-    "crane with actuators": (lambda database, seed: cases.case2(database=database, seed=seed), {}),
-    "crane, redundant, stabilised": (
-        lambda database, seed: cases.case1(database=database, seed=seed),
-        {"formulation": "redundant", "integrator": "cvode-adams", "t_end": 1.0},
-    ),
+    "crane with actuators": (case2, {}),
+    "crane, stabilised": (case1, {"formulation": "redundant", "integrator": "cvode-adams", "t_end": 1.0}),
     "wind sea and swell": (wind_sea_and_swell, {}),
     "slow position": (slowly, {}),
-    "crane at a slow position": (
-        lambda database, seed: cases.case2(
-            database=database, seed=seed, tp=6.0 + seed, phase="slow", spreading=3.0, count=20
-        ),
-        {"t_end": 2.0},
-    ),
+    "crane at a slow position": (slow_case2, {"t_end": 2.0}),
     "current": (in_a_current, {"integrator": "rk4", "dt": 0.05}),
     "wire": (on_a_wire, {}),
-    "paper": (
-        lambda database, seed: cases.vessel(database=database, kinematics="paper", seed=seed),
-        {},
-    ),
-    "convolution": (
-        lambda database, seed: cases.vessel(database=database, memory="convolution", seed=seed),
-        {},
-    ),
+    "paper": (paper, {}),
+    "convolution": (convolution, {}),
 }
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str, database: HydroDatabase) -> None:
     made, settings = SCENES[name]
-    given = {"t_end": 5.0, "dt_out": 0.5, "rtol": 1e-4} | settings
-    if "dt" in given:
-        given.pop("rtol")
+    given = {"t_end": 5.0, "dt_out": 0.5} | ({} if "dt" in settings else {"rtol": 1e-4}) | settings
     first, other = made(database, 1), made(database, 2)
-    assert other.waves is not None
     alone, again = Run(other, **given), Run(first, **given).in_sea(other.waves)
     for run in (alone, again):
         run.advance(given["t_end"])
@@ -114,74 +112,53 @@ def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str, database: Hy
     assert list(expected) == list(result)
     for channel, values in expected.items():
         assert np.array_equal(values, result[channel]), channel
-    told = {key: value for key, value in expected.stats.items() if key != "wall_s"}
-    assert {key: value for key, value in result.stats.items() if key != "wall_s"} == told
+    told, same = ({k: v for k, v in one.stats.items() if k != "wall_s"} for one in (expected, result))
+    assert told == same
     assert np.array_equal(np.array(alone.state.values), np.array(again.state.values))
     assert expected.events == result.events
     assert bool(result.events) == (name == "wire")
-    assert result.scene is not None
-    assert result.scene.waves is other.waves
+    assert result.scene is not None and result.scene.waves is other.waves
 
 
 WORDS: dict[str, list[Any]] = {
-    "seed": [3, 4],
-    "hs": [0.8, 2.4],
-    "tp": [7.0, 11.0],
-    "direction_deg": [60.0, 170.0],
-    "gamma": [1.0, 5.0],
-}
+    "seed": [3, 4], "hs": [0.8, 2.4], "tp": [7.0, 11.0], "direction_deg": [60.0, 170.0], "gamma": [1.0, 5.0]
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("word", WORDS)
 def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
     scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
-    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
+    given = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
     there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, **given)
     for value in WORDS[word]:
         alone = simulate(with_sea(scene, {word: value}), **given)
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
+    if word == "seed":
+        scene = wind_sea_and_swell(database, 1)
+        there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, **given)
+        for seed in (1, 2):
+            alone = simulate(wind_sea_and_swell(database, seed), **given).select("position", body="vessel")
+            assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
+        with pytest.raises(SceneError, match=r"SeaState.* not hs, tp"):
+            ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, **given)
 
 
-def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> None:
-    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3}
-    scene = wind_sea_and_swell(database, 1)
-    there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, **given)
-    for seed in (1, 2):
-        ran = simulate(wind_sea_and_swell(database, seed), **given, channels=["position"])
-        alone = ran.select("position", body="vessel")
-        assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
-    with pytest.raises(SceneError, match="is a SeaState, of which the seed can vary, and not hs, tp"):
-        ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, **given)
+def test_a_sea_that_cannot_be_made_again_is_refused(database: HydroDatabase) -> None:
+    time = np.arange(20.0)
+    for system, message in (
+        (WaveSystem(spectrum=torsethaugen(hs=2.0, tp=9.0), direction_deg=0.0), "'waves' .*Torse"),
+        (MeasuredWaves(time=time, elevation=np.sin(time), direction_deg=0.0), "'measured' .*record"),
+        (WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, maximum_omega=1.5, count=20),
+         "its record describes"),
+    ):  # fmt: skip
+        scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
+        with pytest.raises(SceneError, match=message):
+            ensemble(scene, over={"seed": [1, 2]}, keep=PATH)
 
 
-@pytest.mark.parametrize(
-    ("system", "message"),
-    [
-        (
-            WaveSystem(spectrum=torsethaugen(hs=2.0, tp=9.0), direction_deg=0.0),
-            "'waves' of the sea is a Torse",
-        ),
-        (
-            MeasuredWaves(time=np.arange(20.0), elevation=np.sin(np.arange(20.0)), direction_deg=0.0),
-            "'measured' of the sea is a record",
-        ),
-        (
-            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, maximum_omega=1.5, count=20),
-            "is not the one that its record describes",
-        ),
-    ],
-)
-def test_a_sea_that_cannot_be_made_again_is_refused(
-    system: WaveSystem | MeasuredWaves, message: str, database: HydroDatabase
-) -> None:
-    scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
-    with pytest.raises(SceneError, match=message):
-        ensemble(scene, over={"seed": [1, 2]}, keep=PATH)
-
-
-def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def counted(monkeypatch: Any) -> list[str]:
     """Names of what is compiled from now on."""
-    names: list[str] = []
+    names = []
     compile_scene = _core.compile
 
     def counting(**given: Any) -> _core.Model:
@@ -192,9 +169,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-def test_a_scene_is_compiled_once_for_all_its_seas(
-    database: HydroDatabase, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scene_is_compiled_once_for_all_its_seas(database: HydroDatabase, monkeypatch: Any) -> None:
     scene = cases.vessel(database=database)
     path, given = "bodies.vessel.mass", {"t_end": 1.0, "rtol": 1e-3}
     masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
@@ -217,14 +192,8 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     scene = cases.vessel(database=database, spreading=3.0)
     mass = float(scene.bodies["vessel"].mass)
     over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
-    given: dict[str, Any] = {
-        "over": over,
-        "keep": PATH,
-        "lanes": 1,
-        "t_end": 1.0,
-        "rtol": 1e-3,
-    }
-    with pool(2) as executor:  # type: ignore[call-arg]
+    given = {"over": over, "keep": PATH, "lanes": 1, "t_end": 1.0, "rtol": 1e-3}
+    with pool(2) as executor:
         there = ensemble(scene, executor=executor, pack=3, **given)
     assert there.failures == {}
     assert there.dataset.identical(ensemble(scene, **given).dataset)
@@ -240,36 +209,23 @@ def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: Hydr
 
 def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) -> None:
     scene = cases.vessel(database=database)
-    waves = scene.waves
-    assert waves is not None
-    calm = Run(cases.vessel(database=database, hs=0.0), 1.0)
-    with pytest.raises(SceneError, match="has no sea to be replaced"):
-        calm.in_sea(waves)
-    run = Run(scene, 1.0)
-    with pytest.raises(SceneError, match="loads other vessels than it was compiled with"):
-        run.in_sea(replace(waves, hulls={}))
+    waves, run, calm = scene.waves, Run(scene, 1.0), Run(cases.vessel(database=database, hs=0.0), 1.0)
     scene.use_actual_position()
-    assert scene.waves is not None
-    with pytest.raises(SceneError, match="another kind of position"):
-        run.in_sea(scene.waves)
-
-
-def longer_than_its_period(database: HydroDatabase) -> tuple[Run, Waves]:
-    sea = SeaState(
-        systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)],
-        placement="uniform",
-    )
-    scene = cases.vessel(database=database, sea=sea, evaluation="fft")
-    assert scene.waves is not None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return Run(scene, 100.0), scene.waves
+    for one, sea, words in ((calm, waves, "no sea"), (run, replace(waves, hulls={}), "other vessels"),
+                            (run, scene.waves, "another kind of position")):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            one.in_sea(sea)
 
 
 def test_a_sea_that_repeats_is_told_again(database: HydroDatabase) -> None:
-    run, waves = longer_than_its_period(database)
+    system = WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)
+    sea = SeaState(systems=[system], placement="uniform")
+    scene = cases.vessel(database=database, sea=sea, evaluation="fft")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run = Run(scene, 100.0)
     with pytest.warns(UserWarning, match="repeat after"):
-        run.in_sea(waves)
+        run.in_sea(scene.waves)
 
 
 def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None:
@@ -277,7 +233,7 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
     scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
+    given = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
     given |= {"integrator": "tsit5", "channels": ["position"]}
     there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
     with warnings.catch_warnings():
@@ -287,11 +243,9 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
 
 
-@pytest.mark.parametrize("count", [1, 2, 7, 200, 311])
+@pytest.mark.parametrize("count", [1, 7, 311])
 @pytest.mark.parametrize("heading", [0.0, 0.3, -2.5])
-def test_forces_of_one_heading_are_those_of_any_headings(
-    heading: float, count: int, database: HydroDatabase
-) -> None:
+def test_forces_of_one_heading_are_those_of_any_headings(heading: float, count: int, database: Any) -> None:
     one = excitation._by_heading(database, np.full(count, heading))
     every = excitation._interpolated_in_heading(database, np.full(count, heading))
     assert np.array_equal(np.broadcast_to(one, every.shape), every)
@@ -300,12 +254,5 @@ def test_forces_of_one_heading_are_those_of_any_headings(
     assert np.array_equal(_core.weighted_sums(weights, one), sums)
     expected = np.einsum("qn,qnd->qd", weights, every)
     assert np.allclose(sums, expected, rtol=0.0, atol=1e-13 * np.abs(every).max() * np.abs(weights).sum())
-
-
-@pytest.mark.parametrize(
-    "shapes", [((2, 3), (2, 4, 6)), ((2, 3), (4, 6)), ((2, 3), (3, 3, 6)), ((3,), (3, 6))]
-)
-def test_sums_of_other_shapes_are_refused(shapes: tuple[tuple[int, ...], tuple[int, ...]]) -> None:
-    weights, values = (np.zeros(shape) for shape in shapes)
-    with pytest.raises(ValueError, match=r"give weights \(q, n\) and values"):
-        _core.weighted_sums(weights, values)
+    with pytest.raises(ValueError, match=r"weights \(q, n\)"):
+        _core.weighted_sums(np.zeros((2, 3)), np.zeros((2, 4, 6)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -11,20 +10,7 @@ import numpy as np
 import pytest
 from lift_examples import ON_DECK
 
-from seacrane import (
-    FileFormatError,
-    Lift,
-    Move,
-    Scene,
-    SceneError,
-    SimulationError,
-    Stage,
-    Until,
-    ensemble,
-    equilibrium,
-    shipped_database,
-    simulate_stages,
-)
+import seacrane as sc
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.lift.shown_study import shown_study
@@ -36,54 +22,50 @@ G = 9.80665
 MASS, EA = 40e3, 2e8
 
 
-def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> Scene:
+def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> sc.Scene:
     """A load on the deck of a barge, below a crane on the ground that lifts it off."""
-    scene = Scene(name="feeder")
-    scene.add_vessel(shipped_database(), memory="none", mooring=60.0)
+    scene = sc.Scene(name="feeder")
+    scene.add_vessel(sc.shipped_database(), memory="none", mooring=60.0)
     scene.add_body(name="load", mass=MASS, size=(6.0, 6.0, 3.0), position=(0.0, 0.0, 11.5))
     scene.add_joint(kind="weld", name="grillage", first="vessel", second="load", point=(0.0, 0.0, 10.0))
     scene.add_seat("grillage")
-    scene.add_line(
-        name="hoist",
-        bodies=["ground", "load"],
-        points=[(0.0, 0.0, 40.0), (0.0, 0.0, 1.5)],
-        EA=EA,
-        length=28.0,
-        damping_ratio=damping_ratio,
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 40.0), (0.0, 0.0, 1.5)], EA=EA,
+                   length=28.0, damping_ratio=damping_ratio)  # fmt: skip
     scene.add_winch("hoist", lag=0.2, maximum_rate=1.0)
     scene.add_sea(hs=hs, tp=8.0, direction_deg=180.0, seed=1)
     return scene
 
 
-STAGES = [
-    Stage(name="wait", duration=5.0),
-    Stage(name="lift", until=Until.release("grillage"), maximum_duration=30.0, commands={"hoist.rate": -0.5}),
-    Stage(name="up", duration=5.0),
-]
-KEEP: dict[str, Any] = {
+def lift_at(rate: float, most: float = 30.0) -> list[sc.Stage]:
+    lift = sc.Stage(
+        name="lift", until=sc.Until.release("grillage"), maximum_duration=most, commands={"hoist.rate": rate}
+    )
+    return [sc.Stage(name="wait", duration=5.0), lift, sc.Stage(name="up", duration=5.0)]
+
+
+STAGES = lift_at(-0.5)
+KEEP = {
     "peak": "hook_load[stage=up].max",
     "whole": "hook_load.max",
     "lifted": "stage[lift].end",
     "took": "stage[lift].duration",
 }
-HOW: dict[str, Any] = {"dt_out": 0.02, "rtol": 1e-5}
+HOW = {"dt_out": 0.02, "rtol": 1e-5}
 
 
 @pytest.fixture(scope="module")
 def lifts() -> Ensemble:
-    return ensemble(feeder(), stages=STAGES, over={"seed": [1, 2, 3]}, keep=KEEP, **HOW)
+    return sc.ensemble(feeder(), stages=STAGES, over={"seed": [1, 2, 3]}, keep=KEEP, **HOW)
 
 
 @pytest.mark.warns("LineLengthWarning")
 def test_members_are_their_staged_runs_to_the_bit(lifts: Ensemble) -> None:
     for place, seed in enumerate((1, 2, 3)):
-        run = simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
+        run = sc.simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
         lift = run.stages[1]
         member = lifts.dataset.isel(seed=place)
-        up = run.reached("hook_load", suspension="hoist", part=run.stage("up"))[1]
         assert float(member.whole.squeeze()) == run.reached("hook_load", suspension="hoist")[1].max()
-        assert float(member.peak.squeeze()) == up.max()
+        assert float(member.peak.squeeze()) == _reached(run, "up")
         assert (float(member.lifted), float(member.took)) == (lift.end, lift.end - lift.start)
     assert not lifts.failures and len(set(lifts.dataset.lifted.to_numpy().tolist())) == 3
 
@@ -93,9 +75,9 @@ def test_the_peak_is_that_of_the_relative_speed_at_lift_off() -> None:
 
     Undamped, at a constant rate. Later peaks are larger: the line that a winch takes in grows stiffer.
     """
-    first = [*STAGES[:2], Stage(name="up", duration=0.3)]
+    first = [*STAGES[:2], sc.Stage(name="up", duration=0.3)]
     keep = {"peak": "hook_load[stage=up].max", "by_hand": _peak_by_hand}
-    lifts = ensemble(
+    lifts = sc.ensemble(
         feeder(damping_ratio=0.0), stages=first, over={"seed": range(8)}, keep=keep, dt_out=0.005, rtol=1e-7
     )
     hand = lifts.dataset.by_hand.to_numpy()
@@ -117,114 +99,78 @@ def _peak_by_hand(result: Any) -> float:
 def test_numbers_of_stages_vary_by_path(lifts: Ensemble) -> None:
     over = [{"stages.lift.commands.hoist.rate": rate, "stages.wait.duration": wait, "seed": 2}
             for rate, wait in ((-0.5, 5.0), (-0.25, 5.0), (-0.5, 7.0))]  # fmt: skip
-    told = ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, **HOW).dataset
+    told = sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, **HOW).dataset
     assert float(told.lifted[0]) == float(lifts.dataset.lifted[1])
-    slow = [STAGES[0], Stage(name="lift", until=Until.release("grillage"), maximum_duration=30.0,
-                             commands={"hoist.rate": -0.25}), STAGES[2]]  # fmt: skip
-    run = simulate_stages(with_sea(feeder(), {"seed": 2}), slow, **HOW)
+    run = sc.simulate_stages(with_sea(feeder(), {"seed": 2}), lift_at(-0.25), **HOW)
     assert float(told.lifted[1]) == run.stages[1].end
     assert float(told.lifted[2] - told.took[2]) == 7.0
 
 
 def test_numbers_of_moves_vary_too() -> None:
-    scene = Scene(name="cart")
+    scene = sc.Scene(name="cart")
     scene.add_body(name="cart", mass=10.0, size=(1.0, 1.0, 1.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
     scene.add_driver("rail", curve=0.0)
-    stages = [Stage(name="out", duration=4.0, commands={"rail.displacement": Move(to=1.0, over=2.0)})]
+    stages = [sc.Stage(name="out", duration=4.0, commands={"rail.displacement": sc.Move(to=1.0, over=2.0)})]
     path = "stages.out.commands.rail.displacement.to"
-    told = ensemble(scene, stages=stages, over={path: [1.0, 2.5]}, keep={"x": "position[cart, x].max"})
+    told = sc.ensemble(scene, stages=stages, over={path: [1.0, 2.5]}, keep={"x": "position[cart, x].max"})
     assert told.dataset.x.to_numpy().ravel() == pytest.approx([1.0, 2.5], abs=1e-9)
 
 
 @pytest.mark.warns("FailedMembersWarning")
 def test_a_member_that_never_reaches_a_stage_says_so() -> None:
-    short = [STAGES[0], Stage(name="lift", until=Until.release("grillage"), maximum_duration=0.5,
-                              commands={"hoist.rate": -0.5}), STAGES[2]]  # fmt: skip
     over = {"stages.lift.maximum_duration": [0.5, 30.0]}
-    told = ensemble(feeder(), stages=short, over=over, keep=KEEP, **HOW)
+    told = sc.ensemble(feeder(), stages=lift_at(-0.5, 0.5), over=over, keep=KEEP, **HOW)
     assert list(told.failures) == [0]
     assert "stage 'lift'" in told.failures[0] and "SimulationError" in told.failures[0]
-    with pytest.raises(SimulationError, match="stage 'lift'"):
-        ensemble(feeder(), stages=short, over=over, keep=KEEP, on_error="raise", **HOW)
+    with pytest.raises(sc.SimulationError, match="stage 'lift'"):
+        sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, on_error="raise", **HOW)
 
 
-def test_a_store_goes_on_and_tells_other_stages_apart(tmp_path: Path, lifts: Ensemble) -> None:
-    """The second call has one member more to run; another rate is another study."""
-    ran: list[int] = []
-
-    def counted(scene: Scene) -> list[Stage]:
-        ran.append(1)
-        return STAGES
-
-    asked: dict[str, Any] = {
-        "over": {"seed": [1, 2, 3]},
-        "keep": KEEP,
-        "store": tmp_path / "lifts",
-        "pack": 1,
-    }
-    for _ in range(2):
-        with ThreadPoolExecutor(2) as executor:
-            told = ensemble(feeder(), stages=STAGES, executor=executor, **asked, **HOW)
-        assert told.dataset.peak.to_numpy().tolist() == lifts.dataset.peak.to_numpy().tolist()
-    faster = [STAGES[0], Stage(name="lift", until=Until.release("grillage"), maximum_duration=30.0,
-                               commands={"hoist.rate": -0.6}), STAGES[2]]  # fmt: skip
-    with pytest.raises(SceneError, match="another study"):
-        ensemble(feeder(), stages=faster, **asked, **HOW)
-    made = ensemble(feeder(), stages=counted, over={"seed": [1]}, keep=KEEP, **HOW)
-    assert ran and made.dataset.peak.to_numpy().ravel()[0] == lifts.dataset.peak.to_numpy().ravel()[0]
-
-
-def test_a_killed_study_keeps_its_members(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Stopped in the third member: the first two are read, the others run."""
-    asked: dict[str, Any] = {"over": {"seed": [1, 2, 3, 4]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
+def test_a_store_goes_on_and_tells_other_stages_apart(tmp_path: Path, lifts: Any, monkeypatch: Any) -> None:
+    """Stopped in the third member: the first two are read, the others run; another rate is another study."""
+    asked = {"over": {"seed": [1, 2, 3]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
     steps = iter(range(1000))
 
-    def stopping(run: Any) -> Iterator[int]:
+    def stopping(run: Any) -> Any:
         if next(steps) == 2:
             raise KeyboardInterrupt
         while run.advance():
             pass
         return run
 
-    from seacrane.ensembles import job
-
     with monkeypatch.context() as patched:
-        patched.setattr(job, "stepped", stopping)
+        patched.setattr("seacrane.ensembles.job.stepped", stopping)
         with pytest.raises(KeyboardInterrupt):
-            ensemble(feeder(), stages=STAGES, **asked, **HOW)
-    kept = Ensemble.load(tmp_path / "s")
-    assert np.isfinite(kept.dataset.peak.to_numpy()).sum() == 2
-    done = ensemble(feeder(), stages=STAGES, **asked, **HOW)
-    assert np.isfinite(done.dataset.peak.to_numpy()).all()
+            sc.ensemble(feeder(), stages=STAGES, **asked, **HOW)
+    assert np.isfinite(Ensemble.load(tmp_path / "s").dataset.peak.to_numpy()).sum() == 2
+    with ThreadPoolExecutor(2) as executor:
+        told = sc.ensemble(feeder(), stages=STAGES, executor=executor, **asked, **HOW)
+    assert told.dataset.peak.to_numpy().tolist() == lifts.dataset.peak.to_numpy().tolist()
+    with pytest.raises(sc.SceneError, match="another study"):
+        sc.ensemble(feeder(), stages=lift_at(-0.6), **asked, **HOW)
+    made = sc.ensemble(feeder(), stages=lambda scene: STAGES, over={"seed": [1]}, keep=KEEP, **HOW)
+    assert made.dataset.peak.to_numpy().ravel()[0] == lifts.dataset.peak.to_numpy().ravel()[0]
 
 
 def test_seeds_are_added_until_the_peak_is_known() -> None:
-    told = ensemble(
-        feeder(hs=0.5), stages=STAGES, over={"seed": range(60)}, until={"peak.mean": 0.1},
-        keep={"peak": "hook_load[hoist, stage=up].max"}, **HOW,
-    )  # fmt: skip
-    (one,) = told.certainty
+    keep = {"peak": "hook_load[hoist, stage=up].max"}
+    how = {"over": {"seed": range(60)}, "until": {"peak.mean": 0.1}, "keep": keep, **HOW}
+    (one,) = sc.ensemble(feeder(hs=0.5), stages=STAGES, **how).certainty
     assert one.seeds in (20, 40, 60)
 
 
 @pytest.mark.warns("FailedMembersWarning")
 def test_what_contradicts_is_refused_by_name() -> None:
-    given: dict[str, Any] = {"over": {"seed": [1]}, "keep": KEEP}
-    with pytest.raises(SceneError, match=r"t_end is 10\.0, and stages tell their end"):
-        ensemble(feeder(), stages=STAGES, t_end=10.0, **given)
-    with pytest.raises(SceneError, match="lanes is 4, and lifts with start_time are run one by one"):
-        ensemble(feeder(), stages=STAGES, lanes=4, over={"seed": [1], "start_time": [1.0]}, keep=KEEP)
-    with pytest.raises(SceneError, match="stages is 'lift'; give a list of Stage"):
-        ensemble(feeder(), stages="lift", **given)  # type: ignore[arg-type]
-    with pytest.raises(
-        SceneError,
-        match=r"no parameter 'stages.lift.commands.hoist.rat'; nearest: 'stages.lift.commands.hoist.rate'",
-    ):
-        ensemble(feeder(), stages=STAGES, over={"stages.lift.commands.hoist.rat": [1.0]}, keep=KEEP)
-    told = ensemble(
-        feeder(), stages=STAGES, over={"seed": [1]}, keep={"x": "hook_load[stage=down].max"}, **HOW
-    )
+    usual = {"stages": STAGES, "over": {"seed": [1]}, "keep": KEEP}
+    for given, words in (
+        ({"t_end": 10.0}, r"t_end is 10\.0"), ({"stages": "lift"}, "stages is 'lift'"),
+        ({"lanes": 4, "over": {"seed": [1], "start_time": [1.0]}}, "lanes is 4.* start_time"),
+        ({"over": {"stages.lift.commands.hoist.rat": [1.0]}}, "hoist.rat'.*hoist.rate'"),
+    ):  # fmt: skip
+        with pytest.raises(sc.SceneError, match=words):
+            sc.ensemble(feeder(), **usual | given)
+    told = sc.ensemble(feeder(), **usual | {"keep": {"x": "hook_load[stage=down].max"}}, **HOW)
     assert "no stage 'down'" in told.failures[0]
 
 
@@ -233,74 +179,47 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
     """Each storm is the staged run of its own; what a lift reaches in calm water is where Hs is zero."""
     scene, seeds, heights = feeder(), range(1, 9), (1.0, 3.0)
     bound = 1.85 * MASS * G
-    criteria = [
-        Criterion(channel="hook_load[stage=up]", maximum=bound, statistic="p90"),
-        Criterion(channel="hook_load", maximum=bound, name="whole", statistic="p90"),
-    ]
-    how: dict[str, Any] = {"dt_out": 0.05, "rtol": 1e-4}
-    told = allowable_hs(
-        scene,
-        criteria=criteria,
-        tp=[8.0],
-        direction_deg=[180.0],
-        hs=heights,
-        seeds=seeds,
-        stages=STAGES,
-        **how,
-    )
-    start = equilibrium(scene)
-    calm = simulate_stages(scene.copy(waves=None), STAGES, start=start, **how)
-    rest = calm.reached("hook_load", suspension="hoist", part=calm.stage("up"))[1].max()
+    up = Criterion(channel="hook_load[stage=up]", maximum=bound, statistic="p90")
+    criteria = [up, Criterion(channel="hook_load", maximum=bound, name="whole", statistic="p90")]
+    how = {"dt_out": 0.05, "rtol": 1e-4}
+    told = allowable_hs(scene, criteria=criteria, tp=[8.0], direction_deg=[180.0], hs=heights, seeds=seeds,
+                        stages=STAGES, **how)  # fmt: skip
+    how["start"] = sc.equilibrium(scene)
+    rest = _reached(sc.simulate_stages(scene.copy(waves=None), STAGES, **how), "up")
     assert MASS * G < rest < bound
-    peaks = np.array([
-        [_peak(with_sea(scene, {"hs": hs, "seed": seed}), start, how) for seed in seeds] for hs in heights
-    ])  # fmt: skip
-    levels = [float(_gumbel_p90(row - rest)) for row in peaks]
-    below = [(0.0, 0.0), *zip(heights, levels, strict=True)]
-    expected = np.interp(bound - rest, [level for _, level in below], [hs for hs, _ in below])
+    levels = []
+    for hs in heights:
+        storms = (with_sea(scene, {"hs": hs, "seed": seed}) for seed in seeds)
+        peaks = np.array([_reached(sc.simulate_stages(storm, STAGES, **how), "up") for storm in storms])
+        levels.append(float(seed_extremes(peaks - rest, duration=1.0, exposure=1.0).gumbel.p90.value))
+    expected = np.interp(bound - rest, [0.0, *levels], [0.0, *heights])
     found = told.dataset.by_criterion.sel(criterion="hook load in up").item()
     assert levels[0] < bound - rest < levels[1]
     assert found == pytest.approx(expected, rel=1e-9)
     assert told.dataset.domain.item() == "time" and told.dataset.reason.item() == "a lift in stages"
-    assert "P90 maximum in one lift <= " in str(told)
-
-
-def _peak(scene: Scene, start: Any, how: dict[str, Any]) -> float:
-    run = simulate_stages(scene, STAGES, start=start, **how)
-    return _reached(run, "up")
 
 
 def _reached(run: Any, stage: str) -> float:
     return float(run.reached("hook_load", suspension="hoist", part=run.stage(stage))[1].max())
 
 
-def _gumbel_p90(values: Any) -> float:
-    return seed_extremes(values, duration=1.0, exposure=1.0).gumbel.p90.value
-
-
 @pytest.mark.parametrize(
     ("criterion", "given", "message"),
     [
-        ({"channel": "hook_load[stage=down]"}, {}, "no stage 'down'; the lift has wait, lift, up"),
-        (
-            {"channel": "hook_load[stage=up]"},
-            {"stages": ()},
-            "stage 'up' is asked for, and the lift has none",
-        ),
-        ({"exposure": 900.0}, {}, "is its own exposure time; leave it out"),
-        ({"statistic": "significant"}, {}, "'significant' is of a long record"),
-        ({"motion": True}, {}, "motion=True is a distance from rest"),
-        ({}, {"duration": 900.0}, "stages tell how long a lift takes; leave duration out"),
+        ({"channel": "hook_load[stage=down]"}, {}, "'down'; the lift has wait, lift, up"),
+        ({"channel": "hook_load[stage=up]"}, {"stages": ()}, "stage 'up'.*none"),
+        ({"exposure": 900.0}, {}, "exposure"),
+        ({"statistic": "significant"}, {}, "'significant'"),
+        ({"motion": True}, {}, "motion=True"),
+        ({}, {"duration": 900.0}, "leave duration out"),
         ({}, {"start_up": 9.0}, "leave start_up out"),
-        ({}, {"domain": "frequency"}, "has no linear model; leave domain out"),
-        ({}, {"stages": [1]}, "stages is .1.; give a list of Stage"),
+        ({}, {"domain": "frequency"}, "leave domain out"),
+        ({}, {"stages": [1]}, "stages is .1."),
     ],
 )
-def test_what_lifts_in_stages_do_not_take(
-    criterion: dict[str, Any], given: dict[str, Any], message: str
-) -> None:
+def test_what_lifts_in_stages_do_not_take(criterion: Any, given: dict[str, Any], message: str) -> None:
     asked = Criterion(**{"channel": "hook_load", "maximum": 1e6, **criterion})
-    with pytest.raises(SceneError, match=message):
+    with pytest.raises(sc.SceneError, match=message):
         allowable_hs(
             feeder(), criteria=[asked], tp=[8.0], direction_deg=[180.0], **{"stages": STAGES, **given}
         )
@@ -326,33 +245,24 @@ channel = "stage[lift off].end"
 
 
 @pytest.mark.warns("ThroughSeatWarning")
-def test_a_study_file_of_a_lift_in_stages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
     (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
     study = tmp_path / "study.toml"
     study.write_text(STUDY, encoding="utf-8")
     done = run_study(study, tmp_path / "out").dataset
     for EA in (4e7, 5e7):
-        text = ON_DECK.replace("EA_N = 5e7", f"EA_N = {EA:g}").replace(
-            "value_m_per_s = -0.05", "value_m_per_s = -0.1"
-        )
+        text = ON_DECK.replace("EA_N = 5e7", f"EA_N = {EA:g}").replace("m_per_s = -0.05", "m_per_s = -0.1")
         (tmp_path / "other.toml").write_text(text, encoding="utf-8")
-        run = Lift.load(tmp_path / "other.toml").simulate()
+        run = sc.Lift.load(tmp_path / "other.toml").simulate()
         told = done.sel({"line.EA_N": EA, "stages.lift off.commands.hoist.rate": -0.1})
         assert float(told.peak.squeeze()) == _reached(run, "raise")
         assert float(told.lifted) == run.stages[1].end
     assert "end of stage lift off" in str(shown_study(tmp_path / "out"))
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("lift off.commands.hoist.rate", "lift of.commands.hoist.rate", "nearest: 'stages.lift off.comm"),
-        ("[over]", "[run]\nt_end_s = 3\n\n[over]", r"line 6: t_end_s is for lifts without stages"),
-        ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s is for runs without stages"),
-    ],
-)
-def test_bad_study_files_of_stages_are_named(old: str, new: str, message: str, tmp_path: Path) -> None:
-    (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
-    (tmp_path / "study.toml").write_text(STUDY.replace(old, new), encoding="utf-8")
-    with pytest.raises(FileFormatError, match=message):
-        run_study(tmp_path / "study.toml", tmp_path / "out")
+    for old, new, message in (
+        ("lift off.commands.hoist.rate", "lift of.commands.hoist.rate", "'stages.lift off.comm"),
+        ("[over]", "[run]\nt_end_s = 3\n\n[over]", "line 6: t_end_s"),
+        ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s"),
+    ):  # fmt: skip
+        study.write_text(STUDY.replace(old, new), encoding="utf-8")
+        with pytest.raises(sc.FileFormatError, match=message):
+            run_study(study, tmp_path / "other")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import matplotlib.figure
 import numpy as np
 import pytest
+from scipy.stats import norm
 from test_staged_ensembles import HOW, KEEP, STAGES, feeder
 
 from seacrane import SceneError, ensemble, simulate, simulate_stages
@@ -18,7 +18,7 @@ from seacrane.ensembles.other_sea import with_sea
 from seacrane.statistics import distribution
 from seacrane.warnings import FewSeedsWarning
 
-OVER: dict[str, Any] = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
+OVER = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
 
 
 @pytest.fixture(scope="module")
@@ -43,15 +43,11 @@ def test_each_begins_in_the_state_of_its_sea_to_the_bit(lifts: Ensemble) -> None
 
 
 @pytest.mark.parametrize("pack", [1, 4])
-def test_packs_threads_processes_and_a_resumed_store_give_the_same(
-    pack: int, lifts: Ensemble, tmp_path: Path
-) -> None:
-    same: dict[str, Any] = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
-    with ThreadPoolExecutor(2) as threads:
-        assert ensemble(feeder(), executor=threads, **same).dataset.identical(lifts.dataset)
-    with ProcessPoolExecutor(2) as processes:
-        done = ensemble(feeder(), executor=processes, store=tmp_path / "s", **same)
-    assert done.dataset.identical(lifts.dataset)
+def test_packs_pools_and_a_resumed_store_give_the_same(pack: int, lifts: Ensemble, tmp_path: Path) -> None:
+    same = {"stages": STAGES, "over": OVER, "keep": KEEP, "pack": pack, **HOW}
+    for pool, given in ((ThreadPoolExecutor, {}), (ProcessPoolExecutor, {"store": tmp_path / "s"})):
+        with pool(2) as executor:
+            assert ensemble(feeder(), executor=executor, **given, **same).dataset.identical(lifts.dataset)
     for gone in sorted((tmp_path / "s").glob("pack_*.nc"))[::2]:
         gone.unlink()
     assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(lifts.dataset)
@@ -75,19 +71,14 @@ def test_a_load_that_goes_through_its_deck_while_it_waits_is_told_by_later_lifts
     assert 0.0 < float(re.findall(r"goes below its plane at t = ([\d.]+) s", late)[0]) < 40.0
 
 
-@pytest.mark.parametrize(
-    ("over", "given", "message"),
-    [
-        ([{"start_time": 1.0}], {}, "start_time is of grids"),
+def test_bad_start_times_are_named() -> None:
+    for over, given, message in (
+        ([{"start_time": 1.0}], {}, "start_time is of grids"), ({"start_time": ["noon"]}, {}, "start_time"),
         ({"start_time": [1.0]}, {"stages": ()}, "start_time is of lifts in stages"),
-        ({"start_time": [-1.0]}, {}, "start_time is -1"),
-        ({"start_time": ["noon"]}, {}, "start_time"),
-        ({"start_tme": [1.0]}, {}, "nearest: 'start_time'"),
-    ],
-)
-def test_bad_start_times_are_named(over: Any, given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        ensemble(feeder(), over=over, keep=KEEP, **{"stages": STAGES, **given})
+        ({"start_time": [-1.0]}, {}, "start_time is -1"), ({"start_tme": [1.0]}, {}, "nearest: 'start_time'"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            ensemble(feeder(), over=over, keep=KEEP, **{"stages": STAGES, **given})
 
 
 def test_a_distribution_of_an_ensemble(lifts: Ensemble) -> None:
@@ -109,20 +100,14 @@ def test_a_distribution_of_an_ensemble(lifts: Ensemble) -> None:
 @pytest.mark.slow("hundreds of members")
 def test_intervals_hold_for_values_that_depend_on_their_seed() -> None:
     """Of 400 draws of 20 seeds with 10 values each, 95 % intervals hold the truth as often as they say."""
-    from scipy.stats import norm
-
-    random = np.random.default_rng(1)
-    size, inside = 400, np.zeros(3)
-    spread = np.sqrt(1.0 + 0.5**2)
-    naive = 0
+    random, size, naive = np.random.default_rng(1), 400, 0
+    spread, inside = np.sqrt(1.0 + 0.5**2), np.zeros(3)
+    truths = np.array([0.0, spread * norm.ppf(0.9), norm.sf(1.0 / spread)])
     for _ in range(size):
         values = random.normal(size=(20, 1)) + 0.5 * random.normal(size=(20, 10))
         found = distribution(values)
-        truths = (0.0, spread * norm.ppf(0.9), norm.sf(1.0 / spread))
-        for place, (one, truth) in enumerate(
-            zip((found.mean, found.quantile(0.9), found.exceedance(1.0)), truths, strict=True)
-        ):
-            inside[place] += one.low <= truth <= one.high
+        intervals = (found.mean, found.quantile(0.9), found.exceedance(1.0))
+        inside += [one.low <= truth <= one.high for one, truth in zip(intervals, truths, strict=True)]
         naive += abs(values.mean()) < 1.96 * values.std() / np.sqrt(values.size)
     assert np.all(inside / size > 0.90) and inside[0] / size < 0.985
     assert naive / size < 0.7  # what independent values would give

@@ -17,28 +17,15 @@ from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2
-
-[vessel]
-database = "hull_115"
-memory = "none"
-
-[sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
+vessel = { database = "hull_115", memory = "none" }
+sea = { seed = 7, hs_m = 1.5, tp_s = 8, count = 20 }
+balance = { vessel = "vessel" }
+method = { integrator = "dopri5", rtol = 1e-3 }
 
 [crane]
 foot_m = [33, 10, 10]
 payload = { mass_kg = 20e3, size_m = [4, 4, 3], link_length_m = 8 }
 held = true
-
-[balance]
-vessel = "vessel"
-
-[method]
-integrator = "dopri5"
-rtol = 1e-3
 """
 STUDY = """format = "seacrane study"
 version = 2
@@ -59,12 +46,13 @@ t_end_s = 2
 """
 SWING = """format = "seacrane study"
 version = 2
+over = { "body.position_m.1" = [1, 1.5] }
+accuracy = { position = 1e-3 }
+run = { t_end_s = 2 }
 
-[lift.body]
-name = "bob"
-mass_kg = 2
-inertia_kg_m2 = [0.1, 0.1, 0.1]
-position_m = [1, 0, 0]
+[lift]
+body = { name = "bob", mass_kg = 2, inertia_kg_m2 = [0.1, 0.1, 0.1], position_m = [1, 0, 0] }
+method = { integrator = "rk4", dt_s = 0.1 }
 
 [lift.joint]
 kind = "revolute"
@@ -74,24 +62,11 @@ second = "bob"
 point_m = [0, 0, 0]
 axis = [0, 1, 0]
 
-[lift.method]
-integrator = "rk4"
-dt_s = 0.1
-
-[over]
-body.position_m.1 = [1, 1.5]
-
-[accuracy]
-position = 1e-3
-
 [[keep]]
 name = "lowest"
 channel = "position"
 names = { body = "bob", axis = "z" }
 what = "minimum"
-
-[run]
-t_end_s = 2
 """
 
 
@@ -103,11 +78,12 @@ def study(tmp_path: Path) -> Path:
 
 
 def test_what_is_derived_from_a_key_follows_it(study: Path) -> None:
-    found = run_study(study, study.parent / "out")
+    out, held = study.parent / "out", study.parent / "held.toml"
+    found = run_study(study, out)
     assert not found.failures
     assert dict(found.dataset.sizes) == {"crane.payload.mass_kg": 2, "seed": 2}
     for mass in (20e3, 100e3):
-        tables = Lift.load(study.parent / "held.toml").tables
+        tables = Lift.load(held).tables
         tables["crane"]["payload"]["mass_kg"] = mass
         lift = Lift(tables)
         result = simulate(lift.scene(), 2.0, method=lift.method)
@@ -115,12 +91,10 @@ def test_what_is_derived_from_a_key_follows_it(study: Path) -> None:
         one = found.dataset.heave.sel({"crane.payload.mass_kg": mass, "seed": 7})
         assert float(one) == pytest.approx(expected, abs=1e-4)
     assert not np.array_equal(found.dataset.heave.sel(seed=7), found.dataset.heave.sel(seed=8))
-    assert run_study(study, study.parent / "out").dataset.identical(found.dataset)
-    (study.parent / "held.toml").write_text(
-        BALANCED.replace("mass_kg = 20e3, size_m = [4", "mass_kg = 20e3, size_m = [5")
-    )
+    assert run_study(study, out).dataset.identical(found.dataset)
+    held.write_text(BALANCED.replace("mass_kg = 20e3, size_m = [4", "mass_kg = 20e3, size_m = [5"))
     with pytest.raises(SceneError, match="is of another study"):
-        run_study(study, study.parent / "out")
+        run_study(study, out)
 
 
 @pytest.mark.parametrize("name", LIFTS)
@@ -157,27 +131,24 @@ def test_paths_go_by_names_numbers_and_units() -> None:
     assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0}
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("payload.mass_kg", "payload.mas_kg", "line 6: .*nearest: 'crane.payload.mass_kg'"),
-        ("payload.mass_kg", "payload.mass_t", "line 6: .*nearest: 'crane.payload.mass_kg'"),
+def test_bad_input_is_named_with_its_line(study: Path) -> None:
+    for old, new, message in (
+        ("payload.mass_kg", "payload.mas_kg", "line 6: .*'crane.payload.mass_kg'"),
+        ("payload.mass_kg", "payload.mass_t", "line 6: .*'crane.payload.mass_kg'"),
         ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
         ("crane.payload.mass_kg = [20e3, 100e3]", "method.dt_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
-        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: .* 'heve' does not exist; did you mean 'heave'"),
+        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: .* 'heve'.*'heave'"),
         ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
         ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
         ("[run]", "[method]\nrtol = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
-    ],
-)  # fmt: skip
-def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:
-    study.write_text(STUDY.replace(old, new, 1))
-    with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
-        run_study(study, study.parent / "out")
-    assert not (study.parent / "out").exists()
+    ):
+        study.write_text(STUDY.replace(old, new, 1))
+        with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
+            run_study(study, study.parent / "out")
+        assert not (study.parent / "out").exists()
 
 
-def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: Any) -> None:
     path = tmp_path / "swing.toml"
     path.write_text(SWING)
     assert main(["study", str(path), "--out", str(tmp_path / "out")]) == 0

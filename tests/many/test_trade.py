@@ -5,25 +5,15 @@ from __future__ import annotations
 import csv
 import json
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from trade_scenes import a_run_each, pendulum
 
-from seacrane import (
-    Method,
-    Run,
-    Scene,
-    SceneError,
-    Stage,
-    cases,
-    integrator_names,
-    simulate,
-    simulate_stages,
-    trade,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
@@ -32,7 +22,6 @@ from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
 from seacrane.trading.budget import Spending
 from seacrane.trading.case import Case
 from seacrane.trading.ladders import Ladders
-from seacrane.trading.measured_case import measured as measured_row
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
@@ -47,158 +36,96 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def case2() -> Scene:
+def case2() -> sc.Scene:
     return cases.case2()
 
 
 @pytest.fixture(scope="module")
-def measured(case2: Scene, folder: Path) -> Trade:
+def measured(case2: sc.Scene, folder: Path) -> Trade:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Spending, "spend", a_run_each)
-        return trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
+        return sc.trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
 
 
 @pytest.mark.slow("a trade study")
 def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
-    assert list(measured.quantities) == [
-        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load",
-    ]  # fmt: skip
+    names = ["payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load"]
+    assert list(measured.quantities) == names
     assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
     assert len(measured.reference.runs) == 2
-    errors = {
-        row.method.rtol: row.error("payload_position")
-        for row in measured.rows
-        if row.method.integrator == "verner76" and row.case == measured.full_case
-    }
+    rows = [r for r in measured.rows if r.method.integrator == "verner76" and r.case == measured.full_case]
+    errors = {row.method.rtol: row.error("payload_position") for row in rows}
     assert len(errors) >= 2
     assert [errors[rtol] for rtol in sorted(errors)] == sorted(errors.values())
 
 
-def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
+def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) -> None:
     row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)
-    tight = simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
-    distance = np.linalg.norm(
-        run.select("position", body="payload") - tight.select("position", body="payload"), axis=-1
-    )
+    run = sc.simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.dt)
+    tight = sc.simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
+    own, true = (one.select("position", body="payload") for one in (run, tight))
+    distance = np.linalg.norm(own - true, axis=-1)
     assert row.error("payload_position") == pytest.approx(distance.max(), rel=1e-3)
     assert row.errors["payload_position"].rms == pytest.approx(np.sqrt(np.mean(distance**2)), rel=1e-3)
     assert row.evaluations == run.stats["evaluations"]
 
 
-def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
+def test_the_front_is_shown(measured: Trade) -> None:
+    """No row beats one on it; drawn over either time, in text and in notebooks."""
     front = measured.front("roll")
     assert front
     for row in measured.rows:
-        if np.isfinite(row.error("roll")):
-            beats = [row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front]
-            assert not any(beats)
-
-
-def test_a_diagram_is_drawn_over_wall_or_cpu_time(measured: Trade) -> None:
-    for over, words in (("wall_s", "wall time"), ("cpu_s", "CPU time")):
+        assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
+    for over in ("wall_s", "cpu_s"):
         axes = measured.plot(over=over).axes[0]
-        assert words in axes.get_xlabel()
         (step,) = [line for line in axes.lines if line.get_label() == "Pareto front"]
         cost, error = step.get_xdata(), step.get_ydata()
         assert np.all(np.diff(cost) >= 0.0) and np.all(np.diff(error) < 0.0)
-        drawn = [x for line in axes.lines for x in line.get_xdata()]
-        assert min(drawn) > 0.0
-    rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-    lines = {line.get_label(): line for line in measured.plot(over="cpu_s").axes[0].lines}
-    assert 1e3 * rk4.cpu_s / rk4.simulated_s in lines["rk4"].get_xdata()
-    with pytest.raises(SceneError, match="over is 'cpu'; give wall_s or cpu_s"):
+        lines = {line.get_label(): line.get_xdata() for line in axes.lines}
+        rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
+        assert 1e3 * getattr(rk4, over) / rk4.simulated_s in lines["rk4"]
+        full = {r.method.integrator for r in measured.rows if r.case == measured.full_case and r.stable}
+        assert lines.keys() == full | {"Pareto front"}
+    with pytest.raises(sc.SceneError, match="over is 'cpu'"):
         measured.plot(over="cpu")
-
-
-def test_a_diagram_has_a_line_for_each_integrator_and_names_that_do_not_meet(measured: Trade) -> None:
-    figure = measured.plot()
-    figure.draw_without_rendering()
-    left, right = figure.axes[:2]
-    drawn = {str(line.get_label()): len(line.get_xdata()) for line in left.lines}
-    integrators = {
-        row.method.integrator for row in measured.rows if row.case == measured.full_case and row.stable
-    }
-    assert drawn.keys() == integrators | {"Pareto front"}
-    names = [text for text in right.get_yticklabels() if text.get_text()]
-    less = [row for row in measured.rows if row.stable and row.case != measured.full_case]
-    assert len(names) == len(less)
-    boxes = sorted((text.get_window_extent() for text in names), key=lambda box: box.y0)
-    assert all(below.y1 <= above.y0 + 1.0 for below, above in pairwise(boxes))
-    (legend,) = figure.legends
-    known = [text.get_text() for text in legend.get_texts()]
-    assert "Pareto front" in known and len(known) == len(set(known)) <= len(integrators) + 1
-
-
-def test_a_trade_prints_its_front_in_few_lines(measured: Trade) -> None:
-    assert len(repr(measured)) < 200 and repr(measured).startswith("<Trade of 'case2', 6 s: ")
-    known, counted, head, *rows, default, price = str(measured).splitlines()
-    assert (
-        default.startswith("the default (dopri5 rtol=1e-06) takes ") and "errs by payload_position" in default
-    )
-    assert "s of CPU; told" in price and "the front" in price
-    assert "payload_position" in known and f"{len(measured.rows)} rows" in counted
-    assert head.startswith("formulation") and len(rows) == len(measured.pareto)
-
-
-def test_notebooks_show_the_front(measured: Trade) -> None:
-    best = measured.pareto
+    *_, default, _ = str(measured).splitlines()
+    assert default.startswith("the default (dopri5 rtol=1e-06)") and "payload_position" in default
     html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()
-    assert html.count("<tr>") == 1 + len(best) and f"{len(best)} of {len(measured.rows)} settings" in html
-    assert best[0].method.integrator in html and "<th>payload_position [m]</th>" in html
-    assert "<i>" not in html and "&lt;i&gt;lift" in html
+    assert html.count("<tr>") == 1 + len(measured.pareto) and "<i>" not in html
 
 
-def test_the_cheapest_setting_meets_its_limit_when_run(case2: Scene, measured: Trade) -> None:
-    run = simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
-    tight = simulate(case2, t_end=T_END, **TIGHT)
-    error = compare(
-        tight.select("position", body="payload")[:, None], run.select("position", body="payload")[:, None]
-    )
-    assert error.largest <= 1e-4
-
-
-@pytest.mark.parametrize(
-    ("accuracy", "says"),
-    [
-        ({"payload_position": 1e-16}, "the limit is .* set by rounding"),
-        ({"payload_position": 1e-11}, "beyond this grid: its smallest error is .* set by the local error"),
-        ({"pitch": 1.0}, "'pitch' was not measured"),
-        ({"roll": -1.0}, "roll is -1.0"),
-        ({}, "accuracy is empty"),
-    ],
-)
-def test_what_the_grid_cannot_give_is_refused(measured: Trade, accuracy: dict[str, float], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
-        measured.cheapest(**accuracy)
+def test_the_cheapest_setting_meets_its_limit_when_run(case2: sc.Scene, measured: Trade) -> None:
+    run = sc.simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
+    tight = sc.simulate(case2, t_end=T_END, **TIGHT)
+    own, true = (one.select("position", body="payload")[:, None] for one in (run, tight))
+    assert compare(true, own).largest <= 1e-4
+    for accuracy, says in (
+        ({"payload_position": 1e-16}, "rounding"), ({"payload_position": 1e-11}, "beyond this grid"),
+        ({"pitch": 1.0}, "'pitch'"), ({"roll": -1.0}, "roll is -1.0"), ({}, "accuracy is empty"),
+    ):  # fmt: skip
+        with pytest.raises(sc.SceneError, match=says):
+            measured.cheapest(**accuracy)
 
 
 def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
     with (folder / "trade.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(measured.rows) == measured.table.sizes["row"]
-    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "wall_s", "evaluations"]
-    head += [f"error_{name}" for name in measured.quantities]
-    head += ["drift", "energy", "stable", "reason", "pareto"]
-    assert list(rows[0])[: len(head)] == head
+    assert {*(f"error_{name}" for name in measured.quantities), "wall_s", "drift", "pareto"} <= {*rows[0]}
     assert (folder / "trade.png").read_bytes()[:4] == b"\x89PNG"
     error = measured.table["error"].sel(quantity="roll").to_numpy()
     assert float(rows[0]["error_roll"]) == pytest.approx(error[0], rel=1e-5)
-    assert {row["rung"] for row in rows} >= {
-        simpler_scenes.LOCKED,
-        simpler_scenes.PRESCRIBED,
-        simpler_scenes.WEIGHT,
-        simpler_scenes.LINEAR,
-    }
+    rungs = ("LOCKED", "PRESCRIBED", "WEIGHT", "LINEAR")
+    assert {row["rung"] for row in rows} >= {getattr(simpler_scenes, rung) for rung in rungs}
 
 
-def test_a_later_call_goes_on_and_another_scene_begins_anew(
-    case2: Scene, measured: Trade, folder: Path, monkeypatch: pytest.MonkeyPatch
+def test_a_later_call_goes_on_another_scene_anew(
+    case2: Any, measured: Any, folder: Path, monkeypatch: Any
 ) -> None:
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()
     path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
-    called: list[str] = []
+    called = []
 
     def filled(*arguments: object, **given: object) -> Row:
         called.append("one")
@@ -209,72 +136,52 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
     monkeypatch.setattr(trade_study, "frequency_domain", filled)
     unit = next(row.cpu_s for row in measured.rows if row.method.name == "recursive dopri5 rtol=0.001")
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (unit, unit))
-    again = trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
+    again = sc.trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
     kept = {json.loads(line)["row"]["wall_s"] for line in lines[1:-1]}
     assert called and kept <= {row.wall_s for row in again.rows}
     other = RowFile(path, {"scene": "another"})
     assert not other.rows and len(path.read_text().splitlines()) == 1
 
 
-def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) -> None:
-    case = Case(scene=case2, t_end=1.0, dt_out=0.1)
-    method = Method(formulation="recursive", integrator="ida", rtol=1e-3)
-    done = measured_row(
-        case, method, quantities_of(case2, case.model, ["roll"]), Reference(), Row(case={}, method=method)
-    )
-    assert not done.stable and "solves the redundant equations" in done.message
-
-
-def test_every_integrator_of_the_core_is_in_the_grid() -> None:
-    assert {method.integrator for method in methods.measured_methods()} == set(integrator_names())
-
-
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
 def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Integrator) -> None:
-    """The table of integrators is asked in place of the scene: it tells the truth."""
-    runs = [
-        Run(pendulum(), t_end=0.2, dt_out=0.2, integrator=known.name, dt=dt, channels=["position"])
-        for dt in (0.05, 0.025)
-    ]
+    """The table of integrators is asked in place of the scene: it tells the truth, and the grid has all."""
+    given = {"t_end": 0.2, "dt_out": 0.2, "integrator": known.name, "channels": ["position"]}
+    runs = [sc.Run(pendulum(), dt=dt, **given) for dt in (0.05, 0.025)]
     assert all(run.advance(0.2) for run in runs)
     few, many = (run.core.statistics()["steps"] for run in runs)
     assert (few != many) == (known.setting == "dt") == (not runs[0].core.adaptive)
+    assert known.name in {method.integrator for method in methods.measured_methods()}
 
 
 def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
-    chosen = [Method(integrator="rk4", dt=0.01), Method(integrator="not-yet", rtol=1e-3)]
-    rows = trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
+    chosen = [sc.Method(integrator="rk4", dt=0.01), sc.Method(integrator="not-yet", rtol=1e-3)]
+    rows = sc.trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
     assert [row.method for row in rows] == chosen
     assert rows[0].stable and not rows[1].stable
     assert "unknown integrator" in rows[1].message
 
 
-def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
+def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
     names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("passive")]
     assert names == [f"passive r2={r2:g}" for r2 in simpler_scenes.R2_LEVELS.all]
     scenes = [simpler_scenes.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
-    assert [simpler_scenes.full_memory_name(s, "passive r2=0.9") for s in scenes] == [
-        "passive:12",
-        "passive:20",
-    ]
     assert [s.compile().memory_states for s in scenes] == [12, 20]
-
-
-def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
+    assert simpler_scenes.full_memory_name(scenes[1], "passive r2=0.9") == "passive:20"
     built = cases.case2(memory="passive")
     changed = simpler_scenes.with_memory(case2, "passive")
-    mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
-               "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
+    ship = built.vessels["vessel"]
+    mooring = {name: getattr(ship, name) for name in ("mooring_stiffness", "mooring_damping")}
     changed.replace("vessel", kind="vessel", **mooring)
-    one, other = (simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
+    one, other = (sc.simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
     assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
     assert case2.provenance["vessel"].memory == "per-pair"
 
 
-def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: Scene) -> None:
-    full = simulate(case2, t_end=T_END, **TIGHT)
+def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: sc.Scene) -> None:
+    full = sc.simulate(case2, t_end=T_END, **TIGHT)
     driven = simpler_scenes.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
-    alone = simulate(driven, t_end=T_END, **TIGHT)
+    alone = sc.simulate(driven, t_end=T_END, **TIGHT)
     assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
     assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
     assert np.abs(full["vessel_motion"]).max() > 0.1
@@ -282,27 +189,23 @@ def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(
 
 def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
     scene = cases.case2(hs=0.0)
-    for name in list(scene.actuators):
-        scene.actuators[name] = simpler_scenes._core.Actuator(
-            name=name, joint=scene.actuators[name].joint, coordinate=scene.actuators[name].coordinate,
-            stiffness=scene.actuators[name].stiffness, damping=scene.actuators[name].damping,
-            feed_forward=curve_of("start", scene.actuators[name].feed_forward.evaluate([0.0])[0, 0]),
-        )  # fmt: skip
+    for name, drive in list(scene.actuators.items()):
+        start = curve_of("start", drive.feed_forward.evaluate([0.0])[0, 0])
+        scene.replace(name, kind="actuator", feed_forward=start, reference=curve_of("start", 0.0))
     quantities = quantities_of(scene, scene.compile(), None)
-    run = simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
+    run = sc.simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
     bench = trade_rows.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
-    method = Method(integrator="dop853", rtol=1e-9)
+    method = sc.Method(integrator="dop853", rtol=1e-9)
     done = trade_rows.measure(bench, Row(case={"rung": simpler_scenes.WEIGHT}, method=method))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
 
 
-def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
+def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
     waves = case2.waves
-    assert waves is not None
     half = simpler_scenes.strongest(waves, 100)
     assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
     load = [np.sum(np.abs(w.hull().transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
@@ -311,31 +214,28 @@ def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
 
 
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
-    scene = pendulum()
-    found = trade(scene, t_end=2.0, progress=False)
-    assert list(found.quantities) == ["position", "velocity"] and {r.case["rung"] for r in found.rows} == {
-        "full"
-    }
-    with pytest.raises(SceneError, match="channel 'depth' does not exist"):
-        trade(scene, quantities=["depth"], t_end=2.0, progress=False)
-    with pytest.raises(SceneError, match="is no folder"):
-        trade(scene, t_end=2.0, progress=False, out=tmp_path / "absent")
+    found = sc.trade(pendulum(), t_end=2.0, progress=False)
+    assert list(found.quantities) == ["position", "velocity"]
+    assert {row.case["rung"] for row in found.rows} == {"full"}
+    for given, says in (({"quantities": ["depth"]}, "'depth'"), ({"out": tmp_path / "absent"}, "no folder")):
+        with pytest.raises(sc.SceneError, match=says):
+            sc.trade(pendulum(), t_end=2.0, progress=False, **given)
     assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key
 
 
-def row_of(method: Method, cost: float, **errors: float) -> Row:
+def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
     measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
     case = {"memory": "none", "waves": "none", "rung": "full"}
     return Row(case=case, method=method, verdict="completed", errors=measures, cpu_s=cost, wall_s=cost)
 
 
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
-    fixed = Method(integrator="semi-implicit-euler", dt=0.02)
+    fixed = sc.Method(integrator="semi-implicit-euler", dt=0.02)
     rows = (
         row_of(fixed, 1.0, payload_position=0.005, hook_load=3400.0),
-        row_of(Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
-        row_of(Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
-        row_of(Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
+        row_of(sc.Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
+        row_of(sc.Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
+        row_of(sc.Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
     )
     names = ("payload_position", "hook_load")
     moved = {"payload_position": np.array([[[0.0]], [[1.0]]]), "hook_load": np.array([[[0.0]], [[1e5]]])}
@@ -347,27 +247,23 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
-    with pytest.raises(SceneError, match="give others=None"):
+    with pytest.raises(sc.SceneError, match="give others=None"):
         found.cheapest(others=1e-9, payload_position=0.01)
 
 
 def test_what_cannot_change_the_front_is_not_measured() -> None:
-    loose, tight = Method(integrator="dop853", rtol=1e-4), Method(integrator="dop853", rtol=1e-5)
-    poor = [Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
-    ladders = Ladders([loose, tight, *poor], ["x"], {"x": 1e-6})
-    ladders.scouts = []
-    ladders.add(loose, row_of(loose, 1.0, x=1e-7))
-    ladders.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
-    assert ladders.next() is None and ladders.open == 0  # all errors below the floor are alike
-    finer = Ladders([loose, tight, *poor], ["x"], {"x": 1e-12})
-    finer.scouts = []
-    finer.add(loose, row_of(loose, 1.0, x=1e-7))
-    finer.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
-    assert finer.next() == tight and finer.open == 1
+    loose, tight = sc.Method(integrator="dop853", rtol=1e-4), sc.Method(integrator="dop853", rtol=1e-5)
+    poor = [sc.Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
+    for floor, following in ((1e-6, None), (1e-12, tight)):  # all errors below the floor are alike
+        ladders = Ladders([loose, tight, *poor], ["x"], {"x": floor})
+        ladders.scouts = []
+        ladders.add(loose, row_of(loose, 1.0, x=1e-7))
+        ladders.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
+        assert ladders.next() == following and ladders.open == (following is not None)
 
 
-def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
-    units: list[str] = []
+def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: Any) -> None:
+    units = []
 
     def counted(bench: object, row: Row, **given: object) -> Row:
         units.append(row.key)
@@ -375,20 +271,20 @@ def test_a_budget_ends_a_trade_and_it_says_so(case2: Scene, monkeypatch: pytest.
 
     monkeypatch.setattr(trade_study, "measure", counted)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
-    found = trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
+    found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
     assert len(units) == len(found.rows) == 3
     assert found.told_s == trade_study.REFERENCE + 3.0
     assert found.not_measured > 0 and "The budget ended before" in found.price
 
 
 def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
-    stages = [Stage(name="first", duration=1.0), Stage(name="second", duration=1.0)]
-    chosen = [Method(integrator="tsit5", rtol=1e-3)]
-    found = trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
+    stages = [sc.Stage(name="first", duration=1.0), sc.Stage(name="second", duration=1.0)]
+    chosen = [sc.Method(integrator="tsit5", rtol=1e-3)]
+    found = sc.trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
     (row,) = found.rows
     assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
-    staged = simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
-    tight = simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
+    staged = sc.simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
+    tight = sc.simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
     worst = 0.0
     for one in stages:
         own, true = (run["position"][run.stage(one.name), 0] for run in (staged, tight))

@@ -34,7 +34,7 @@ def known(scene: Scene, returned: Any) -> bool:
 
 
 @contextmanager
-def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, list[bool]]]:
+def watched(monkeypatch: Any) -> Iterator[dict[str, list[bool]]]:
     """Of each method that is called by a user, whether what it returned was known to the scene."""
     seen: dict[str, list[bool]] = {}
 
@@ -83,7 +83,7 @@ def everything() -> None:
 
 
 @pytest.mark.warns("SeabedWarning")
-def test_every_method_returns_what_it_added_as_the_scene_holds_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_method_returns_what_it_added_as_the_scene_holds_it(monkeypatch: Any) -> None:
     with watched(monkeypatch) as seen:
         everything()
     assert sorted(seen) == METHODS
@@ -98,11 +98,3 @@ def test_a_method_takes_one_thing_at_most_without_its_keyword(name: str) -> None
     allowed = ["name", "first", "second"] if name == "add_line" else [parameters[0].name]
     assert bare in ([], allowed)
     assert bare or parameters[0].default is not inspect.Parameter.empty or name == "add_slack_tank"
-
-
-def test_a_name_stands_without_its_keyword() -> None:
-    scene = Scene()
-    body = scene.add_body("load", mass=1e3, size=(1, 1, 1))
-    joint = scene.add_joint("rail", kind="prismatic", first="ground", second="load")
-    assert scene.bodies["load"] is body and scene.joints["rail"] is joint
-    assert scene.add_driver("rail", curve=0.0).joint == "rail"

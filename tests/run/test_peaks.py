@@ -2,53 +2,34 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import (
-    Curve,
-    Result,
-    Run,
-    Scene,
-    Stage,
-    cases,
-    ensemble,
-    simulate,
-    simulate_stages,
-    simulate_to_file,
-    summary,
-)
+import seacrane as sc
+from seacrane import cases
 from seacrane.ensembles import Kept
 from seacrane.operability.levels import RecordNumbers
-from seacrane.pictures import view
 
 MASS, GRAVITY, LENGTH = 2e3, 9.81, 10.0
 WEIGHT = MASS * GRAVITY
 
 
-def hung(*, EA: float, fall: float = 0.0, damping: float = 0.0, hangs: int = 1) -> Scene:
+def hung(*, EA: float, fall: float = 0.0, damping: float = 0.0, hangs: int = 1) -> sc.Scene:
     """A mass that has fallen so far (m) where its line becomes taut, and more below it on lines alike."""
-    scene = Scene(name="mass on a line", gravity=GRAVITY)
-    above = "ground"
+    scene = sc.Scene(name="mass on a line", gravity=GRAVITY)
+    above, down = "ground", (0.0, 0.0, -np.sqrt(2.0 * GRAVITY * fall))
     for i in range(1, hangs + 1):
-        name = f"mass {i}"
-        scene.add_body(
-            name, mass=MASS / i, inertia=np.diag([1e3, 1e3, 1e3]), position=(0.0, 0.0, -LENGTH * i),
-            velocity=(0.0, 0.0, -np.sqrt(2.0 * GRAVITY * fall)),
-        )  # fmt: skip
-        scene.add_line(
-            f"line {i}", bodies=[above, name], points=[(0.0, 0.0, 0.0)] * 2, length=LENGTH, EA=EA / i,
-            damping_ratio=damping, rung="elastic",
-        )  # fmt: skip
+        name, place = f"mass {i}", (0.0, 0.0, -LENGTH * i)
+        scene.add_body(name, mass=MASS / i, inertia=(1e3, 1e3, 1e3), position=place, velocity=down)
+        scene.add_line(f"line {i}", bodies=[above, name], points=[(0.0, 0.0, 0.0)] * 2, length=LENGTH,
+                       EA=EA / i, damping_ratio=damping, rung="elastic")  # fmt: skip
         above = name
     return scene
 
 
-def largest(result: Result, channel: str = "line_tension") -> np.ndarray:
+def largest(result: sc.Result, channel: str = "line_tension") -> np.ndarray:
     return np.asarray(result.reached(channel)[1]).max(axis=0)
 
 
@@ -57,11 +38,11 @@ def largest(result: Result, channel: str = "line_tension") -> np.ndarray:
 def test_a_stiff_line_reaches_its_peak_in_closed_form(formulation: str, fall: float) -> None:
     EA = 4e8
     exact = WEIGHT * (1.0 + np.sqrt(1.0 + 2.0 * EA / LENGTH * fall / WEIGHT))
-    result = simulate(hung(EA=EA, fall=fall), 1.5, dt_out=0.37, formulation=formulation)
+    result = sc.simulate(hung(EA=EA, fall=fall), 1.5, dt_out=0.37, formulation=formulation)
     assert largest(result).item() == pytest.approx(exact, rel=1e-3)
     assert result["line_tension"].max() < 0.97 * exact  # the outputs miss it
     assert result.reached("line_tension")[0].min() == pytest.approx(0.0, abs=1e-3 * exact)
-    row = summary(result)["hoist tension line 1"]
+    row = sc.summary(result)["hoist tension line 1"]
     assert row.maximum == pytest.approx(exact, rel=1e-3)
 
 
@@ -69,15 +50,12 @@ def test_a_stiff_line_reaches_its_peak_in_closed_form(formulation: str, fall: fl
 def test_peaks_are_those_of_a_dense_record(integrator: str) -> None:
     random = np.random.default_rng(5)
     for hangs in (1, 2, 3):
-        scene = hung(
-            EA=10.0 ** random.uniform(6.0, 8.5), fall=0.02 * random.random(), damping=0.02, hangs=hangs
-        )
-        period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * scene.loads["line 1"].EA))
-        how: dict[str, Any] = {"integrator": integrator, "formulation": "redundant"}
-        if integrator == "rk4":
-            how["dt"] = period / 25.0
-        seldom = simulate(scene, 2.0, dt_out=0.3, **how)
-        often = simulate(scene, 2.0, dt_out=period / 50.0, **how)
+        EA = 10.0 ** random.uniform(6.0, 8.5)
+        scene = hung(EA=EA, fall=0.02 * random.random(), damping=0.02, hangs=hangs)
+        period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * EA))
+        how = {"integrator": integrator, "formulation": "redundant"}
+        how |= {"dt": period / 25.0} if integrator == "rk4" else {}
+        seldom, often = (sc.simulate(scene, 2.0, dt_out=dt_out, **how) for dt_out in (0.3, period / 50.0))
         for channel in ("line_tension", "hook_load"):
             dense = often[channel]
             error = 1e-3 * dense.max()
@@ -90,7 +68,7 @@ def test_accelerations_that_are_asked_for_are_those_of_the_peak(formulation: str
     EA, fall = 4e8, 0.05
     peak = GRAVITY * np.sqrt(1.0 + 2.0 * EA / LENGTH * fall / WEIGHT)
     channels = ["acceleration", "line_tension"]
-    result = simulate(hung(EA=EA, fall=fall), 1.5, dt_out=0.4, channels=channels, formulation=formulation)
+    result = sc.simulate(hung(EA=EA, fall=fall), 1.5, dt_out=0.4, channels=channels, formulation=formulation)
     least, most = result.reached("acceleration[mass 1, z]")
     assert most.max() == pytest.approx(peak, rel=2e-3)
     assert least.min() == pytest.approx(-GRAVITY, rel=1e-3)
@@ -99,28 +77,23 @@ def test_accelerations_that_are_asked_for_are_those_of_the_peak(formulation: str
 
 def test_what_is_asked_for_is_kept_and_other_channels_are_as_recorded() -> None:
     scene = hung(EA=4e8)
-    asked = simulate(scene, 1.0, dt_out=0.5, channels=["position", "hook_load"])
+    asked = sc.simulate(scene, 1.0, dt_out=0.5, channels=["position", "hook_load"])
     assert set(asked.extremes) == {"position", "hook_load"}
     assert asked.reached("position[mass 1, z]")[0].min() == pytest.approx(-LENGTH - 2 * WEIGHT * LENGTH / 4e8)
-    usual = simulate(scene, 1.0, dt_out=0.5)
+    usual = sc.simulate(scene, 1.0, dt_out=0.5)
     assert "position" not in usual.extremes
     for bound in usual.reached("position"):
         np.testing.assert_array_equal(bound, usual["position"])
-
-
-def test_recorded_values_do_not_depend_on_extremes() -> None:
-    scene = hung(EA=1e7, fall=0.1, hangs=2)
-    usual = simulate(scene, 1.0, dt_out=0.05)
     least, most = usual.reached("line_tension")
     assert (least <= usual["line_tension"]).all() and (usual["line_tension"] <= most).all()
-    alone = simulate(scene, 1.0, dt_out=0.05, channels=["line_length"])
+    alone = sc.simulate(scene, 1.0, dt_out=0.5, channels=["line_length"])
     np.testing.assert_array_equal(alone["line_length"], usual["line_length"])
 
 
 def test_a_limit_state_a_criterion_and_what_is_kept_read_the_peak() -> None:
     scene = hung(EA=4e8)
     scene.add_limit_state("line_tension[line 1]", maximum=1.5 * WEIGHT)
-    result = simulate(scene, 1.5, dt_out=0.5)
+    result = sc.simulate(scene, 1.5, dt_out=0.5)
     used = result.utilisation[0]
     assert used.reached == pytest.approx(2.0 * WEIGHT, rel=1e-3)
     assert not used.kept
@@ -133,7 +106,7 @@ def test_a_limit_state_a_criterion_and_what_is_kept_read_the_peak() -> None:
 
 def test_a_part_begins_with_the_value_of_its_first_output() -> None:
     scene = hung(EA=4e8, damping=0.05)
-    result = simulate(scene, 2.0, dt_out=0.5)
+    result = sc.simulate(scene, 2.0, dt_out=0.5)
     part = result.part(after=1.0)
     later = result.reached("line_tension", part=part)[1]
     assert later[0] == result["line_tension"][part][0]
@@ -142,54 +115,40 @@ def test_a_part_begins_with_the_value_of_its_first_output() -> None:
 
 def test_files_and_stages_hold_them(tmp_path: Path) -> None:
     scene = hung(EA=1e7, fall=0.02, hangs=2)
-    whole = simulate(scene, 2.0, dt_out=0.25)
-    again = Result.load(whole.save(tmp_path / "whole.nc"))
+    whole = sc.simulate(scene, 2.0, dt_out=0.25)
+    again = sc.Result.load(whole.save(tmp_path / "whole.nc"))
     for name, both in whole.extremes.items():
-        for one, other in zip(both, again.extremes[name], strict=True):
-            np.testing.assert_array_equal(one, other)
-    some = Result.load(tmp_path / "whole.nc", channels=["line_tension"])
+        np.testing.assert_array_equal(both, again.extremes[name])
+    some = sc.Result.load(tmp_path / "whole.nc", channels=["line_tension"])
     assert set(some.extremes) == {"line_tension"}
-    streamed = simulate_to_file(
-        scene, tmp_path / "streamed.nc", 2.0, dt_out=0.25, checkpoint_every=0.6
-    ).load()
-    staged = simulate_stages(
-        scene, [Stage(name=n, duration=d) for n, d in (("a", 0.7), ("b", 1.3))], dt_out=0.25
-    )
-    for other in (streamed, staged):
-        assert largest(other) == pytest.approx(largest(whole), rel=1e-3)
-        assert largest(other, "hook_load") == pytest.approx(largest(whole, "hook_load"), rel=1e-3)
+    streamed = sc.simulate_to_file(scene, tmp_path / "streamed.nc", 2.0, dt_out=0.25, checkpoint_every=0.6)
+    stages = [sc.Stage(name="a", duration=0.7), sc.Stage(name="b", duration=1.3)]
+    for other in (streamed.load(), sc.simulate_stages(scene, stages, dt_out=0.25)):
+        for channel in ("line_tension", "hook_load"):
+            assert largest(other, channel) == pytest.approx(largest(whole, channel), rel=1e-3)
     assert "line_tension_largest" in whole.to_xarray()
 
 
 def test_a_run_that_goes_on_between_outputs_keeps_what_came_before() -> None:
     scene = hung(EA=1e6)
     period = 2.0 * np.pi * np.sqrt(MASS * LENGTH / 1e6)
-    whole = simulate(scene, 0.9 * period, dt_out=0.9 * period)
-    first = Run(scene, 0.9 * period, dt_out=0.9 * period)
+    whole = sc.simulate(scene, 0.9 * period, dt_out=0.9 * period)
+    first = sc.Run(scene, 0.9 * period, dt_out=0.9 * period)
     first.advance(0.6 * period)  # behind the peak, before the output
-    rest = simulate(scene, 0.9 * period, dt_out=0.9 * period, start=first.state)
+    rest = sc.simulate(scene, 0.9 * period, dt_out=0.9 * period, start=first.state)
     assert largest(whole).item() == pytest.approx(2.0 * WEIGHT, rel=1e-3)
     assert largest(rest).item() == pytest.approx(2.0 * WEIGHT, rel=1e-3)
-
-
-def test_the_strip_of_the_page_shows_the_peak() -> None:
-    result = simulate(hung(EA=4e8, damping=0.02), 2.0, dt_out=0.5)
-    found = re.search(r'"title":"line tension.*?"high":([-\d.e+]+)', view(result).html)
-    assert found and float(found[1]) == pytest.approx(largest(result).item() / 1e3, rel=1e-3)
-    assert largest(result).item() > 1.05 * result["line_tension"].max()
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str) -> None:
     """T = m g (3 cos phi - 2 cos phi0) of a mass on a rod that is let go at phi0."""
-    scene, angle = Scene(name="pendulum", gravity=GRAVITY), 0.8
+    scene, angle = sc.Scene(name="pendulum", gravity=GRAVITY), 0.8
     place = LENGTH * np.array([np.sin(angle), 0.0, -np.cos(angle)])
     scene.add_body("mass", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=place)
-    scene.add_joint(
-        kind="distance", name="rod", first="ground", second="mass", point=(0.0, 0.0, 0.0), second_point=place,
-        length=LENGTH,
-    )  # fmt: skip
-    result = simulate(scene, 9.0, dt_out=1.3, formulation=formulation)
+    ends = {"first": "ground", "second": "mass", "point": (0, 0, 0), "second_point": place}
+    scene.add_joint("rod", kind="distance", **ends, length=LENGTH)
+    result = sc.simulate(scene, 9.0, dt_out=1.3, formulation=formulation)
     least, most = result.reached("tension")
     assert most.max() == pytest.approx(WEIGHT * (3.0 - 2.0 * np.cos(angle)), rel=1e-3)
     assert least.min() == pytest.approx(WEIGHT * np.cos(angle), rel=1e-3)
@@ -198,18 +157,14 @@ def test_a_rod_reaches_what_it_carries_at_the_bottom_of_a_swing(formulation: str
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_driver_reaches_what_it_carries(formulation: str) -> None:
-    scene, omega, height = Scene(name="driven", gravity=GRAVITY), 2.0, 1.5
-    scene.add_body(
-        "sledge", mass=MASS, inertia=np.diag([1e3, 1e3, 1e3]), position=(0.0, 0.0, 0.0),
-        velocity=(0.0, 0.0, height * omega),
-    )  # fmt: skip
+    scene, omega, height = sc.Scene(name="driven", gravity=GRAVITY), 2.0, 1.5
+    scene.add_body("sledge", mass=MASS, inertia=(1e3, 1e3, 1e3), velocity=(0.0, 0.0, height * omega))
     scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="sledge", point=(0, 0, 0), axis=(0, 0, 1)
+        "guide", kind="prismatic", first="ground", second="sledge", point=(0, 0, 0), axis=(0, 0, 1)
     )
-    scene.add_driver(
-        joint="guide", name="lift", curve=Curve.harmonic(amplitude=height, omega=omega, phase=-np.pi / 2)
-    )
-    result = simulate(scene, 8.0, dt_out=1.1, formulation=formulation)
+    wave = sc.Curve.harmonic(amplitude=height, omega=omega, phase=-np.pi / 2)
+    scene.add_driver(joint="guide", name="lift", curve=wave)
+    result = sc.simulate(scene, 8.0, dt_out=1.1, formulation=formulation)
     least, most = result.reached("driver_force")
     assert most.max() == pytest.approx(WEIGHT + MASS * height * omega**2, rel=1e-3)
     assert least.min() == pytest.approx(WEIGHT - MASS * height * omega**2, rel=1e-3)
@@ -218,7 +173,7 @@ def test_a_driver_reaches_what_it_carries(formulation: str) -> None:
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> None:
     """A pendulum falls from the horizontal."""
-    inertia, scene = 1e3, Scene(name="pendulum", gravity=GRAVITY)
+    inertia, scene = 1e3, sc.Scene(name="pendulum", gravity=GRAVITY)
     scene.add_body("bob", mass=MASS, inertia=(inertia,) * 3, position=(LENGTH, 0.0, 0.0))
     scene.add_joint(
         kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
@@ -230,7 +185,7 @@ def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> No
     scene.add_relative("under", point="middle", to="pin")
     scene.add_channel("fallen", expression="pin.z - bob.z")
     channels = ["reaction_force", "relative_position", "own"]
-    result = simulate(scene, 5.4, dt_out=2.7, channels=channels, formulation=formulation)
+    result = sc.simulate(scene, 5.4, dt_out=2.7, channels=channels, formulation=formulation)
     share = MASS * LENGTH**2 / (MASS * LENGTH**2 + inertia)
     for name, end, peak in (
         ("reaction_force[pin, z]", 1, WEIGHT * (1.0 + 2.0 * share)),
@@ -243,32 +198,31 @@ def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> No
 
 
 def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_other() -> None:
-    scene, length, per_length = Scene(name="deep", gravity=GRAVITY), 1000.0, 20.0
+    scene, length, per_length = sc.Scene(name="deep", gravity=GRAVITY), 1000.0, 20.0
     scene.add_body("load", mass=2e4, inertia=np.diag([1e4] * 3), position=(0.0, 0.0, -length))
     scene.add_line(
         "wire", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0)] * 2, length=length, EA=4e8,
         rung="with mass", mass_per_length=per_length, segments=8, segment_rung="quasi-static",
     )  # fmt: skip
-    result = simulate(scene, 1.0, start="rest")
-    assert result["hook_load"][:, -1] == pytest.approx(2e4 * GRAVITY, rel=1e-3)
+    result = sc.simulate(scene, 1.0, start="rest")
+    load, all_of_it = 2e4 * GRAVITY, (2e4 + per_length * length) * GRAVITY
     upper, lower = result["end_tension"][:, 0].T
-    assert lower == pytest.approx(2e4 * GRAVITY, rel=1e-3)
-    assert upper == pytest.approx((2e4 + per_length * length) * GRAVITY, rel=1e-3)
-    told = summary(result)
-    assert told["hook load wire"].maximum == pytest.approx(2e4 * GRAVITY, rel=1e-3)
-    assert told["hoist tension wire"].maximum == pytest.approx(
-        (2e4 + per_length * length) * GRAVITY, rel=1e-3
-    )
+    told = sc.summary(result)
+    for found, exact in (
+        (result["hook_load"][:, -1], load), (lower, load), (upper, all_of_it),
+        (told["hook load wire"].maximum, load), (told["hoist tension wire"].maximum, all_of_it),
+    ):  # fmt: skip
+        assert found == pytest.approx(exact, rel=1e-3)
 
 
 def test_members_in_lanes_keep_the_peaks_of_runs_by_themselves() -> None:
-    given: dict[str, Any] = {
+    given = {
         "over": {"seed": [1, 2, 3]}, "t_end": 8.0, "dt_out": 2.0,
         "keep": {"roll": "roll.max", "torque": "slew_torque.max", "heave": "heave.min"},
     }  # fmt: skip
-    alone = ensemble(cases.case2(), lanes=1, **given).dataset
-    beside = ensemble(cases.case2(), lanes=4, **given).dataset
-    coarse = ensemble(cases.case2(), lanes=1, **{**given, "keep": {"roll": "roll"}}).dataset
+    alone = sc.ensemble(cases.case2(), lanes=1, **given).dataset
+    beside = sc.ensemble(cases.case2(), lanes=4, **given).dataset
+    coarse = sc.ensemble(cases.case2(), lanes=1, **{**given, "keep": {"roll": "roll"}}).dataset
     for name in ("roll", "torque", "heave"):
         assert beside[name].to_numpy() == pytest.approx(alone[name].to_numpy(), rel=1e-3)
     assert (coarse["roll"].max("time") < 0.999 * alone["roll"]).any()

@@ -47,12 +47,9 @@ def alone_as_in_the_whole(whole: Result, stages: list[Stage], at: int) -> None:
     assert_allclose(heights(alone), heights(whole)[at:], atol=WITHIN)
 
 
-@pytest.mark.parametrize("seed", BY_DAY)
+MANY = pytest.mark.slow("120 random lifts")
+
+
+@pytest.mark.parametrize("seed", [pytest.param(n, marks=() if n in BY_DAY else MANY) for n in range(124)])
 def test_a_stage_of_a_random_lift_begun_anew_goes_as_in_the_whole(seed: int) -> None:
-    begun_anew(seed)
-
-
-@pytest.mark.slow("120 random lifts")
-@pytest.mark.parametrize("seed", sorted(set(range(124)) - set(BY_DAY)))
-def test_a_stage_of_many_random_lifts_begun_anew_goes_as_in_the_whole(seed: int) -> None:
     begun_anew(seed)

@@ -35,10 +35,16 @@ def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:
     scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
     scene.add_driver(joint="up", curve=driven)
     scene.add_body(name="load", mass=1e5, inertia=(1e5,) * 3, position=(0, 0, -100))
-    scene.add_line(
-        name="hoist", bodies=["tip", "load"], points=[(0, 0, top), (0, 0, 0)], EA=4e8,
-        length=99.9 + slack,
-    )  # fmt: skip
+    ends = [(0, 0, top), (0, 0, 0)]
+    scene.add_line("hoist", bodies=["tip", "load"], points=ends, EA=4e8, length=99.9 + slack)
+    return scene
+
+
+def on_a_hoist(name: str) -> Scene:
+    """10 t on a line of their weight."""
+    scene = Scene(name=name)
+    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
+    scene.add_line("hoist", first="ground", second="load", EA=1e7, tension_at_start=1e4 * G)
     return scene
 
 
@@ -77,11 +83,8 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
 def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene = Scene(name="heavy")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    lines = scene.add_line(
-        name="hoist", rung="with mass", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=4e8,
-        length=100.0, mass_per_length=20.0, segments=8,
-    )  # fmt: skip
-    first = lines[0]
+    wire = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
+    first, *_ = scene.add_line("hoist", rung="with mass", first="ground", second="load", **wire)
     points = np.asarray(first.points)
     points[0, 2] = up
     scene.replace(first.name, kind="load", points=points)
@@ -93,7 +96,7 @@ def test_the_line_that_could_hold_a_load_is_named() -> None:
     scene = Scene(name="far")
     scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
     scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0)
-    with pytest.raises(SceneError, match=r"'load' .* line 'hoist', which could hold it, is slack by 4.99"):
+    with pytest.raises(SceneError, match=r"'load' .* 'hoist', .* slack by 4.99"):
         equilibrium(scene)
 
 
@@ -101,14 +104,10 @@ def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
     scene = Scene(name="heeled")
     scene.add_vessel(shipped_database(), memory="none")
     roles = scene.add_crane(slew=-np.pi / 2, s1=2.0, s2=2.0, held=True)
-    assert roles.tip is not None
     body, head = roles.tip
     x, y, z = scene.place_of(body=body, point=head)
     scene.add_body(name="load", mass=50e3, inertia=(1e5,) * 3, position=(x, y, z - 15))
-    scene.add_line(
-        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], EA=1e9,
-        tension_at_start=50e3 * G,
-    )  # fmt: skip
+    scene.add_line("hoist", first=body, first_point=head, second="load", EA=1e9, tension_at_start=50e3 * G)
     scene.add_ballast(heel_deg=-6.0)
     w, x, y, z = equilibrium(scene).values[3:7]
     assert np.degrees(np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))) == pytest.approx(-6, abs=1e-5)
@@ -117,16 +116,8 @@ def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
 @pytest.mark.parametrize("slack", [-0.01, 0.01, 0.5])
 @pytest.mark.parametrize("lag", [0.0, 0.2])
 def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
-    scene = Scene(name="tugged")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
-        tension_at_start=1e4 * G,
-    )  # fmt: skip
-    scene.add_line(
-        name="tug", bodies=["ground", "load"], points=[(8, 0, -10), (0, 0, 0)], EA=2e5,
-        length=8.0 + slack,
-    )  # fmt: skip
+    scene = on_a_hoist("tugged")
+    scene.add_line("tug", first="ground", first_point=(8, 0, -10), second="load", EA=2e5, length=8.0 + slack)
     scene.add_winch(line="tug", tension=10e3, tension_gain=1e-5, maximum_rate=1.0, lag=lag)
     result = simulate(scene, 5.0, start=equilibrium(scene))
     assert result["line_tension"][:, 1] == pytest.approx(10e3, abs=1e-2)
@@ -135,9 +126,7 @@ def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
 
 def test_two_tuggers_that_pull_against_each_other_find_their_tension() -> None:
     """Just straight as described: no body moves on the way to rest, only the drums wind in."""
-    scene = Scene(name="between")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line("hoist", "ground", "load", EA=1e7, tension_at_start=1e4 * G, first_point=(0, 0, 0))
+    scene = on_a_hoist("between")
     for name, side in (("port", 15.0), ("starboard", -15.0)):
         scene.add_line(name, "ground", "load", first_point=(0, side, -10), EA=1e6)
         scene.add_winch(name, tension=5e3, tension_gain=1e-4, maximum_rate=1.0)
@@ -148,19 +137,12 @@ def test_two_tuggers_that_pull_against_each_other_find_their_tension() -> None:
 def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
     """Two parallel taglines of constant tension turn a load away: k = -2 T arm (1 + arm / length)."""
     arm, tension, length, inertia = 1.0, 500.0, 20.0, 5e4
-    scene = Scene(name="taglines")
-    scene.add_body(name="load", mass=1e4, inertia=(inertia,) * 3, position=(0, 0, -10))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
-        tension_at_start=1e4 * G,
-    )  # fmt: skip
+    scene = on_a_hoist("taglines")
+    scene.replace("load", kind="body", inertia=np.diag((inertia,) * 3))
     for i, side in enumerate((-1.0, 1.0)):
-        name = f"tag {i}"
-        scene.add_line(
-            name=name, bodies=["ground", "load"], points=[(-side * length, 0, -10), (side * arm, 0, 0)],
-            EA=1e5, tension_at_start=tension,
-        )  # fmt: skip
-        scene.add_winch(line=name, tension=tension, tension_gain=1.0)
+        ends = {"first_point": (-side * length, 0, -10), "second_point": (side * arm, 0, 0)}
+        scene.add_line(f"tag {i}", "ground", "load", EA=1e5, tension_at_start=tension, **ends)
+        scene.add_winch(line=f"tag {i}", tension=tension, tension_gain=1.0)
     with pytest.warns(UnstableRestWarning, match=r"load yaw grows, doubling in (\S+) s") as caught:
         equilibrium(scene)
     across = length + arm

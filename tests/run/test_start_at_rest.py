@@ -2,49 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import (
-    Lift,
-    Run,
-    Scene,
-    SceneError,
-    Stage,
-    State,
-    ensemble,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)  # fmt: skip
+import seacrane as sc
 from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.run.to_file import simulate_to_file
 
-WAIT = [Stage(name="wait", duration=2.0)]
+WAIT = [sc.Stage(name="wait", duration=2.0)]
 LIFT = """format = "seacrane lift"
 version = 2
-[scene]
-name = "hung"
-[body]
-name = "load"
-mass_kg = 20e3
-size_m = [2, 2, 2]
-position_m = [0, 0, -10]
-[line]
-name = "hoist"
-first = "ground"
-second = "load"
-EA_N = 3e7
-length_m = 8.5
+scene = { name = "hung" }
+body = { name = "load", mass_kg = 20e3, size_m = [2, 2, 2], position_m = [0, 0, -10] }
+line = { name = "hoist", first = "ground", second = "load", EA_N = 3e7, length_m = 8.5 }
 """
 
 
-def hung() -> Scene:
+def hung() -> sc.Scene:
     """20 t on a line that is half a metre shorter than its path."""
-    scene = Scene(name="hung")
+    scene = sc.Scene(name="hung")
     scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, -10))
     scene.add_line(name="hoist", first="ground", second="load", EA=3e7, length=8.5)
     return scene
@@ -56,25 +37,20 @@ def height(result: Any) -> Any:
 
 def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path) -> None:
     scene = hung()
-    state = equilibrium(scene)
-    by_state = height(simulate(scene, 2.0, start=state))
+    state = sc.equilibrium(scene)
+    by_state = height(sc.simulate(scene, 2.0, start=state))
     stretched = 8.5 * (1.0 + 20e3 * scene.gravity / 3e7)
     assert by_state == pytest.approx(-1.0 - stretched, abs=1e-6)
+    assert np.array_equal(sc.Run(scene, 2.0, start="rest").start.values, state.values)
     for told in (
-        simulate(scene, 2.0, start="rest"),
-        Run(scene, 2.0, start="rest").start,
+        sc.simulate(scene, 2.0, start="rest"),
         simulate_to_file(scene, tmp_path / "a.nc", 2.0, start="rest").load(),
-        simulate_stages(scene, WAIT, start="rest"),
+        sc.simulate_stages(scene, WAIT, start="rest"),
         simulate_stages_to_file(scene, WAIT, tmp_path / "b.nc", start="rest"),
     ):
-        if isinstance(told, State):
-            assert np.array_equal(told.values, state.values)
-        else:
-            assert np.array_equal(height(told), by_state)
-    kept = ensemble(
-        scene, over={"bodies.load.mass": [20e3, 30e3]}, keep={"range": "line_tension[hoist].std"}, t_end=2.0,
-        start="rest",
-    )  # fmt: skip
+        assert np.array_equal(height(told), by_state)
+    over, keep = {"bodies.load.mass": [20e3, 30e3]}, {"range": "line_tension[hoist].std"}
+    kept = sc.ensemble(scene, over=over, keep=keep, t_end=2.0, start="rest")
     assert np.all(kept.dataset["range"].to_numpy() < 1.0)
 
 
@@ -85,34 +61,25 @@ def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> N
         '[run]\nstart = "rest"\n[[stage]]\nname = "wait"\nduration_s = 2\n',
     ):
         (tmp_path / "lift.toml").write_text(LIFT + end)
-        lift = Lift.load(tmp_path / "lift.toml")
+        lift = sc.Lift.load(tmp_path / "lift.toml")
         assert lift.start == "rest"
         assert np.ptp(height(lift.simulate())) < 1e-6
     (tmp_path / "lift.toml").write_text(LIFT)
     with pytest.warns(match="jumps"):
-        assert np.ptp(height(Lift.load(tmp_path / "lift.toml").simulate())) > 0.1
+        assert np.ptp(height(sc.Lift.load(tmp_path / "lift.toml").simulate())) > 0.1
 
 
 def test_another_word_is_refused_with_the_one_that_is_known(tmp_path: Path) -> None:
-    calls: list[Any] = [
-        lambda: simulate(hung(), 1.0, start="calm"),  # type: ignore[arg-type]
-        lambda: simulate_stages(hung(), WAIT, start="calm"),  # type: ignore[arg-type]
-        lambda: simulate_to_file(hung(), tmp_path / "a.nc", 1.0, start="calm"),  # type: ignore[arg-type]
-        lambda: ensemble(
-            hung(),
-            over={"bodies.load.mass": [1e3]},
-            keep={"a": "line_tension[hoist].max"},
-            t_end=1.0,
-            start="calm",
-        ),  # type: ignore[arg-type]
-    ]
+    over, keep = {"bodies.load.mass": [1e3]}, {"a": "line_tension[hoist].max"}
+    calls: list[Callable[..., Any]] = [
+        partial(sc.simulate, hung(), 1.0), partial(sc.simulate_stages, hung(), WAIT),
+        partial(simulate_to_file, hung(), tmp_path / "a.nc", 1.0),
+        partial(sc.ensemble, hung(), over=over, keep=keep, t_end=1.0),
+    ]  # fmt: skip
     for call in calls:
-        with pytest.raises(SceneError, match=r"start is 'calm'.*rest"):
-            call()
-
-
-def test_a_scene_without_rest_says_so() -> None:
-    scene = Scene(name="falls")
+        with pytest.raises(sc.SceneError, match=r"start is 'calm'.*rest"):
+            call(start="calm")
+    scene = sc.Scene(name="falls")
     scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, 0))
-    with pytest.raises(SceneError, match="load"):
-        simulate(scene, 1.0, start="rest")
+    with pytest.raises(sc.SceneError, match="load"):
+        sc.simulate(scene, 1.0, start="rest")

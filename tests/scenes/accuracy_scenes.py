@@ -22,6 +22,7 @@ G = 9.80665
 OTHERS = ("dop853", "verner65", "verner76", "tsit5")  # judges, the first two that the run did not take
 AGREED = 0.1  # of what was promised, between both judges
 T_END, DT_OUT = 8.0, 0.1  # s
+ENDS = ("held", "beyond", "refused", "not judgeable")
 
 
 def move(rng: np.random.Generator, *, end: float, start: float = 0.0) -> Curve:
@@ -55,7 +56,7 @@ def winched(rng: np.random.Generator) -> Scene:
     length = falls * float(np.linalg.norm(place))
     speed = float(rng.uniform(0.1, 0.8)) * falls
     rate: Curve | float = -speed if rng.random() < 0.3 else move(rng, end=-speed)
-    options: dict[str, Any] = {"rate": rate}
+    options = {"rate": rate}
     if rng.random() < 0.65:
         options["minimum_length"] = 0.94 * length - min(speed * float(rng.uniform(0.5, 4.0)), 0.7 * length)
     if rng.random() < 0.6:
@@ -127,14 +128,8 @@ def snatched(rng: np.random.Generator) -> Scene:
     """A load that falls some centimetres into its slack line, on a guide or free to swing."""
     scene, mass, place = hung(rng, drop=float(rng.uniform(0.005, 0.3)))
     if rng.random() < 0.5:
-        scene.add_joint(
-            kind="planar",
-            name="guide",
-            first="ground",
-            second="load",
-            point=(0.0, 0.0, 0.0),
-            axis=(0.0, 1.0, 0.0),
-        )
+        guide = {"kind": "planar", "first": "ground", "second": "load"}
+        scene.add_joint("guide", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0), **guide)
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)),
         EA=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
@@ -161,7 +156,7 @@ def compensated(rng: np.random.Generator) -> Scene:
         damping_ratio=0.05,
     )  # fmt: skip
     scene.add_winch(line="hoist", lag=float(rng.choice([0.0, 0.1])))
-    bounds: dict[str, float] = {}
+    bounds = {}
     if rng.random() < 0.5:
         bounds["maximum_rate"] = amplitude * omega * float(rng.uniform(0.3, 1.1))
     if rng.random() < 0.5:
@@ -182,7 +177,7 @@ def on_oil(rng: np.random.Generator) -> Scene:
         kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0)
     )
     speed = float(rng.uniform(0.05, 0.3))
-    oil: dict[str, Any] = {
+    oil = {
         "pump_pressure": 25e6, "rated_flow": area * speed, "rated_drop": 1e6,
         "viscous_friction": mass * float(10.0 ** rng.uniform(-0.3, 1.0)),
         "spool_lag": float(rng.choice([0.0, 5e-3, 0.05])), "air": float(rng.choice([0.0, 0.002, 0.01])),
@@ -249,7 +244,7 @@ def scene_of(number: int, *, seed: int) -> tuple[Scene, float]:
 def word(number: int, *, seed: int) -> Word:
     """What `accuracy=` promises on one scene, judged by two other methods at tighter tolerances."""
     scene, part = scene_of(number, seed=seed)
-    span: dict[str, Any] = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
+    span = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         rough = position(scene, integrator="verner76", rtol=1e-6, **span)
@@ -261,7 +256,7 @@ def word(number: int, *, seed: int) -> Word:
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])
         judges = judged(scene, method, result.settings["rtol"], span)
-    known: dict[str, Any] = {
+    known = {
         "number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method,
     }  # fmt: skip
     if isinstance(judges, str):
@@ -290,9 +285,7 @@ def position(scene: Scene, **settings: Any) -> Array:
 
 def told(words: Sequence[Word]) -> str:
     """Counts, and every scene that did not hold."""
-    ends = {
-        end: sum(one.end == end for one in words) for end in ("held", "beyond", "refused", "not judgeable")
-    }
+    ends = {end: sum(one.end == end for one in words) for end in ENDS}
     low = sum(one.error > one.told for one in words)
     lines = [f"{len(words)} scenes: {ends}, {low} above their estimate"]
     lines += [

@@ -4,23 +4,31 @@ from __future__ import annotations
 
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from seacrane import Curve, Kept, Result, Scene
+from seacrane import Curve, HydroDatabase, Kept, Result, Scene
 from seacrane.ensembles.paths import with_values
+from seacrane.hydro import DriftCoefficients, shipped_database
 
-SWING: dict[str, Any] = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
+
+def drifting_hull() -> HydroDatabase:
+    """The shipped hull, with mean drift forces."""
+    hull = shipped_database()
+    mean = np.tile([-2e4, 3e4, 0.0, 0.0, 0.0, 1e5], (len(hull.heading), len(hull.omega), 1))
+    drift = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=mean)
+    return replace(hull, drift=drift)
+
+
+SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 
 def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
     scene = Scene(name="pendulum")
     scene.add_body(name="bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
+    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     return scene
 
 
@@ -42,7 +50,7 @@ def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) 
     cross = {"kind": "universal", "name": "cross", "first": "ground", "second": "barrel"}
     scene.add_joint(**cross, point=foot, axis=(0, 1, 0), second_axis=np.cross(line, (0, 1, 0)))
     scene.add_joint(
-        kind="prismatic", name="ram", first="barrel", second="rod", point=0.5 * (foot + tip), axis=line
+        "ram", kind="prismatic", first="barrel", second="rod", point=0.5 * (foot + tip), axis=line
     )
     scene.add_joint(kind="spherical", name="ball", first="rod", second="arm", point=tip)
     scene.add_joint(kind="revolute", name="eye", first="arm", second="load", point=tip, axis=(0, 1, 0))
@@ -50,7 +58,7 @@ def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) 
         scene.add_driver(joint="ram", curve=Curve.harmonic(amplitude=0.02, omega=3.0, phase=0.5 * np.pi))
     leaning = float(np.arctan2(line[2], line[0]))
     half = {"arm": angle, "barrel": leaning, "rod": leaning}  # of the turn to behind
-    moved: dict[str, Any] = {}
+    moved = {}
     if behind:
         moved |= {f"bodies.{name}.position": scene.bodies[name].position * (1, 1, -1) for name in half}
         moved["bodies.load.position"] = tip * (1, 1, -1) + down
@@ -85,11 +93,8 @@ def fails_in_the_middle(*, start: float) -> Scene:
 
 def dies_once(*, start: float, mark: str) -> Scene:
     """The process that describes member 3 ends at once, as long as the mark is not there."""
-    if (
-        start == 3.0
-        and not Path(mark).exists()
-        and os.environ.get("SEACRANE_TEST_PARENT") != str(os.getpid())
-    ):
+    child = os.environ.get("SEACRANE_TEST_PARENT") != str(os.getpid())
+    if start == 3.0 and child and not Path(mark).exists():
         time.sleep(0.3)  # others come back first
         Path(mark).touch()
         os._exit(1)
@@ -107,12 +112,9 @@ def storm(*, seed: int, height: float = 1.0) -> Scene:
     random = np.random.default_rng(seed)
     scene = Scene(name="storm")
     push = 0.5 + 0.05 * height * float(random.gumbel())
-    scene.add_body(
-        name="bob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.0), velocity=(push, 0.0, 0.0)
-    )
-    scene.add_joint(
-        kind="prismatic", name="rail", first="ground", second="bob", point=(0, 0, -1), axis=(1, 0, 0)
-    )
+    low = (0.0, 0.0, -1.0)
+    scene.add_body("bob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=low, velocity=(push, 0.0, 0.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="bob", point=low, axis=(1, 0, 0))
     return scene
 
 
@@ -144,13 +146,7 @@ def cart(*, seed: int, mass: float, kind: str = "prismatic", stiffness: float = 
     scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0))
     scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1.0, 0.0, 0.0))
     scene.add_driver("rail", curve=0.0)
-    scene.add_body(
-        name="cart",
-        mass=mass,
-        size=(1.0, 1.0, 1.0),
-        position=(3.0, 0.0, 0.0),
-        velocity=(0.1 * seed, 0.0, 0.0),
-    )
+    scene.add_body("cart", mass=mass, size=(1, 1, 1), position=(3.0, 0, 0), velocity=(0.1 * seed, 0, 0))
     scene.add_joint("track", kind=kind, first="ground", second="cart", axis=(1.0, 0.0, 0.0))
     scene.add_spring("tow", first="tug", second="cart", stiffness=stiffness, damping=1.0, natural_length=3.0)
     return scene

@@ -1,4 +1,4 @@
-"""Ensembles killed at their file operations, then called again: python tests/scenes/killed_stores.py.
+"""Ensembles killed at their file operations, then called again: python killed_stores.py KIND COUNT SEED.
 
 Each attempt is a process of its own that is killed just before it opens, makes, renames or removes something
 in its store, from the making of the store's folder on. The same call then has to go on to the same numbers,
@@ -7,7 +7,6 @@ and to leave nothing but what an ensemble that was never killed has.
 
 from __future__ import annotations
 
-import argparse
 import os
 import random
 import signal
@@ -26,65 +25,41 @@ from ensemble_studies import KEEP, fails_in_the_middle, lowest, storm
 from seacrane import Kept, ensemble
 from seacrane.ensembles import Ensemble
 
-STARTS: dict[str, Any] = {
-    "source": fails_in_the_middle,
-    "over": {"start": [1.0, 2.0, 3.0, 4.0, 5.0]},
-    "keep": {"track": KEEP["track"], "lowest": lowest},
-    "t_end": 1.0,
-    "dt_out": 0.5,
-    "pack": 2,
-}
+STARTS = {
+    "source": fails_in_the_middle, "over": {"start": [1.0, 2.0, 3.0, 4.0, 5.0]},
+    "keep": {"track": KEEP["track"], "lowest": lowest}, "t_end": 1.0, "dt_out": 0.5, "pack": 2,
+}  # fmt: skip
 STORMS: dict[str, Any] = {
-    "source": storm,
-    "over": {"seed": range(1, 41), "height": [1.0, 2.0]},
+    "source": storm, "over": {"seed": range(1, 41), "height": [1.0, 2.0]}, "until": {"far.mpm": 0.02},
     "keep": {"far": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})},
-    "until": {"far.mpm": 0.02},
-    "t_end": 0.5,
-    "dt_out": 0.5,
-    "pack": 10,
-}
-KINDS: dict[str, tuple[str, dict[str, Any]]] = {
-    "netcdf": ("store", STARTS),
-    "netcdf until": ("store", STORMS),
-}
+    "t_end": 0.5, "dt_out": 0.5, "pack": 10,
+}  # fmt: skip
+KINDS: dict[str, dict[str, Any]] = {"netcdf": STARTS, "netcdf until": STORMS}
 OPERATIONS = {"open", "os.mkdir", "os.rename", "os.remove", "os.link", "os.truncate"}
 DONE, KILLED = 0, -signal.SIGKILL
 
 
-def main() -> int:
-    """All attempts; those that went wrong are printed, and 1 returned."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("kinds", nargs="*", default=list(KINDS))
-    parser.add_argument("--attempts", type=int, default=20, help="of each kind")
-    parser.add_argument("--seed", type=int, default=1)
-    options = parser.parse_args()
+def main(kind: str, count: str = "20", seed: str = "1") -> int:
+    """The first attempts at the first operations, the others anywhere; 1 where some went wrong."""
     warnings.simplefilter("ignore")
-    failed = 0
-    for kind in options.kinds:
-        failed += _attempts(kind, options.attempts, random.Random(f"{kind} {options.seed}"))
-    return 1 if failed else 0
-
-
-def _attempts(kind: str, count: int, chance: random.Random) -> int:
-    """The first ones at the first operations, the others anywhere."""
-    name, given = KINDS[kind]
+    given, chance, attempts = KINDS[kind], random.Random(f"{kind} {seed}"), int(count)
     failed = killed = 0
     with tempfile.TemporaryDirectory() as within:
-        folder = Path(within) / "whole" / name
+        folder = Path(within) / "whole" / "store"
         folder.parent.mkdir()
         total = Path(within) / "total"
         assert apart(lambda: _counted(folder, given, 0, total)) == DONE
         operations = int(total.read_text())
-        early = list(range(1, 1 + min(count // 2, operations)))
-        for at in early + [chance.randint(1, operations) for _ in range(count - len(early))]:
-            store = Path(within) / str(len(list(Path(within).iterdir()))) / name
+        early = list(range(1, 1 + min(attempts // 2, operations)))
+        for at in early + [chance.randint(1, operations) for _ in range(attempts - len(early))]:
+            store = Path(within) / str(len(list(Path(within).iterdir()))) / "store"
             store.parent.mkdir()
             killed += apart(lambda: _counted(store, given, at, None)) == KILLED  # noqa: B023
             if apart(lambda: _goes_on(store, given, folder)) != DONE:  # noqa: B023
                 print(f"{kind}: killed at operation {at} of {operations}, went wrong", flush=True)
                 failed += 1
-    print(f"{kind}: {count} attempts, {killed} killed, {failed} went wrong", flush=True)
-    return failed + (killed < 0.9 * count)
+    print(f"{kind}: {attempts} attempts, {killed} killed, {failed} went wrong", flush=True)
+    return int(failed + (killed < 0.9 * attempts) > 0)
 
 
 def apart(work: Callable[[], None]) -> int:
@@ -131,4 +106,4 @@ def _goes_on(store: Path, given: dict[str, Any], whole: Path) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(*sys.argv[1:]))

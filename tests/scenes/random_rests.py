@@ -84,7 +84,6 @@ class Builder:
             base=self.base, foot=(5.0, 0.0, 5.0), slew=self.between(-3.0, 3.0), s1=self.between(1.0, 2.5),
             s2=self.between(1.0, 3.0), held=True, hydraulics=hydraulics,
         )  # fmt: skip
-        assert roles.tip is not None
         return roles.tip[0], np.asarray(roles.tip[1])
 
     def oil(self) -> dict[str, Any]:
@@ -138,7 +137,7 @@ class Builder:
         points = [self.head if body == self.tip else top for body in bodies]
         points = [np.asarray(p) + 0.3 * (i > 1) * AHEAD for i, p in enumerate(points)]
         stiffness = mass * G / self.magnitude(5e-4, 5e-3)
-        given: dict[str, Any] = {"tension_at_start": mass * G / falls}
+        given = {"tension_at_start": mass * G / falls}
         if self.chance(0.5):
             given = {"length": falls * (drop - top[2]) * self.between(0.95, 1.08)}
         if self.chance(0.15) and falls == 1:
@@ -156,7 +155,7 @@ class Builder:
 
     def wind(self, line: str) -> None:
         """A winch at a stand: by itself, with a lag, or with a drum on its motor or its brake."""
-        given: dict[str, Any] = {}
+        given = {}
         if self.chance(0.6):
             given = {"lag": self.between(0.1, 0.5), "maximum_acceleration": 0.5}
             if self.chance(0.5):
@@ -194,7 +193,7 @@ class Builder:
     def hold(self, line: str, weight: float) -> None:
         """A winch that holds a tension."""
         tension = weight * self.magnitude(0.005, 0.1)
-        given: dict[str, Any] = {}
+        given = {}
         if self.chance(0.5):
             given["lag"] = self.between(0.05, 0.3)
         if self.chance(0.3):

@@ -29,21 +29,13 @@ def on_deck(*, length: float = 20.1, **line: Any) -> Scene:
 
 def lift_off() -> list[Stage]:
     """Hold, lift off, raise, stop, and let go."""
+    free, short = Until.release("on deck"), Until.length("hoist", maximum=18.5)
+    slowly, fast, still = ({"hoist.rate": rate} for rate in (-RATE, -0.4, 0.0))
     return [
         Stage(name="hold", duration=1.05),
-        Stage(
-            name="lift off",
-            until=Until.release("on deck"),
-            maximum_duration=60.0,
-            commands={"hoist.rate": -RATE},
-        ),
-        Stage(
-            name="raise",
-            until=Until.length("hoist", maximum=18.5),
-            maximum_duration=60.0,
-            commands={"hoist.rate": -0.4},
-        ),
-        Stage(name="stop", duration=2.0, commands={"hoist.rate": 0.0}),
+        Stage(name="lift off", until=free, maximum_duration=60.0, commands=slowly),
+        Stage(name="raise", until=short, maximum_duration=60.0, commands=fast),
+        Stage(name="stop", duration=2.0, commands=still),
         Stage(name="let go", duration=1.0, release=["hoist"]),
     ]
 
@@ -59,14 +51,14 @@ def swinging() -> Scene:
 
 def hoisting() -> list[Stage]:
     """Raise to a length, in mid-air stop, lower again."""
+    short = Until.length("hoist", maximum=19.0)
+    low = Until.channel("position", body="load", axis="z", maximum=1.9)
+    up, still, down = ({"hoist.rate": rate} for rate in (-0.4, 0.0, Move(to=0.5, over=2.0)))
     return [
-        Stage(name="raise", until=Until.length("hoist", maximum=19.0), maximum_duration=9.0,
-              commands={"hoist.rate": -0.4}),
-        Stage(name="stop", duration=2.03, commands={"hoist.rate": 0.0}),
-        Stage(name="lower", until=Until.channel("position", body="load", axis="z", maximum=1.9),
-              maximum_duration=9.0,
-              commands={"hoist.rate": Move(to=0.5, over=2.0)}),
-    ]  # fmt: skip
+        Stage(name="raise", until=short, maximum_duration=9.0, commands=up),
+        Stage(name="stop", duration=2.03, commands=still),
+        Stage(name="lower", until=low, maximum_duration=9.0, commands=down),
+    ]
 
 
 def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) -> Scene:

@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from random_staged_lifts import hanging, random_stages
@@ -42,10 +42,8 @@ def off_deck(rng: np.random.Generator) -> Lift:
     """A slack wire hauls in until it snaps taut and lifts the load off its seat."""
     scene = on_deck(length=float(rng.uniform(20.02, 20.2)), damping_ratio=float(rng.uniform(0.05, 0.3)))
     stages = lift_off()
-    rate = -float(rng.uniform(0.05, 0.5))
-    stages[1] = Stage(
-        name="lift off", until=Until.release("on deck"), maximum_duration=60.0, commands={"hoist.rate": rate}
-    )
+    haul = {"hoist.rate": -float(rng.uniform(0.05, 0.5))}
+    stages[1] = Stage(name="lift off", until=Until.release("on deck"), maximum_duration=60.0, commands=haul)
     return scene, stages[: int(rng.integers(3, 6))]
 
 
@@ -121,7 +119,7 @@ def _word(number: int) -> Word:
     scene, stages = lift_of(number)
     rough = simulate_stages(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-6)
     limit = part * _size(scene, quantity, rough)
-    about: dict[str, Any] = {
+    about = {
         "number": number, "kind": KINDS[number % len(KINDS)].__name__, "quantity": quantity, "limit": limit
     }  # fmt: skip
     try:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from ensemble_studies import pendulum as pendulum
 
 from seacrane import Scene, cases, simulate
 from seacrane.accuracy.quantities import Quantity, compare, quantities_of
@@ -64,23 +65,11 @@ def summary(found: list[Promise]) -> str:
     groups = {f"1e{d} to 1e{d + 1}": [p for p, own in zip(found, decades, strict=True) if own == d]
               for d in sorted(set(decades))}  # fmt: skip
     for name, group in {**groups, "all": found}.items():
-        medians = [
-            float(np.median([getattr(p, cost) for p in group])) for cost in ("cost_of_run", "cost_of_all")
-        ]
+        medians = (np.median([p.cost_of_run for p in group]), np.median([p.cost_of_all for p in group]))
         cells = [name, str(len(group)), *(f"{100 * share:.1f} %" for share in shares(group).values())]
         cells += [*(f"{m:.2f}" for m in medians), f"{np.mean([p.runs for p in group]):.2f}"]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
-
-
-def pendulum() -> Scene:
-    """A bob on a pin, released from the horizontal."""
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    return scene
 
 
 def random_scene(rng: np.random.Generator) -> Scene:
@@ -88,17 +77,14 @@ def random_scene(rng: np.random.Generator) -> Scene:
     kind = rng.choice(["case1", "case2", "case2", "case3", "vessel", "chain"])
     if kind == "chain":
         return random_chain(rng)
-    options: dict[str, Any] = {
-        "hs": float(rng.uniform(0.5, 4.0)),
-        "tp": float(rng.uniform(7.5, 14.0)),
-        "wave_direction_deg": float(rng.uniform(0.0, 360.0)),
-        "seed": int(rng.integers(1, 10**6)),
+    options = {
+        "hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
+        "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
         "memory": str(rng.choice(["per-pair", "passive"])),
-    }
+    }  # fmt: skip
     if kind == "case2":
-        options["payload"] = Payload(
-            mass=float(10.0 ** rng.uniform(3.0, 4.7)), link_length=float(rng.uniform(4.0, 15.0))
-        )
+        mass, length = float(10.0 ** rng.uniform(3.0, 4.7)), float(rng.uniform(4.0, 15.0))
+        options["payload"] = Payload(mass=mass, link_length=length)
     scene: Scene = getattr(cases, str(kind))(**options)
     return scene
 
@@ -112,12 +98,10 @@ def random_chain(rng: np.random.Generator) -> Scene:
         length, mass = rng.uniform(1.0, 6.0), 10.0 ** rng.uniform(1.0, 3.0)
         axis = np.array([np.cos(turn), np.sin(turn), 0.0])
         along = length * np.array([-np.sin(swing) * axis[1], np.sin(swing) * axis[0], -np.cos(swing)])
-        inertia = mass * length**2 / 12.0
-        scene.add_body(
-            name=f"rod{i}", mass=mass, inertia=(inertia, inertia, inertia), position=end + along / 2
-        )
-        scene.add_joint(kind="revolute", name=f"pin{i}", first=before, second=f"rod{i}", point=end, axis=axis)
-        before, end = f"rod{i}", end + along
+        name, inertia = f"rod{i}", mass * length**2 / 12.0
+        scene.add_body(name, mass=mass, inertia=(inertia, inertia, inertia), position=end + along / 2)
+        scene.add_joint(kind="revolute", name=f"pin{i}", first=before, second=name, point=end, axis=axis)
+        before, end = name, end + along
     return scene
 
 
@@ -126,7 +110,7 @@ def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> Pro
     scene = random_scene(rng)
     offered = quantities_of(scene, scene.compile(), None)
     quantity = offered[str(rng.choice(list(offered)))]
-    span: dict[str, Any] = {"t_end": t_end, "channels": list(quantity.channels)}
+    span = {"t_end": t_end, "channels": list(quantity.channels)}
     truth = quantity.values(simulate(scene, integrator="verner76", rtol=1e-12, **span))
     size = float(np.abs(truth - truth[0]).max())
     part = 10.0 ** rng.uniform(-7.0, -2.0)
