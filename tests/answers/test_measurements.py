@@ -22,7 +22,7 @@ def measurements(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 # Those that take more than two seconds.
-LONG = ("moordyn_chain", "kvlcc2_roll_decay", "ntnu_lewis_section")
+LONG = ("bergdahl_chain", "moordyn_chain", "kvlcc2_roll_decay", "ntnu_lewis_section")
 BY_NIGHT = pytest.mark.slow("a chain of many segments, or many runs")
 
 

@@ -235,16 +235,3 @@ def test_bad_requests_are_refused(changes: dict[str, object], message: str) -> N
     database = dataclasses.replace(shipped_database(), infinite_frequency_added_mass=None)
     with pytest.raises(ValueError, match=message):
         fit_memory(database=database, **changes)  # type: ignore[arg-type]
-
-
-def test_the_documented_fits_are_the_shipped_ones(repository: Path) -> None:
-    path = repository / "benchmarks" / "results" / "fits-of-the-shipped-hull.csv"
-    documented = [line.split(",")[:5] for line in path.read_text().splitlines() if ",radiation," in line]
-    shipped = [
-        [f"{row.output + 1}{row.input + 1}", row.cause, str(row.order), row.r2_added_mass, row.r2_damping]
-        for row in memory_of(shipped_database()).rows
-    ]
-    assert len(documented) == len(shipped) == 12
-    for found, row in zip(documented, shipped, strict=True):
-        assert [cell.strip() for cell in found[:3]] == row[:3]
-        assert [float(cell) for cell in found[3:]] == pytest.approx(row[3:], abs=5.1e-5)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import importlib
 import json
 import warnings
 from pathlib import Path
@@ -406,30 +405,3 @@ def test_the_command_line_takes_it(tmp_path: Path) -> None:
     with xarray.open_dataset(tmp_path / "vessel.nc") as data:
         assert json.loads(data.attrs["settings"])["memory"] == "passive"
         assert data.attrs["states"] < vessel().compile().states
-
-
-@pytest.mark.slow("fits several memories")
-def test_trade_table_is_measured_and_documented(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The rows of R2 = 0.95 and 0.99 against the documented table, and against each other."""
-    monkeypatch.syspath_prepend(str(repository / "benchmarks"))
-    memory_trade = importlib.import_module("measure.memory_trade").memory_trade
-    rows = memory_trade(shipped_database(), targets=(0.95, 0.99), limits=(0.05, 0.01))
-    assert {row.kind for row in rows} == {"by-motion", "per-pair", "passive", "convolution"}
-    assert all(row.passive == (row.kind in ("passive", "by-motion")) and row.reached for row in rows)
-    by_motion = [row for row in rows if row.kind == "by-motion"]
-    assert [row.limit for row in by_motion] == [0.05, 0.01]
-    assert by_motion[0].states < by_motion[1].states
-    assert by_motion[0].error_motion > by_motion[1].error_motion
-    fine = {row.kind: row for row in rows if row.r2 == 0.99}
-    coarse = {row.kind: row for row in rows if row.r2 == 0.95}
-    assert set(fine) == {"per-pair", "passive"} and all(row.limit is None for row in fine.values())
-    for kind in fine:
-        assert coarse[kind].states < fine[kind].states
-        assert coarse[kind].error_kernel > fine[kind].error_kernel
-        assert fine[kind].error_damping <= 0.1 and fine[kind].error_added_mass <= 0.1
-    assert fine["passive"].states < fine["per-pair"].states
-    section = (repository / "benchmarks" / "results" / "memory-models-of-the-shipped-hull.csv").read_text()
-    for row in fine.values():
-        line = next(line for line in section.splitlines() if line.startswith(f"{row.kind},{row.states},"))
-        cells = [float(cell) for cell in line.split(",")[2:5]]
-        assert cells == pytest.approx([row.error_kernel, row.error_added_mass, row.error_damping], abs=2e-3)
