@@ -10,6 +10,7 @@ measure on an idle machine.
 from __future__ import annotations
 
 import argparse
+import os
 import resource
 import sys
 import time
@@ -149,6 +150,8 @@ def main() -> int:
     parser.add_argument("--again", action="store_true", help="measure what is fresh as well")
     parser.add_argument("--only", nargs="+", metavar="NAME", choices=list(names), help=", ".join(names))
     options = parser.parse_args()
+    if (ROOT.parent / "shared").is_dir():  # foreign data, unless SEACRANE_SHARED names another folder
+        os.environ.setdefault("SEACRANE_SHARED", str(ROOT.parent / "shared"))
     chosen = [names[name] for name in options.only or names]
     if options.check:
         stale = {section.path: section.stale for section in chosen}

@@ -33,11 +33,16 @@ def databases() -> Iterator[tuple[str, HydroDatabase]]:
 
 def memory_fits() -> Iterator[list[Any]]:
     """Per pair at R2 = 0.99, by motion at its limits, and the convolution."""
-    os.environ["SEACRANE_CACHE"] = "off"
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        for name, database in databases():
-            yield from _rows(name, replace(database, memory=None))
+    before, os.environ["SEACRANE_CACHE"] = os.environ.get("SEACRANE_CACHE"), "off"
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for name, database in databases():
+                yield from _rows(name, replace(database, memory=None))
+    finally:
+        os.environ.pop("SEACRANE_CACHE")
+        if before is not None:
+            os.environ["SEACRANE_CACHE"] = before
 
 
 def _rows(name: str, database: HydroDatabase) -> list[list[Any]]:

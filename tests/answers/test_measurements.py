@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -68,6 +69,17 @@ def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any) -> None:
     assert measurements.checked(name, near) is near
     with pytest.raises(SystemExit, match=re.escape(compared)):
         measurements.checked(name, rows.MeasuredRow(**common, ours=[2.0 * (1.0 + 1.3 * told)]))
+
+
+def test_all_pairs_of_the_chain_are_held_together(measurements: Any) -> None:
+    """1.6 N as root mean square, 3.5 % in the mean, 10 % each."""
+    judge = measurements.module_of("bergdahl_chain").judge
+    measured = np.linspace(28.0, 70.0, 30)
+    judge(measured, 1.03 * measured)
+    worst = np.where(np.arange(30) == 0, 1.11, 1.0) * measured
+    for ours in (measured + 1.7, 1.036 * measured - 0.02, worst):
+        with pytest.raises(SystemExit, match="bergdahl_chain"):
+            judge(measured, ours)
 
 
 def test_differences_are_signed_and_over_what_the_row_says(measurements: Any) -> None:
