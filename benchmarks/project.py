@@ -20,7 +20,6 @@ from measure.sources import ENGINE
 FILES = {
     "Python": "python/seacrane/run/outputs.py",
     "load": "cpp/seacrane/elements/loads/friction.hpp",
-    "joint": "cpp/seacrane/elements/joints/universal.hpp",
     "integrator": "cpp/seacrane/integrate/rk_low_storage.cpp",
 }
 

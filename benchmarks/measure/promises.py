@@ -33,7 +33,7 @@ SETTINGS = {
     "dopri5-stiff": (3, 4, 5),
 }
 DEFAULT = (Method().integrator, Method().used_rtol)
-LIFTS, SCENES, STAGED = 90, 60, 80
+LIFTS, SCENES, STAGED = 120, 120, 120
 WITHIN, SHARE = 1e-3, 0.99  # of the range; of the lifts
 SURE = 1e-5  # of the range, within which two references agree
 SEED = 2035
