@@ -113,5 +113,6 @@ SECTION = Section(
     head=["scene", "states of the memory", "evaluation [us]", "evaluations", "times real time",
           "evaluation over one vessel's"],
     rows=feeder,
-    sources=(*CRANE, *LINE, "cpp/seacrane/elements/loads/contact*", "cpp/seacrane/elements/loads/winch.hpp"),
+    sources=(*CRANE, *LINE, "cpp/seacrane/elements/loads/contact*", "cpp/seacrane/elements/loads/winch.hpp",
+             "python/seacrane/data/*"),
 )  # fmt: skip

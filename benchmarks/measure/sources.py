@@ -26,12 +26,15 @@ TOKENS = re.compile(r"""//[^\n]*|/\*.*?\*/|\s+|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\
 ENGINE = ("cpp/seacrane", "cpp/bindings", "cpp/lanes", "cmake")
 STEPS = (
     *(f"cpp/seacrane/{room}" for room in ("compile", "dynamics", "integrate", "math", "model", "run")),
-    "cpp/seacrane/elements/*.hpp", "cpp/seacrane/elements/joints",
+    "cpp/seacrane/elements/*.hpp", "cpp/seacrane/elements/joints", "cmake",
 )  # fmt: skip
 WATER = ("cpp/seacrane/hydro", "cpp/seacrane/sea", "python/seacrane/sea")
 RUN = ("python/seacrane/run", "python/seacrane/scene", "python/seacrane/description")
-HULL = ("python/seacrane/hydro",)
-CRANE = (*STEPS, *WATER, *RUN, *HULL, "python/seacrane/crane", "python/seacrane/cases.py")
+HULL = ("python/seacrane/hydro", "python/seacrane/data/*.nc")
+CRANE = (
+    *STEPS, *WATER, *RUN, *HULL, "python/seacrane/crane", "python/seacrane/cases.py",
+    "python/seacrane/data/*.toml",
+)  # fmt: skip
 LINE = ("cpp/seacrane/elements/loads/*line*", "cpp/seacrane/elements/loads/*span*")
 LANES = ("cpp/seacrane/lanes", "cpp/lanes", "python/seacrane/ensembles")
 
