@@ -83,8 +83,8 @@ SECTION = Section(
     title="What leaving physics out of case 2 loses",
     name="trade-of-case-2-physics",
     text=(
-        "Largest errors over 100 s, by `trade` with the default setting; of other memories than that per pair "
-        "between two tight runs."
+        "Largest errors over 100 s, by `trade` with the default setting; of other memories than that per "
+        "pair between two tight runs."
     ),
     head=["changed", *COLUMNS],
     rows=physics,
