@@ -27,5 +27,5 @@ def test_the_engine_agrees_with_the_record(hydraulics: Any) -> None:
 
 
 def test_exudyn_gives_its_record(hydraulics: Any) -> None:
-    pytest.importorskip("exudyn", reason="needs the package 'exudyn', as `make out/peers/.installed` installs it")
+    pytest.importorskip("exudyn", reason="needs the package 'exudyn', as `make bench` installs it")
     assert_allclose(np.array(hydraulics.peer.run()), hydraulics.recorded(), atol=1e-6, rtol=1e-8)
