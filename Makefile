@@ -3,7 +3,7 @@
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  all that takes longer, row by row (tools/nightly.py); the table goes to docs/nightly.md
 #                  (NIGHTLY_ROWS='site wheel': only these)
-# make campaign NAME=atlas|fuzz|lifts|peers|stages|tables  what takes hours: the whole stability atlas, hostile files, rival programs,
+# make campaign NAME=atlas|fuzz|lifts|stages|tables  what takes hours: the whole stability atlas, hostile files,
 #                  what an accuracy promises of lifts in stages, every measured table
 # make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
 # make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
@@ -12,15 +12,14 @@
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
 #               would load from a network
-# make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
-#                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
+# make bench    the tables of benchmarks/ whose sources have changed, one by one, written as they come; goes on
+#                  where it stopped (BENCH_ARGS="--only speed-of-100-s": only these; on an idle machine)
 # make wheel    dist/: the sdist, and a wheel for older Linux systems made from it, tried where no compiler is
-#                   (WHEEL_ARGS=--publish writes its facts into benchmarks/ and the documents)
 # make wheel-trial  the same in dist/trial with one notebook, under a version that no index takes
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
 #               and findings in out/fuzz; goes on where the last call stopped
-# make release-check  tables of benchmarks/ that another engine measured
+# make release-check  documents whose tables are not as their files have them, and tables whose sources have changed
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
@@ -28,7 +27,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly campaign no-such-campaign random-lifts staged-accuracy sanitized bench bench-peers bits release-check docs extremes \
+.PHONY: demo test build nightly campaign no-such-campaign random-lifts staged-accuracy sanitized bench bits release-check docs extremes \
         notebooks stubs viewer wheel wheel-trial format clean distclean \
         lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
@@ -149,13 +148,12 @@ nightly: build .venv/.installed-dev bundle-packages
 campaign_atlas := extremes
 campaign_faults := seeded-faults
 campaign_fuzz := fuzz
-campaign_peers := bench-peers
 campaign_lifts := random-lifts
 campaign_stages := staged-accuracy
 campaign_tables := bench
 campaign: $(or $(campaign_$(NAME)),no-such-campaign)
 no-such-campaign:
-	@echo "make campaign NAME=atlas|faults|fuzz|lifts|peers|stages|tables; there is none called '$(NAME)'" >&2; exit 1
+	@echo "make campaign NAME=atlas|faults|fuzz|lifts|stages|tables; there is none called '$(NAME)'" >&2; exit 1
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
@@ -164,15 +162,22 @@ validation: build .venv/.installed-dev
 	$(BIN)/python -W ignore benchmarks/validation.py
 	$(BIN)/python -W ignore benchmarks/measurements.py
 
+# Without the peers, which come from a package index, their table is left as it is.
 bench: build .venv/.installed-dev
-	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+	-$(MAKE) out/peers/.installed
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -W ignore benchmarks/run.py $(BENCH_ARGS)
+
+out/peers/.installed: benchmarks/peers/requirements.txt
+	$(PYTHON) -m venv out/peers
+	out/peers/bin/python -m pip install -q -r $<
+	touch $@
 
 bits: build .venv/.installed-dev
 	PYTHONPATH=tools $(BIN)/python -m bits $(BITS_ARGS)
 
 release-check: build .venv/.installed-dev
 	$(BIN)/python benchmarks/documents.py --check
-	$(BIN)/python benchmarks/release_check.py
+	$(BIN)/python -W ignore benchmarks/run.py --check
 
 # Read afresh each time: what stayed unread would keep its warnings to itself.
 docs: build .venv/.installed-dev
@@ -197,12 +202,6 @@ fuzz: build .venv/.installed-dev
 	$(BIN)/python .ci/requirements.py fuzz > .venv/requirements-fuzz.txt
 	$(INSTALL) -r .venv/requirements-fuzz.txt
 	$(BIN)/python tests/fuzz/run.py --cases $(CASES) $(FUZZ_ARGS)
-
-bench-peers: build .venv/.installed-dev
-	$(PYTHON) -m venv out/peers
-	out/peers/bin/python -m pip install -q -r benchmarks/peers/requirements.txt
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/peers/run.py --peers out/peers/bin/python \
-	  $(BENCH_ARGS)
 
 # Notebooks are kept as text; what opens in JupyterLab are copies, made again where the text has changed.
 .venv/.installed-notebooks: .venv/.installed-run
@@ -242,7 +241,7 @@ build/executed/%.ipynb: notebooks/%.md tools/wheel/notebooks.py .venv/.installed
 # What cibuildwheel would build elsewhere is printed, so that a mistake in its configuration is found here.
 wheel: build .venv/.installed-wheel $(EXECUTED)
 	$(BIN)/python tools/wheel/build.py dist
-	$(BIN)/python tools/wheel/check.py dist/seacrane-*.whl $(WHEEL_ARGS)
+	$(BIN)/python tools/wheel/check.py dist/seacrane-*.whl
 	for system in linux macos windows; do \
 	  $(BIN)/python -m cibuildwheel --print-build-identifiers --platform $$system --archs all; done
 

@@ -1,27 +1,24 @@
 """Fills the tables of documents from files of measurements: ``python benchmarks/documents.py [--check]``.
 
-With ``--measured FILE ...`` it notes first that this engine and machine have measured these files.
-
 A document marks a table by the file that it shows, relative to the repository:
 
     <!-- table benchmarks/results/wave-loads.csv; columns: components | table; rows: components = 10 | 300 -->
     <!-- end of table -->
 
-Without `columns` and `rows` it shows all of them. Cells are shown as the file holds them, and below them what
-measured them. A mark `place` in the place of `table` gets a link to the file instead. A mark `warnings` with
-a class of `seacrane.warnings` gets the docstrings of those below it.
+Without `columns` and `rows` it shows all of them. Cells are shown as the file holds them, and below them
+what measured them. A mark `warnings` with a class of `seacrane.warnings` gets the docstrings of those
+below it, and `sources measured` where the measured sets are from.
 """
 
 from __future__ import annotations
 
 import argparse
 import inspect
-import os
 import re
 import sys
 from pathlib import Path
 
-from measure.engine import record, words
+from measure.sources import words
 from measure.table import markdown, read
 
 import seacrane
@@ -31,27 +28,16 @@ PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
 PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 BLOCK = re.compile(
-    r"^<!-- (?P<word>table|place|warnings) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n"
+    r"^<!-- (?P<word>table|warnings|sources) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n"
     r".*?<!-- end of (?P=word) -->",
     re.DOTALL | re.MULTILINE,
 )
 
 
-def filled(text: str, folder: Path = ROOT) -> str:
-    """The document, which lies in a folder, with every marked table as its file has it."""
-    makers = {"place": lambda match: _place(match, folder), "table": _table, "warnings": _entries}
+def filled(text: str) -> str:
+    """The document with every marked table as its file has it."""
+    makers = {"table": _table, "warnings": _entries, "sources": _sources}
     return BLOCK.sub(lambda match: makers[match["word"]](match), text)
-
-
-def with_tables(text: str) -> str:
-    """The document with tables in all their places, as the site shows them."""
-    return filled(re.sub(r"<!-- (end of )?place ", r"<!-- \1table ", text))
-
-
-def _place(match: re.Match[str], folder: Path) -> str:
-    file = ROOT / match["file"]
-    link = f"[{file.name}]({os.path.relpath(file, folder)})"
-    return f"<!-- place {match['file']} -->\n{link}: {words(file)}\n<!-- end of place -->"
 
 
 def _table(match: re.Match[str]) -> str:
@@ -84,6 +70,14 @@ def _entries(match: re.Match[str]) -> str:
     return f"<!-- warnings {match['file']} -->\n{about}\n\n{table}\n<!-- end of warnings -->"
 
 
+def _sources(match: re.Match[str]) -> str:
+    """Where a reader finds each measured set."""
+    import measurements
+
+    table = markdown(measurements.SOURCE_HEAD, measurements.sources())
+    return f"<!-- sources {match['file']} -->\n{table}\n<!-- end of sources -->"
+
+
 def _items(text: str) -> list[str]:
     return [item.strip() for item in text.split("|")]
 
@@ -93,7 +87,7 @@ def fill(*, change: bool = True) -> list[Path]:
     stale = []
     for path in DOCUMENTS:
         old = path.read_text(encoding="utf-8")
-        new = filled(old, path.parent)
+        new = filled(old)
         if new != old:
             stale.append(path)
             if change:
@@ -107,11 +101,7 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--check", action="store_true", help="change nothing; fail where a table is stale")
-    parser.add_argument("--measured", type=Path, nargs="+", default=[], help="files that are new")
-    options = parser.parse_args()
-    check = options.check
-    for file in options.measured:
-        record(file)
+    check = parser.parse_args().check
     stale = fill(change=not check)
     for path in stale:
         print(f"{path.relative_to(ROOT)}: {'stale' if check else 'filled'}", file=sys.stderr)

@@ -5,7 +5,7 @@
 On random ships, cranes and chains of pendulums over 40 s, and hoists on oil over 8 s, errors of the methods
 that `accuracy=` takes are `factor` tolerance^`power` times a scale of the quantity. Factors, powers, scales
 and the margin on the ratio of two such errors go to `seacrane/data/expected_errors.json`, which
-`seacrane/accuracy/expected.py` reads; what that promises is measured by `methods_on_lifts.py`.
+`seacrane/accuracy/expected.py` reads; what that promises is measured by `measure/promises.py`.
 """
 
 from __future__ import annotations

@@ -1,21 +1,16 @@
-"""The table of the README, a few lines out of the files of measurements: ``python benchmarks/facts.py``.
-
-Writes ``results/facts.csv`` and fills the documents; so do ``run.py`` and ``validation.py --publish``.
-"""
+"""The table of the README, a few lines out of the tables of one engine."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Iterator
 
-import documents
-from measure.table import read, write
+from measure.section import RESULTS, Section
+from measure.sources import measured
+from measure.table import read
 
-BENCHMARKS = Path(__file__).resolve().parent
-RESULTS = BENCHMARKS / "results"
-PEERS = BENCHMARKS / "peers" / "results" / "quickest-setting-within-a-payload-error.csv"
-SOURCES = (
-    RESULTS / "speed-of-100-s.csv", RESULTS / "three-hours-of-case-2.csv", RESULTS / "validation.csv",
-    RESULTS / "three-dimensional-pages.csv", PEERS,
+SPEED, HOURS, VALIDATION, PAGES, PEERS = (
+    "speed-of-100-s", "three-hours-of-case-2", "validation", "three-dimensional-pages",
+    "quickest-setting-within-a-payload-error",
 )  # fmt: skip
 HEAD = ("measured", "value")
 ENGINES = {"seacrane recursive": "seacrane", "Pinocchio": "Pinocchio", "MuJoCo": "MuJoCo",
@@ -30,53 +25,61 @@ VALIDATED = {
 
 
 def facts() -> list[tuple[str, str]]:
-    """Each line and its value, as the files hold it."""
-    return [*_cost(), *_agreement(), _page()]
+    """Each line and its value, as the tables hold it; of tables that another engine measured, none."""
+    lines = [(SPEED, _speed), (HOURS, _hours), (PEERS, _peers), (VALIDATION, _agreement), (PAGES, _page)]
+    return [line for name, told in lines if _engine(name) == _engine(SPEED) for line in told()]
 
 
-def _cost() -> list[tuple[str, str]]:
-    speed = _row(RESULTS / "speed-of-100-s.csv", scene="case2")
-    storm = _row(RESULTS / "three-hours-of-case-2.csv", integrator="verner65")
+def _engine(name: str) -> str | None:
+    return (measured(RESULTS / f"{name}.csv") or {}).get("engine")
+
+
+def _speed() -> Iterator[tuple[str, str]]:
+    row = _row(SPEED, scene="case2", formulation="recursive")
+    told = f"{row['CPU, ms']} ms, {row['times real time']} times real time"
+    yield "100 s of case 2, default setting, CPU", told
+
+
+def _hours() -> Iterator[tuple[str, str]]:
+    row = _row(HOURS, integrator="verner65")
+    yield f"3 h of case 2, `verner65` at {row['rtol']}, CPU", f"{row['CPU, s']} s"
+
+
+def _peers() -> Iterator[tuple[str, str]]:
     within = "0.0001 m"
-    quickest = ", ".join(
-        f"{name} {_row(PEERS, engine=engine, **{'payload error at most': within})['CPU, ms']} ms"
+    rows = {
+        name: _row(PEERS, engine=engine, **{"payload error at most": within})
         for engine, name in ENGINES.items()
-    )
-    times = f"{speed['CPU, ms']} ms, {speed['times real time (CPU)']} times real time"
-    return [
-        ("100 s of case 2, default setting, CPU", times),
-        (f"3 h of case 2, `verner65` at {storm['rtol']}, CPU", f"{storm['CPU, s']} s"),
-        (f"the same crane, payload within {within}, CPU", quickest),
-    ]
+    }
+    told = ", ".join(f"{name} {row['CPU, ms']} ms" for name, row in rows.items())
+    yield f"the same crane, payload within {within}, CPU", told
 
 
-def _agreement() -> list[tuple[str, str]]:
-    head, rows = read(RESULTS / "validation.csv")
+def _agreement() -> Iterator[tuple[str, str]]:
+    head, rows = read(RESULTS / f"{VALIDATION}.csv")
     compared, other, value = (head.index(name) for name in ("compared", "with", "largest difference"))
-    found = []
     for start, words in VALIDATED.items():
         (row,) = [one for one in rows if f"{one[compared]}; {one[other]}".startswith(start)]
-        found.append((words, row[value]))
-    return found
+        yield words, row[value]
 
 
-def _page() -> tuple[str, str]:
-    page = _row(RESULTS / "three-dimensional-pages.csv", run="60 s")
-    return "three-dimensional page of a lift of 60 s, one file", f"{page['page, MB']} MB"
+def _page() -> Iterator[tuple[str, str]]:
+    row = _row(PAGES, run="60 s")
+    yield "three-dimensional page of a lift of 60 s, one file", f"{row['page, MB']} MB"
 
 
-def _row(path: Path, **wanted: str) -> dict[str, str]:
+def _row(name: str, **wanted: str) -> dict[str, str]:
     """The first row that holds these cells."""
-    head, rows = read(path)
+    head, rows = read(RESULTS / f"{name}.csv")
     every = (dict(zip(head, row, strict=True)) for row in rows)
     return next(row for row in every if wanted.items() <= row.items())
 
 
-def publish() -> None:
-    """Write the file and fill the documents."""
-    write(RESULTS / "facts.csv", HEAD, facts(), of=SOURCES)
-    documents.fill()
-
-
-if __name__ == "__main__":
-    publish()
+SECTION = Section(
+    title="Facts",
+    text="What the README shows: lines of tables above that one engine measured.",
+    head=HEAD,
+    rows=facts,
+    sources=tuple(f"benchmarks/results/{name}.csv" for name in (SPEED, HOURS, VALIDATION, PAGES, PEERS)),
+    of=(SPEED,),
+)

@@ -1,13 +1,11 @@
-"""Every script of examples/jobs, run as its user would: ``python benchmarks/jobs.py [--publish]``.
+"""Every script of examples/jobs, run as its user would: ``python benchmarks/run.py --only jobs``.
 
-Takes what each prints, its lines and its time, and writes ``README.md`` and ``results/jobs.csv`` to
-``out/bench``; with ``--publish`` to ``examples/jobs`` and ``benchmarks``. A script that fails or warns ends
-the call, and nothing is written.
+Takes what each prints, its lines and its time, and writes ``examples/jobs/README.md`` from that. A script
+that fails or warns ends the call, and nothing is written.
 """
 
 from __future__ import annotations
 
-import argparse
 import ast
 import os
 import subprocess
@@ -18,9 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import documents
 from measure.section import significant
-from measure.table import write
 
 from seacrane.inputs.atomic import atomic_write
 
@@ -39,9 +35,9 @@ LONGEST = 300.0  # s
 INTRODUCTION = """# Jobs
 
 Ordinary work of an offshore lift, each in a script that fits on a page and prints its numbers beside those by
-hand. `benchmarks/jobs.py --publish` runs the scripts of this folder, and writes this page from them and from
-what they printed. Lines are those that are not empty, about half of them by hand. Times are of the whole
-call, with the start of Python; other work may share the machine.
+hand. `python benchmarks/run.py --only jobs` runs the scripts of this folder, and writes this page from them
+and from what they printed. Lines are those that are not empty, about half of them by hand. Times are of the
+whole call, with the start of Python; other work may share the machine.
 
 """
 
@@ -97,25 +93,12 @@ def document(jobs: Sequence[Job]) -> str:
     return "\n".join([head, *(job.section() for job in jobs)])
 
 
-def main() -> None:
-    """Run all, then write."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--publish", action="store_true", help="write into examples and benchmarks")
-    publish = parser.parse_args().publish
+def rows() -> list[tuple[str, ...]]:
+    """Of every script; the page of the folder is written from what they printed."""
     jobs = []
     for path in sorted(SCRIPTS.glob("*.py")):
         jobs.append(run(path))
         print(f"{path.name}: {jobs[-1].wall:.1f} s\n{jobs[-1].printed}", flush=True)
-    folder = SCRIPTS if publish else ROOT / "out" / "bench" / "jobs"
-    results = ROOT / TABLE if publish else folder / "results" / "jobs.csv"
-    write(results, HEAD, [job.cells for job in jobs])
-    with atomic_write(folder / "README.md") as draft:
+    with atomic_write(SCRIPTS / "README.md") as draft:
         draft.write_text(document(jobs), encoding="utf-8")
-    if publish:
-        documents.fill()
-
-
-if __name__ == "__main__":
-    main()
+    return [job.cells for job in jobs]

@@ -1,10 +1,9 @@
-"""What tanks and other programs say of us: ``benchmarks/measurements.py [--publish] [set ...]``.
+"""What tanks and other programs say of us: ``benchmarks/measurements.py [set ...]`` checks all, or these.
 
 A set is a module of `benchmarks/measured` with its `SOURCE` and `rows(folder)`; its data lie in the folder of
 its name in ``measured`` of the folder that SEACRANE_SHARED names, or of ``../shared``, unless its module
-quotes them. Writes ``measurements.csv`` and the pictures to ``out/bench``; with ``--publish`` to
-``benchmarks/results`` and ``docs/figures``, and fills the documents. A difference a fifth beyond the
-published one ends the call.
+quotes them. `benchmarks/run.py --only measurements` writes the table and the pictures. A difference a fifth
+beyond the published one ends the call.
 """
 
 from __future__ import annotations
@@ -13,18 +12,15 @@ import argparse
 import importlib
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import documents
-import matplotlib
+from measure.table import read
+from measured_row import MeasuredRow
 
-matplotlib.use("Agg")
-
-from matplotlib.figure import Figure
-from measure.table import read, write
-from measured_row import HEAD, MeasuredRow
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))
@@ -32,7 +28,7 @@ MODULES = ROOT / "benchmarks" / "measured"
 SETS = tuple(sorted(path.stem for path in MODULES.glob("[a-z]*.py")))
 RESULTS = ROOT / "benchmarks" / "results"
 TABLE = "measurements.csv"
-SOURCES = "measured-sets.csv"
+FIGURES = ROOT / "docs" / "figures"
 SOURCE_HEAD = ("set", "what", "repository", "commit", "licence")
 SLACK = 1.2  # of the published difference
 LEAST = 0.005  # a difference below it counts as this one
@@ -75,6 +71,8 @@ def pictures(rows: Iterable[MeasuredRow]) -> dict[str, Figure]:
 
 
 def _figure(panels: dict[str, list[MeasuredRow]]) -> Figure:
+    from matplotlib.figure import Figure
+
     across = min(2, len(panels))
     down = -(-len(panels) // across)
     figure = Figure(figsize=(5.2 * across if across > 1 else 9.0, 3.9 * down), layout="constrained")
@@ -117,35 +115,36 @@ def checked(name: str, row: MeasuredRow) -> MeasuredRow:
     return row
 
 
+def every_row(sets: Sequence[str] = SETS, *, check: bool = False) -> Iterator[tuple[str, ...]]:
+    """Cells of every set, its pictures drawn; of those whose data are absent, as they were."""
+    kept = [] if not (RESULTS / TABLE).is_file() else read(RESULTS / TABLE)[1]
+    for name in SETS:
+        folder = data_of(name)
+        if folder is None or name not in sets:
+            why = "not asked for" if folder else "its data are absent, set SEACRANE_SHARED"
+            print(f"{name}: {why}; its rows stay as they were", flush=True)
+            yield from (tuple(row) for row in kept if row[0] == name)
+            continue
+        rows = list(module_of(name).rows(folder))
+        yield from (checked(name, row).cells(name) if check else row.cells(name) for row in rows)
+        if not check:
+            for picture, figure in pictures(rows).items():
+                figure.savefig(FIGURES / f"{picture}.png", dpi=110)
+
+
 def main() -> None:
-    """Compare, check, write; fill the documents where asked to."""
+    """Compare and check."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--publish", action="store_true", help="write into the project instead of out/bench")
     parser.add_argument("sets", nargs="*", metavar="set", help=f"default: {' '.join(SETS)}")
-    options = parser.parse_args()
-    results = RESULTS if options.publish else ROOT / "out" / "bench" / "results"
-    figures = ROOT / "docs" / "figures" if options.publish else ROOT / "out" / "bench" / "figures"
-    figures.mkdir(parents=True, exist_ok=True)
-    kept = [] if not (RESULTS / TABLE).is_file() else read(RESULTS / TABLE)[1]
-    cells: list[tuple[str, ...]] = []
-    for name in SETS:
-        folder = data_of(name)
-        if folder is None or (options.sets and name not in options.sets):
-            why = "not asked for" if folder else "its data are absent, set SEACRANE_SHARED"
-            print(f"{name}: {why}; its rows stay as they were", flush=True)
-            cells += [tuple(row) for row in kept if row[0] == name]
-            continue
-        check = (lambda _, row: row) if options.publish else checked
-        rows = [check(name, row) for row in module_of(name).rows(folder)]
-        cells += [row.cells(name) for row in rows]
-        for picture, figure in pictures(rows).items():
-            figure.savefig(figures / f"{picture}.png", dpi=110)
-    write(results / TABLE, HEAD, cells)
-    write(results / SOURCES, SOURCE_HEAD, [_told(name) for name in SETS])
-    if options.publish:
-        documents.fill()
+    for _ in every_row(parser.parse_args().sets or SETS, check=True):
+        pass
+
+
+def sources() -> list[tuple[str, ...]]:
+    """Where a reader finds each set."""
+    return [_told(name) for name in SETS]
 
 
 def _told(name: str) -> tuple[str, ...]:

@@ -1,175 +1,170 @@
-"""Measures speed, precision, memory and import time: ``python benchmarks/run.py`` (``make bench``).
+"""Measures the tables that somebody decides by: ``python benchmarks/run.py`` (``make bench``).
 
-Prints the tables and writes them, with the work-precision diagram, to ``out/bench``; with ``--publish`` to
-``benchmarks/README.md`` and its picture. Each table is also a file in ``results``, from which
-``benchmarks/documents.py`` fills the tables of the documents; ``--publish`` does this too. One thread; every
-time is the best of several equal runs.
+A table whose sources are those that it was measured with stays as it is; the others are measured one by
+one and written at once, so that a call that was stopped goes on where it was. ``--check`` (``make
+release-check``) only names them, and ends with status 1 where there are any; ``--only NAME ...`` takes
+these, ``--again`` also what is fresh. At last it writes README.md and fills the documents. One thread;
+measure on an idle machine.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import resource
 import sys
-from collections.abc import Callable, Iterator
+import time
+import traceback
 from pathlib import Path
 
+import documents
+import evidence
 import facts
+import project
 from measure import (
     contact_cost,
-    crane,
-    ensemble,
-    ensemble_overhead,
-    evaluation,
     events,
+    executors,
+    extreme_values,
     feeder,
     footprint,
-    formulations,
     hours,
     hydraulic_cost,
     integrators,
-    lanes,
     lifts,
-    line_methods,
     linear,
     lines_in_water,
-    memory_by_motion,
-    memory_cost,
     memory_fits,
     memory_kinds,
-    memory_models,
-    memory_speed,
-    moving_points,
+    operability,
     pages,
     paper_form,
-    rival,
+    promises,
     scaling,
-    scenes,
-    seas,
     snatch_cost,
     speed,
     stiff_lines,
-    storm,
-    strip_cost,
-    two_cores,
-    w_method,
+    strip,
+    trade_physics,
     wave_loads,
     wet_parts,
 )
-from measure.machine import machine
-from measure.section import Section
+from measure.section import RESULTS, ROOT, Section
+from measure.sources import measured
+from measure.table import read
+from peers import run as peers
 
 from seacrane.inputs.atomic import atomic_write
 
-HERE = Path(__file__).resolve().parent
+README = Path(__file__).resolve().parent / "README.md"
+MOST = 40  # tables: for one that comes, one goes
 INTRODUCTION = """# Benchmarks
 
-Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Each table is
-a file of [`results`](results). The line with its link names the machine and the engine that measured it, this
-by a digest of the C++ sources without comments. `make release-check` lists the tables of another engine.
+The tables that somebody decides by, at most {most}. `make bench` measures those again whose sources have
+changed since, and writes this page; `make release-check` names them. The line below a table tells which
+engine and which machine measured it: an engine is a digest of the C++ sources without comments. Each table
+is also a file of [`results`](results).
 
 Times depend on the machine and on what else runs on it, so read the ratios first. One thread throughout;
 times are CPU times of that thread unless they say wall. C++ tests, not these tables, count that the loop
 allocates nothing on the heap after its start: `cpp/tests/test_allocations_core.cpp`, and
 `cpp/tests/test_integrate_allocations.cpp` for each integrator.
-
 """
-PICTURE = "work_precision.png"
+GROUPS: dict[str, tuple[Section, ...]] = {
+    "Speed": (speed.SPEED, speed.PARTS, scaling.SECTION, hours.STORM, hours.HOOK_LOAD, linear.SECTION),
+    "Methods and accuracy": (
+        integrators.SECTION, promises.TAKE_THIS, promises.COST, promises.OF_STAGES, trade_physics.SECTION,
+        paper_form.SECTION,
+    ),
+    "Lines, events, cylinders, contact": (
+        events.SECTION, stiff_lines.SECTION, snatch_cost.SECTION, lines_in_water.SECTION,
+        hydraulic_cost.SECTION, contact_cost.SECTION,
+    ),
+    "Water and waves": (
+        wave_loads.SECTION, memory_kinds.SECTION, memory_fits.SECTION, strip.SECTION, wet_parts.SECTION,
+        feeder.SECTION,
+    ),
+    "Many runs": (
+        lifts.SECTION, executors.SECTION, extreme_values.SECTION, operability.SECTION,
+    ),
+    "Other engines": (peers.SECTION,),
+    "The package": (footprint.SECTION, pages.SECTION, project.WHEEL, project.EDITS, project.JOBS),
+    "Evidence": (evidence.VALIDATION, evidence.MEASUREMENTS, evidence.ATLAS, facts.SECTION),
+}  # fmt: skip
+SECTIONS = [section for group in GROUPS.values() for section in group]
 
 
-def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
-    """Every table in turn; draws the work-precision diagram into the folder on the way."""
-    yield speed.speed(repeats=repeats)
-    yield evaluation.whole(repeats=repeats)
-    yield evaluation.parts(repeats=repeats)
-    yield evaluation.parts(repeats=repeats, formulation="recursive")
-    yield formulations.formulations(repeats=repeats)
-    yield formulations.throughput(repeats=repeats)
-    yield storm.storm(repeats=min(repeats, 3))
-    yield hours.hours()
-    yield scaling.growth(repeats=min(repeats, 3))
-    yield scaling.loop_rows(repeats=repeats)
-    yield memory_cost.memory_cost(repeats=repeats)
-    yield memory_kinds.memory_kinds(repeats=repeats)
-    yield memory_speed.memory_speed(repeats=repeats)
-    yield wave_loads.wave_loads(repeats=repeats)
-    yield moving_points.moving_points(repeats=repeats)
-    yield lines_in_water.lines_in_water(repeats=repeats)
-    yield wet_parts.wet_parts(repeats=repeats)
-    yield feeder.feeder(repeats=min(repeats, 3))
-    yield contact_cost.contact_cost(repeats=repeats)
-    tried = 1 if quick else min(repeats, 3)
-    rows, truth = integrators.work_precision(repeats=tried)
-    integrators.figure(rows, folder / PICTURE)
-    yield integrators.table(rows, truth, repeats=tried)
-    yield events.slack_wire()
-    yield stiff_lines.stiff_lines(repeats=tried)
-    yield hydraulic_cost.hydraulic_cost(repeats=tried)
-    yield line_methods.line_methods()
-    yield snatch_cost.snatch_cost()
-    yield w_method.w_method()
-    yield w_method.stiff_direction()
-    yield linear.natural_periods()
-    yield linear.linear_against_runs()
-    yield linear.cost(repeats=min(repeats, 3))
-    yield from paper_form.paper_form(t_end=5.0 if quick else 100.0)
-    yield crane.shipped_crane()
-    yield memory_by_motion.roll_by_cause()
-    yield memory_fits.memory_fits()
-    yield memory_models.self_check()
-    yield memory_models.fits()
-    yield memory_models.trade()
-    yield seas.seas(repeats=min(repeats, 3))
-    yield ensemble.one_member(repeats=repeats)
-    yield ensemble_overhead.overhead(members=4 if quick else 16, t_end=100.0 if quick else 10_800.0)
-    yield two_cores.two_cores(
-        members=8 if quick else 64, t_end=100.0 if quick else 10_800.0, repeats=1 if quick else 3
-    )
-    yield lanes.lanes(repeats=repeats)
-    yield lifts.lifts(repeats=min(repeats, 3))
-    yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
-    yield strip_cost.strip_cost(repeats=min(repeats, 3))
-    yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
-    yield footprint.memory(repeats=min(repeats, 3))
-    yield footprint.imports(repeats=repeats)
-    yield pages.pages()
-    yield scenes.sizes()
+def cpu() -> float:
+    """Processor time of this process and of those that it started, s."""
+    every = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(one.ru_utime + one.ru_stime for one in every)
 
 
-def document(folder: Path, *, repeats: int, quick: bool, say: Callable[[str], None]) -> str:
-    """Where all tables are, as one Markdown text; each is said, and saved, as soon as it is there."""
-    say(machine())
-    texts = [INTRODUCTION]
-    for section in sections(folder, repeats=repeats, quick=quick):
-        section.save(folder / "results")
-        say(section.markdown() + "\n")
-        texts.append(section.marked(shown=False) + "\n")
-        if section.title.startswith("Integrators"):
-            texts.append(f"![Payload error over evaluations and over CPU time, per integrator]({PICTURE})\n")
-    return "\n".join(texts)
+def readme() -> str:
+    """The page: every table with its words."""
+    texts = [INTRODUCTION.format(most=MOST)]
+    for group, sections in GROUPS.items():
+        texts.append(f"## {group}\n")
+        texts += [section.marked for section in sections if section.path.is_file()]
+    return documents.filled("\n".join(texts))
+
+
+def measure(sections: list[Section], *, again: bool) -> list[str]:
+    """Measure and write one after the other what is stale; those that failed or lack something, and why."""
+    left = []
+    for number, section in enumerate(sections, 1):
+        if not again and not section.stale:
+            continue
+        missing, begun = section.needs(), time.perf_counter()
+        if missing:
+            left.append(f"{section.path.name}: needs {missing}")
+            continue
+        print(f"{number} of {len(sections)}: {section.title} ...", flush=True)
+        try:
+            section.measure(cpu=cpu)
+        except (Exception, SystemExit) as error:
+            traceback.print_exc()
+            left.append(f"{section.path.name}: {error}")
+            continue
+        told = (measured(section.path) or {}).get("cpu_s", 0.0)
+        print(f"{told:.0f} s of CPU, {time.perf_counter() - begun:.0f} s", flush=True)
+        head, rows = read(section.path)
+        print("\n".join(", ".join(row) for row in (head, *rows)), flush=True)
+    return left
+
+
+def publish() -> None:
+    """Write the page and fill the documents."""
+    with atomic_write(README) as draft:
+        draft.write_text(readme(), encoding="utf-8")
+    documents.fill()
 
 
 def main() -> int:
-    """Measure, print, write; returns the exit status."""
+    """Measure what is missing or stale, or name it; the status is 1 where something is left."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--publish", action="store_true", help="write into benchmarks/ instead of out/bench")
-    parser.add_argument("--quick", action="store_true", help="fewer repeats, short run of the rival")
-    parser.add_argument("--repeats", type=int, default=9, help="equal runs per measurement, default 9")
+    names = {section.path.stem: section for section in SECTIONS}
+    parser.add_argument("--check", action="store_true", help="only name what is stale")
+    parser.add_argument("--again", action="store_true", help="measure what is fresh as well")
+    parser.add_argument("--only", nargs="+", metavar="NAME", choices=list(names), help=", ".join(names))
     options = parser.parse_args()
-    repeats = 2 if options.quick else options.repeats
-    if repeats < 1:
-        parser.error(f"--repeats is {options.repeats}; give at least 1")
-    folder = HERE if options.publish else HERE.parent / "out" / "bench"
-    folder.mkdir(parents=True, exist_ok=True)
-    text = document(folder, repeats=repeats, quick=options.quick, say=lambda part: print(part, flush=True))
-    target = folder / "README.md"
-    with atomic_write(target) as draft:
-        draft.write_text(text, encoding="utf-8")
-    print(f"written to {target}", file=sys.stderr)
-    if options.publish:
-        facts.publish()
-    return 0
+    if (ROOT.parent / "shared").is_dir():  # foreign data, unless SEACRANE_SHARED names another folder
+        os.environ.setdefault("SEACRANE_SHARED", str(ROOT.parent / "shared"))
+    chosen = [names[name] for name in options.only or names]
+    if options.check:
+        stale = {section.path: section.stale for section in chosen}
+        left = [f"{path.relative_to(ROOT)}: {why}" for path, why in stale.items() if why]
+        others = sorted(path.name for path in RESULTS.glob("*.csv") if path.stem not in names)
+        left += [f"benchmarks/results/{name}: no section measures it" for name in others]
+    else:
+        try:
+            left = measure(chosen, again=options.again)
+        finally:
+            publish()
+    print(*left, f"{len(SECTIONS)} tables, {len(left)} left", sep="\n", file=sys.stderr)
+    return int(bool(left))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,6 @@ import live_page  # noqa: E402
 import mathml  # noqa: E402
 import navigation  # noqa: E402
 import notebook_cache  # noqa: E402
-import tables  # noqa: E402
 
 import seacrane  # noqa: E402
 
@@ -82,7 +81,6 @@ def setup(app: Any) -> None:
     api_pages.write(HERE / "api")
     mathml.setup(app)
     docstrings.name_aliases()
-    app.connect("source-read", tables.show)
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
     app.connect("autodoc-process-signature", docstrings.shorten)

@@ -1,17 +1,22 @@
-"""Comparisons that other measurements wrote: rows from their files."""
+"""Comparisons that other measurements wrote, and problems and checks that the package or its tests hold."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from measure.table import read
+
+from seacrane import cases, simulate
+from seacrane.hydro import shipped_database
 
 from .row import Row
 
 BENCHMARKS = Path(__file__).resolve().parents[1]
 RESULTS = BENCHMARKS / "results"
-PEERS = ("Pinocchio", "MuJoCo", "Exudyn", "NumPy/SciPy")
+REFERENCES = BENCHMARKS / "peers" / "references"  # what a peer recorded
 OWN = "redundant form, `dop853` at 1e-12"
 SELF_CHECKS = {
     "damping_from_forces": "damping from the far field of the wave forces (Haskind)",
@@ -28,39 +33,42 @@ def records(path: Path) -> list[dict[str, str]]:
 
 def mechanisms() -> Iterator[Row]:
     """Problems with published or independent solutions: the worse of both formulations."""
-    yield from _problems("reference-problems-tight.csv", "Mechanisms", "multibody/test_reference_problems.py")
+    from reference_problems.table import mechanisms
+
+    yield from _problems(mechanisms(), "Mechanisms", "multibody/test_reference_problems.py")
 
 
 def ships() -> Iterator[Row]:
     """A vessel against its linear equation."""
-    yield from _problems(
-        "reference-problems-ships.csv", "Vessel in waves", "multibody/test_reference_problems_sea.py"
-    )
+    from reference_problems.table import ships
+
+    yield from _problems(ships(), "Vessel in waves", "multibody/test_reference_problems_sea.py")
 
 
-def _problems(file: str, subject: str, test: str) -> Iterator[Row]:
-    worst: dict[tuple[str, str, str], tuple[float, str]] = {}
-    for row in records(RESULTS / file):
-        value, _, unit = row["largest difference"].partition(" ")
-        key = (row["problem"], row["compared"], row["source"])
+def _problems(comparisons: Iterable[Any], subject: str, test: str) -> Iterator[Row]:
+    worst: dict[tuple[str, ...], tuple[float, str]] = {}
+    for one in comparisons:
+        problem, compared, source, *_, largest = one.row()
+        value, _, unit = largest.partition(" ")
+        key = (problem, compared, source)
         worst[key] = max(worst.get(key, (0.0, unit)), (float(value), unit))
-    for (problem, compared, source), (value, unit) in worst.items():
+    for (problem, compared, source), (difference, unit) in worst.items():
         yield Row(
-            subject=subject, compared=f"{problem}: {compared}", reference=source, difference=value, unit=unit,
-            limit=None, test=test,
+            subject=subject, compared=f"{problem}: {compared}", reference=source, difference=difference,
+            unit=unit, limit=None, test=test,
         )  # fmt: skip
 
 
 def peers() -> Iterator[Row]:
     """The crane in other engines: the nearest of their runs."""
-    every = records(BENCHMARKS / "peers" / "results" / "all-runs.csv")
-    for engine in PEERS:
-        nearest = min(float(row["payload error, m"]) for row in every if row["engine"] == engine)
-        yield Row(
-            subject="Crane on a vessel", compared=f"payload's place over the run, {OWN}",
-            reference=f"the same crane in {engine}, its nearest setting", difference=nearest, unit="m",
-            limit=None, test="project/test_validation.py",
-        )  # fmt: skip
+    for row in records(RESULTS / "quickest-setting-within-a-payload-error.csv"):
+        if row["payload error at most"] == "its nearest" and not row["engine"].startswith("seacrane"):
+            yield Row(
+                subject="Crane on a vessel", compared=f"payload's place over the run, {OWN}",
+                reference=f"the same crane in {row['engine']}, its nearest setting",
+                difference=float(row["payload error, m"]), unit="m", limit=None,
+                test="project/test_validation.py",
+            )  # fmt: skip
 
 
 def linear_model() -> Iterator[Row]:
@@ -77,21 +85,26 @@ def linear_model() -> Iterator[Row]:
 
 def wave_sum() -> Iterator[Row]:
     """The table of wave loads against the sum."""
-    rows = records(RESULTS / "trade-of-case-2-physics.csv")
-    (row,) = [one for one in rows if one["changed"].startswith("waves summed exactly")]
+    found = [
+        simulate(
+            cases.case2(evaluation=evaluation), 100.0, dt_out=1.0, integrator="dop853", rtol=1e-10,
+            channels=["position"],
+        ).select("position", body="payload")
+        for evaluation in ("table", "exact")
+    ]  # fmt: skip
     yield Row(
         subject="Vessel in waves", compared="payload of case 2 over 100 s, wave loads from the table",
-        reference="wave loads summed at every evaluation", difference=float(row["payload, m"]), unit="m",
-        limit=None, test="sea/test_sea.py",
+        reference="wave loads summed at every evaluation",
+        difference=float(np.linalg.norm(found[0] - found[1], axis=1).max()), unit="m", limit=1e-7,
+        test="sea/test_sea.py",
     )  # fmt: skip
 
 
 def database() -> Iterator[Row]:
     """What exact hydrodynamics relate, in the shipped database: the worst of the six motions."""
-    every = records(RESULTS / "self-check-of-the-shipped-database.csv")
-    rows = {row["check"].strip("`"): row for row in every}
+    rows = shipped_database().check()
     for check, words in SELF_CHECKS.items():
-        values = [float(row["value"]) for name, row in rows.items() if name.startswith(f"{check}_")]
+        values = [float(row.value) for row in rows if row.check.startswith(f"{check}_")]
         yield Row(
             subject="Hydrodynamics", compared=f"shipped database: {words}", reference="the database itself",
             difference=max(values), unit="", limit=None, test="hydro/test_hydro_check.py",

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from heavy_line_scenes import CATENARY_H, CATENARY_V, weights_of_shape
+from heavy_line_scenes import CATENARY_H, CATENARY_V, heaving, weights_of_shape
 from test_damping import decay, pendulum, swing
 
 from seacrane import simulate
 
-from .files import RESULTS, records
+from .files import REFERENCES, records
 from .row import Row
 
 SUBJECT = "Lines and hanging loads"
+MOORPY_H = 663_644.668  # N: moorpy.Catenary.catenary(800, 300, 900, 1e9, 1000, CB=-1e4), MoorPy 1.1
 
 
 def catenary() -> Iterator[Row]:
@@ -41,17 +42,20 @@ def swinging() -> Iterator[Row]:
 
 
 def peers() -> Iterator[Row]:
-    """What `benchmarks/measure/heavy_lines.py` wrote: the finest of its runs."""
-    row = records(RESULTS / "heavy-lines-against-moorpy.csv")[-1]
+    """MoorPy's catenary, and MoorDyn's history of the same line (`benchmarks/peers/moordyn_line.py`)."""
+    level, _ = weights_of_shape(160)
     yield Row(
-        subject=SUBJECT, compared=f"line with mass at rest, {row['segments']} segments: level force",
-        reference="MoorPy, catenary", difference=float(row["error of H, N"]) / float(row["H of MoorPy, N"]),
-        unit="", limit=None, test="lines/test_heavy_lines.py",
+        subject=SUBJECT, compared="line with mass at rest, 160 segments: level force",
+        reference="MoorPy, catenary", difference=abs(level / MOORPY_H - 1.0), unit="", limit=2e-5,
+        test="lines/test_heavy_lines.py",
     )  # fmt: skip
-    row = records(RESULTS / "heavy-lines-against-moordyn.csv")[-1]
-    for end in ("fixed end", "moving end"):
+    told = np.array([[float(x) for x in row.values()] for row in records(REFERENCES / "heavy_line.csv")])
+    result = simulate(heaving(20, 24.0), t_end=float(told[-1, 0]), dt_out=float(told[1, 0]), rtol=1e-8)
+    own = result["line_tension"][:, [0, -1]]
+    apart = np.abs(told[:, 1:] - own).max(axis=0) / np.ptp(own, axis=0)
+    for end, share in zip(("fixed end", "moving end"), apart, strict=True):
         yield Row(
             subject=SUBJECT, compared=f"line with mass, one end heaves: tension at its {end}, of its range",
-            reference="MoorDyn, same masses, EA and damping", difference=float(row[end]), unit="", limit=None,
+            reference="MoorDyn, same masses, EA and damping", difference=float(share), unit="", limit=2e-4,
             test="lines/test_heavy_lines.py",
         )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -14,9 +14,11 @@ from seacrane.crane import load_crane
 from seacrane.hydro import two_barges
 
 from .section import Section
+from .sources import CRANE, LINE
 
 T_END = 600.0  # s
 COUNT = 500
+REPEATS = 3
 SEA = {"hs": 1.0, "tp": 7.0, "direction_deg": 150.0, "seed": 1}
 MASS, SIZE, DECK = 60e3, (8.0, 6.0, 5.0), 2.5  # kg, m, m
 FEET = [(x, y, -2.5) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
@@ -30,29 +32,14 @@ LIFT = (
 )  # fmt: skip
 
 
-def feeder(*, repeats: int) -> Section:
+def feeder() -> Iterator[list[object]]:
     """One vessel, two without and with coupling, and a lift off one of them by the other's crane."""
-    rows: list[list[object]] = []
     waters = {"without coupling": None, "with coupling": 0.03}
-    single = _timed("one vessel", _one(), [], repeats)
-    rows.append([*single, 1.0])
-    for water, lid in waters.items():
-        row = _timed(f"two vessels, {water}", _two(lid), [], repeats)
-        rows.append([*row, float(row[2]) / float(single[2])])  # type: ignore[arg-type]
-    for water, lid in waters.items():
-        row = _timed(f"feeder lift, {water}", _lift(lid), LIFT, repeats)
-        rows.append([*row, float(row[2]) / float(single[2])])  # type: ignore[arg-type]
-    return Section(
-        title="Two vessels in one water",
-        text=(
-            f"Runs of ten minutes in a sea of 200 components (Hs {SEA['hs']:g} m, Tp {SEA['tp']:g} s), rtol "
-            "1e-3, recursive form. The feeder lift has a crane, a load of 60 t on four feet with friction, "
-            f"an elastic wire with a winch, stages and outputs every 0.1 s. Best of {repeats}."
-        ),
-        head=["scene", "states of the memory", "evaluation [us]", "evaluations", "times real time",
-              "evaluation over one vessel's"],
-        rows=rows,
-    )  # fmt: skip
+    single = _timed("one vessel", _one(), [])
+    rows = [single]
+    rows += [_timed(f"two vessels, {water}", _two(lid), []) for water, lid in waters.items()]
+    rows += [_timed(f"feeder lift, {water}", _lift(lid), LIFT) for water, lid in waters.items()]
+    yield from ([*row, float(row[2]) / float(single[2])] for row in rows)  # type: ignore[arg-type]
 
 
 def _one() -> Scene:
@@ -88,12 +75,12 @@ def _lift(lid: float | None) -> Scene:
     return scene
 
 
-def _timed(name: str, scene: Scene, stages: Sequence[Stage], repeats: int) -> list[object]:
+def _timed(name: str, scene: Scene, stages: Sequence[Stage]) -> list[object]:
     """Name, states of the memory, us of an evaluation, evaluations, times real time."""
     model = scene.compile()
     state = np.array(model.initial_state)
     evaluator = Evaluator(model, "recursive")
-    took = min(evaluator.time_parts(0.0, state, COUNT)["whole evaluation"] for _ in range(repeats))
+    took = min(evaluator.time_parts(0.0, state, COUNT)["whole evaluation"] for _ in range(REPEATS))
 
     def run() -> object:
         if stages:
@@ -102,15 +89,30 @@ def _timed(name: str, scene: Scene, stages: Sequence[Stage], repeats: int) -> li
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        seconds, result = _fastest(run, repeats)
+        seconds, result = _fastest(run)
     stats = result.stats  # type: ignore[attr-defined]
     return [name, stats["memory_states"], 1e-3 * took, stats["evaluations"], stats["simulated_s"] / seconds]
 
 
-def _fastest(run: Callable[[], object], repeats: int) -> tuple[float, object]:
+def _fastest(run: Callable[[], object]) -> tuple[float, object]:
     fastest, result = np.inf, None
-    for _ in range(repeats):
+    for _ in range(REPEATS):
         began = time.thread_time()
         result = run()
         fastest = min(fastest, time.thread_time() - began)
     return float(fastest), result
+
+
+SECTION = Section(
+    title="Two vessels in one water",
+    text=(
+        f"Runs of ten minutes in a sea of 200 components (Hs {SEA['hs']:g} m, Tp {SEA['tp']:g} s), rtol "
+        "1e-3, recursive form. The feeder lift has a crane, a load of 60 t on four feet with friction, an "
+        f"elastic wire with a winch, stages and outputs every 0.1 s. Best of {REPEATS}."
+    ),
+    head=["scene", "states of the memory", "evaluation [us]", "evaluations", "times real time",
+          "evaluation over one vessel's"],
+    rows=feeder,
+    sources=(*CRANE, *LINE, "cpp/seacrane/elements/loads/contact*", "cpp/seacrane/elements/loads/winch.hpp",
+             "python/seacrane/data/*"),
+)  # fmt: skip

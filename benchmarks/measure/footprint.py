@@ -6,8 +6,10 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 
 from .section import Section
+from .sources import ENGINE
 
 # Peak resident memory where the system states it, present memory elsewhere.
 MEMORY = """
@@ -30,12 +32,13 @@ STAGES = {
         "import numpy\nfrom seacrane import cases, simulate\nresult = simulate(cases.case2())"
     ),
 }
-IMPORTS = {
-    "import numpy": "import numpy",
-    "import seacrane": "import seacrane",
-    "from seacrane import Scene, cases, simulate": "from seacrane import Scene, cases, simulate",
-    "from seacrane import view": "from seacrane import view",
-}
+IMPORTS = (
+    "import numpy",
+    "import seacrane",
+    "from seacrane import Scene, cases, simulate",
+    "from seacrane import view",
+)
+REPEATS = 3
 LIMIT_MEMORY, LIMIT_IMPORT = 150.0, 0.3  # MB, s
 
 
@@ -47,37 +50,27 @@ def _run(code: str) -> float:
     return float(json.loads(done.stdout))
 
 
-def memory(*, repeats: int) -> Section:
-    """Peak resident memory after each stage."""
-    measured = {
-        name: min(_run(f"{MEMORY}\n{code}\nprint(resident())") for _ in range(repeats))
-        for name, code in STAGES.items()
-    }
-    base = measured["Python and NumPy"]
-    return Section(
-        title="Memory",
-        text=(
-            f"Peak resident memory of a fresh process, MiB; smallest of {repeats}. The aim is under "
-            f"{LIMIT_MEMORY:g} beyond Python and NumPy."
-        ),
-        head=["after", "MiB", "beyond Python and NumPy"],
-        rows=[[name, round(value), round(value - base)] for name, value in measured.items()],
-    )
-
-
-def imports(*, repeats: int) -> Section:
-    """Time of imports in a fresh interpreter, its own start left out."""
+def footprint() -> Iterator[list[object]]:
+    """Peak resident memory after each stage, then times of imports, an interpreter's own start left out."""
+    base = 0.0
+    for name, code in STAGES.items():
+        value = min(_run(f"{MEMORY}\n{code}\nprint(resident())") for _ in range(REPEATS))
+        base = value if name == "Python and NumPy" else base
+        yield [f"memory: {name}", f"{value:.0f} MiB"]
+    yield ["memory: the last beyond Python and NumPy", f"{value - base:.0f} MiB"]
     code = "import time\nstart = time.perf_counter()\n{}\nprint(time.perf_counter() - start)"
-    rows = [
-        [f"`{name}`", round(1e3 * min(_run(code.format(statement)) for _ in range(repeats)))]
-        for name, statement in IMPORTS.items()
-    ]
-    return Section(
-        title="Import",
-        text=(
-            f"Fresh interpreter, its own start left out; wall time, best of {repeats}. The aim is under "
-            f"{LIMIT_IMPORT:g} s."
-        ),
-        head=["statement", "ms"],
-        rows=rows,
-    )
+    for statement in IMPORTS:
+        took = min(_run(code.format(statement)) for _ in range(2 * REPEATS))
+        yield [f"time: `{statement}`", f"{1e3 * took:.0f} ms"]
+
+
+SECTION = Section(
+    title="Footprint",
+    text=(
+        f"Of a fresh process: peak resident memory, the smallest of {REPEATS}, and wall time of imports, the "
+        f"shortest of some. Aims: {LIMIT_MEMORY:g} MiB beyond Python and NumPy, {LIMIT_IMPORT:g} s to import."
+    ),
+    head=["what", "value"],
+    rows=footprint,
+    sources=("python/seacrane/**/*.py", *ENGINE),
+)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from seacrane.trading.case import Case
 from seacrane.trading.measured_case import timed
 
 from .section import Section
+from .sources import CRANE
 
 Array = NDArray[np.float64]
 T_END, DT_OUT = 100.0, 0.2  # s
@@ -26,6 +28,7 @@ GAS = {"accumulator_volume": 0.05, "accumulator_pressure": 2e6, "accumulator_flo
 LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a small servo valve, none
 TIGHT = Method(integrator="dopri5", rtol=1e-7)
 IDEAL = Method(integrator="dopri5", rtol=1e-2)
+REPEATS = 2
 METHODS = (
     Method(integrator="dopri5", rtol=1e-2),
     Method(integrator="dopri5", rtol=1e-3),
@@ -55,9 +58,9 @@ def hydraulic_case2(*, spool_lag: float, gas: bool) -> Scene:
     return scene
 
 
-def hydraulic_cost(*, repeats: int) -> Section:
-    """Cost and error of methods on both kinds of spool."""
-    ideal, first = _run(cases.case2(), IDEAL, repeats)
+def hydraulic_cost() -> Iterator[list[Any]]:
+    """Cost and error of methods on both kinds of spool; the ideal actuators run again beside every row."""
+    ideal, first = _run(cases.case2(), IDEAL, REPEATS)
     own_error, least = _apart(ideal, _path(cases.case2())), first[1]
     done: list[tuple[str, str, Method, tuple[int, float], float]] = []
     for lag in LAGS:
@@ -65,52 +68,16 @@ def hydraulic_cost(*, repeats: int) -> Section:
             scene = hydraulic_case2(spool_lag=lag, gas=gas)
             truth = _path(scene)
             for method in METHODS:
-                path, cost = _run(scene, method, repeats)
+                path, cost = _run(scene, method, REPEATS)
                 pressures = f"{6 if gas else 4} pressures, 2 spools"
                 done.append((pressures, f"{1e3 * lag:.1f}", method, cost, _apart(path, truth)))
-                least = min(least, _run(cases.case2(), IDEAL, repeats)[1][1])
-    first = (first[0], least)
-    rows = [_row(*one, first) for one in [("ideal actuators", "", IDEAL, first, own_error), *done]]
-    return Section(
-        title="Hydraulic cylinders",
-        text=(
-            f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool "
-            "each, and an accumulator each for six pressures. Errors are those of the payload's place "
-            "against the same scene with a spool of that lag "
-            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}); CPU times are those of the loop, "
-            "the least of some runs. The ideal actuators are run again beside every other row, and their "
-            "least time is what all are compared with."
-        ),
-        head=[
-            "cylinders",
-            "spool lag, ms",
-            "method",
-            "evaluations",
-            "over ideal",
-            "CPU, ms",
-            "CPU over ideal",
-            "times real time",
-            "payload error, mm",
-        ],
-        rows=rows,
-    )
-
-
-def _row(
-    cylinders: str, lag: str, method: Method, cost: tuple[int, float], error: float,
-    ideal: tuple[int, float],
-) -> list[Any]:  # fmt: skip
-    return [
-        cylinders,
-        lag,
-        f"{method.integrator} {method.rtol:g}",
-        cost[0],
-        cost[0] / ideal[0],
-        1e3 * cost[1],
-        cost[1] / ideal[1],
-        T_END / cost[1],
-        error,
-    ]
+                least = min(least, _run(cases.case2(), IDEAL, REPEATS)[1][1])
+    for cylinders, lag_ms, method, cost, error in [("ideal actuators", "", IDEAL, first, own_error), *done]:
+        cpu = least if method is IDEAL and not lag_ms else cost[1]
+        yield [
+            cylinders, lag_ms, f"{method.integrator} {method.rtol:g}", cost[0], cost[0] / first[0], 1e3 * cpu,
+            cpu / least, T_END / cpu, error,
+        ]  # fmt: skip
 
 
 def _apart(path: Array, truth: Array) -> float:
@@ -129,3 +96,19 @@ def _run(scene: Scene, method: Method, repeats: int) -> tuple[Array, tuple[int, 
 
 def _path(scene: Scene) -> Array:
     return _run(scene, TIGHT, 1)[0]
+
+
+SECTION = Section(
+    title="Hydraulic cylinders",
+    text=(
+        f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool each, "
+        "and an accumulator each for six pressures. Errors are those of the payload's place against the "
+        f"same scene with a spool of that lag solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}); CPU "
+        "times are those of the loop, the least of some runs. The ideal actuators are run again beside "
+        "every other row, and their least time is what all are compared with."
+    ),
+    head=["cylinders", "spool lag, ms", "method", "evaluations", "over ideal", "CPU, ms", "CPU over ideal",
+          "times real time", "payload error, mm"],
+    rows=hydraulic_cost,
+    sources=(*CRANE, "cpp/seacrane/elements/loads/hydraulic*"),
+)  # fmt: skip

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Method, cases
-from seacrane._core import Integrator, integrators
+from seacrane._core import Integrator
 from seacrane.accuracy.quantities import quantities_of
 from seacrane.inputs.atomic import atomic_write
 from seacrane.trading.case import Case
@@ -19,11 +20,14 @@ from seacrane.trading.reference import Reference, reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile, completed
 
-from .section import Section
+from .section import RESULTS, Section
+from .sources import CRANE
 
 Array = NDArray[np.float64]
 
 T_END, DT_OUT = 100.0, 1.0  # s; few outputs, so that the methods' own cost shows
+REPEATS = 2
+PICTURE = "work_precision.png"
 PAYLOAD, FORCE = "payload_position", "cylinder_force"
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 IMPLICIT_TOLERANCES = (1e-3, 1e-4, 1e-5)
@@ -36,7 +40,7 @@ TIGHT = (
 )
 
 
-def work_precision(*, repeats: int) -> tuple[list[Row], Reference]:
+def work_precision() -> tuple[list[Row], Reference]:
     """Every tolerance or step of every integrator, and the reference that errors are told by."""
     case = Case(scene=cases.case2(), t_end=T_END, dt_out=DT_OUT)
     quantities = quantities_of(case.scene, case.model, [PAYLOAD, FORCE])
@@ -55,7 +59,7 @@ def work_precision(*, repeats: int) -> tuple[list[Row], Reference]:
         empty,
         RowFile(None, {}),
         lambda keys: (
-            (key, measured(case, empty[key].method, quantities, truth, empty[key], repeats=repeats))
+            (key, measured(case, empty[key].method, quantities, truth, empty[key], repeats=REPEATS))
             for key in keys
         ),
         title="work and precision",
@@ -78,37 +82,21 @@ def _short(text: str) -> str:
     return text if len(text) <= 90 else f"{text[:87]}..."
 
 
-def table(rows: Sequence[Row], truth: Reference, *, repeats: int) -> Section:
-    """The rows as a table."""
+def table() -> Iterator[list[Any]]:
+    """The rows, and the picture beside the document."""
+    rows, truth = work_precision()
+    figure(rows, RESULTS.parent / PICTURE)
     fastest = min(row.cpu_s for row in rows if row.stable)
-    cells = [
-        [
-            row.method.integrator,
-            row.method.setting.replace("=", " "),
-            1e3 * row.cpu_s if row.stable else None,
-            row.cpu_s / fastest if row.stable else None,
-            row.evaluations if row.stable else None,
-            row.error(PAYLOAD) if row.stable else None,
-            row.error(FORCE) if row.stable else None,
-            _short(row.message),
-        ]
-        for row in rows
-    ]
-    first, second = truth.runs
-    exact = ", ".join(method.name for method in integrators() if method.uses_jacobian)
-    return Section(
-        title="Integrators: work and precision on case 2",
-        text=(
-            f"100 s, outputs every {DT_OUT:g} s, best of {repeats}. Errors: largest distance of the payload "
-            f"and largest difference of a cylinder force from {first}, over all outputs; {second} differs "
-            f"from that reference by {truth.uncertainty[PAYLOAD]:.1e} m. cvode-adams cannot project and uses "
-            "Baumgarte stabilisation. Exact Jacobians are not counted as evaluations; these take them: "
-            f"{exact}."
-        ),
-        head=["integrator", "setting", "CPU, ms", "over fastest", "evaluations",
-              "payload error, m", "cylinder force error, N", "stopped because"],
-        rows=cells,
-    )  # fmt: skip
+    first, second = (str(method) for method in truth.runs)
+    yield [first, "the reference", *[None] * 6]
+    yield [second, "from the reference", None, None, None, truth.uncertainty[PAYLOAD], None, None]
+    for row in rows:
+        told = [row.method.integrator, row.method.setting.replace("=", " ")]
+        if not row.stable:
+            yield [*told, *[None] * 5, _short(row.message)]
+            continue
+        cost = [1e3 * row.cpu_s, row.cpu_s / fastest, row.evaluations]
+        yield [*told, *cost, row.error(PAYLOAD), row.error(FORCE), None]
 
 
 def figure(rows: Sequence[Row], path: Path) -> None:
@@ -137,3 +125,19 @@ def figure(rows: Sequence[Row], path: Path) -> None:
     picture.suptitle("Case 2, 100 s: work and precision", fontsize=10)
     with atomic_write(path) as draft:
         picture.savefig(draft, dpi=130, format="png")
+
+
+SECTION = Section(
+    title="Integrators: work and precision on case 2",
+    text=(
+        f"{T_END:g} s, outputs every {DT_OUT:g} s, best of {REPEATS}. Errors: largest distance of the "
+        "payload and largest difference of a cylinder force from the reference, over all outputs. "
+        "cvode-adams cannot project and uses Baumgarte stabilisation. Exact Jacobians, which implicit "
+        "methods take, are not counted as evaluations.\n\n![Payload error over evaluations and over CPU "
+        f"time, per integrator]({PICTURE})"
+    ),
+    head=["integrator", "setting", "CPU, ms", "over fastest", "evaluations", "payload error, m",
+          "cylinder force error, N", "stopped because"],
+    rows=table,
+    sources=CRANE,
+)  # fmt: skip

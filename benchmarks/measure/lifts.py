@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from seacrane import Curve, Run, Scene, Stage, cases, ensemble, shipped_database
@@ -12,11 +12,12 @@ from seacrane.crane import Payload
 from seacrane.run.lanes import USUAL, advance_side_by_side, module_of
 
 from .section import Section
+from .sources import CRANE, LANES, LINE
 from .timing import best_seconds, evaluation_ns
 
 END = 100.0  # s
 RTOL = 1e-3
-MEMBERS = 8
+MEMBERS, REPEATS = 8, 3
 HOOK = {"hook": "hook_load.max"}
 OIL = {
     "pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "spool_lag": 0.03, "makeup_flow": 0.05,
@@ -75,37 +76,25 @@ LIFTS: dict[str, Callable[[int], Scene]] = {
 STAGES = [Stage(name="wait", duration=0.4 * END), Stage(name="go on", duration=0.6 * END)]
 
 
-def lifts(*, repeats: int) -> Section:
+def lifts() -> Iterator[list[Any]]:
     """Cost of a lift by its parts, and members a second alone and in lanes."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        rows = [_row(name, make, [], repeats) for name, make in LIFTS.items()]
-        rows.append(_row("elastic wire, in two stages", on_a_wire, STAGES, repeats))
-    return Section(
-        title="Ordinary lifts",
-        text=(
-            "Shipped hull and crane in Hs 1.5 m, 60 t on a winch's wire with air drag (40 t on the rod where "
-            f"oil is in the cylinders). {END:g} s, default method at rtol {RTOL:g}, hook load every 2 s. The "
-            "loop is of one run alone, and for one of four side by side. Members a second are of the whole "
-            f"call of `ensemble` with {MEMBERS} seeds on one thread, without lanes and with. CPU time, "
-            f"best of {repeats}."
-        ),
-        head=["lift", "formulation", "evaluations", "ns an evaluation", "loop alone, ms", "loop in lanes, ms",
-              "members a second alone", "in lanes", "kept apart"],
-        rows=rows,
-    )  # fmt: skip
+        for name, make in LIFTS.items():
+            yield _row(name, make, [])
+        yield _row("elastic wire, in two stages", on_a_wire, STAGES)
 
 
-def _row(name: str, make: Callable[[int], Scene], stages: list[Stage], repeats: int) -> list[Any]:
+def _row(name: str, make: Callable[[int], Scene], stages: list[Stage]) -> list[Any]:
     scenes = [make(seed) for seed in range(1, USUAL + 1)]
-    alone = _loop(scenes[:1], repeats)
-    together = None if module_of(USUAL) is None else _loop(scenes, repeats) / USUAL
+    alone = _loop(scenes[:1])
+    together = None if module_of(USUAL) is None else _loop(scenes) / USUAL
     run = _begun(scenes[0])
     run.advance(END)
     told = run.result().stats
     formulation = str(told["formulation"])
-    cost = evaluation_ns(scenes[0].compile(), repeats=repeats, count=1000, formulation=formulation)
-    rates = [_members(scenes[0], stages, lanes, repeats) for lanes in (1, None)]
+    cost = evaluation_ns(scenes[0].compile(), repeats=REPEATS, count=1000, formulation=formulation)
+    rates = [_members(scenes[0], stages, lanes) for lanes in (1, None)]
     return [
         name, formulation, told["evaluations"], cost, 1e3 * alone,
         None if together is None else 1e3 * together, rates[0], rates[1], _kept_apart(scenes),
@@ -124,10 +113,10 @@ def _stepped(runs: list[Run]) -> list[Run]:
     return runs
 
 
-def _loop(scenes: list[Scene], repeats: int) -> float:
+def _loop(scenes: list[Scene]) -> float:
     """CPU seconds of all runs, without what prepares them."""
-    begun = [[_begun(scene) for scene in scenes] for _ in range(repeats)]
-    return best_seconds(lambda: _stepped(begun.pop()), repeats=repeats)
+    begun = [[_begun(scene) for scene in scenes] for _ in range(REPEATS)]
+    return best_seconds(lambda: _stepped(begun.pop()), repeats=REPEATS)
 
 
 def _kept_apart(scenes: list[Scene]) -> str:
@@ -135,7 +124,7 @@ def _kept_apart(scenes: list[Scene]) -> str:
     return str(next((run.lanes["kept_apart"] for run in runs if "kept_apart" in run.lanes), ""))
 
 
-def _members(scene: Scene, stages: list[Stage], lanes: int | None, repeats: int) -> float:
+def _members(scene: Scene, stages: list[Stage], lanes: int | None) -> float:
     """Members a second of the whole call."""
     given: dict[str, Any] = {"stages": stages} if stages else {"t_end": END}
 
@@ -153,4 +142,20 @@ def _members(scene: Scene, stages: list[Stage], lanes: int | None, repeats: int)
     begun = time.process_time()
     call()
     first = time.process_time() - begun
-    return MEMBERS / min(first, best_seconds(call, repeats=max(1, repeats - 1)))
+    return MEMBERS / min(first, best_seconds(call, repeats=max(1, REPEATS - 1)))
+
+
+SECTION = Section(
+    title="Ordinary lifts",
+    text=(
+        "Shipped hull and crane in Hs 1.5 m, 60 t on a winch's wire with air drag (40 t on the rod where "
+        f"oil is in the cylinders). {END:g} s, default method at rtol {RTOL:g}, hook load every 2 s. The "
+        "loop is of one run alone, and for one of four side by side in vector lanes. Members a second are "
+        f"of the whole call of `ensemble` with {MEMBERS} seeds on one thread, without lanes and with. CPU "
+        f"time, best of {REPEATS}."
+    ),
+    head=["lift", "formulation", "evaluations", "ns an evaluation", "loop alone, ms", "loop in lanes, ms",
+          "members a second alone", "in lanes", "kept apart"],
+    rows=lifts,
+    sources=(*CRANE, *LANES, *LINE, "cpp/seacrane/elements/loads"),
+)  # fmt: skip

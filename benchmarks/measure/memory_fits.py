@@ -2,95 +2,47 @@
 
 from __future__ import annotations
 
-import logging
 import os
 import time
 import warnings
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from seacrane.hydro import (
-    Hull,
-    HydroDatabase,
-    OffsetTable,
-    fit_memory,
-    hydro_from_hull,
-    retardation_functions,
-)
+from seacrane import load_database
+from seacrane.hydro import HydroDatabase, fit_memory, retardation_functions, shipped_database
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.inputs.frames import MOTIONS
 
-from . import memory_by_motion
 from .section import Section
+from .sources import HULL
 
 LIMITS = (0.01, 0.02, 0.05)
 
 
 def databases() -> Iterator[tuple[str, HydroDatabase]]:
-    """Those of ships, and three bodies solved by Capytaine here where it is there."""
-    yield from memory_by_motion.databases()
-    try:
-        import capytaine
-    except ImportError:
-        return
-    logging.getLogger("capytaine").setLevel(logging.ERROR)
-    box = capytaine.mesh_parallelepiped(size=(60.0, 20.0, 8.0), resolution=(20, 8, 6))
-    ball = capytaine.mesh_sphere(radius=10.0, resolution=(14, 24))
-    bodies = (
-        (_of_mesh(box, "barge"), 2.0, 2.0),
-        (_of_mesh(ball, "hemisphere"), -2.0, 2.4),
-        (wigley_hull(), -2.0, 2.2),
-    )
-    for hull, height, highest in bodies:
-        yield (
-            f"{hull.name} (Capytaine)",
-            hydro_from_hull(
-                hull,
-                center_of_gravity=(0.0, 0.0, height),
-                omega=np.linspace(0.1, highest, 39),
-                heading=np.radians(np.arange(0.0, 181.0, 15.0)),
-                method="capytaine",
-                roll_damping_fraction=0.03,
-                trusted_band=(0.2, 0.9 * highest),
-            ),
-        )
+    """The shipped hull, and ships of SEACRANE_SHARED where it is set."""
+    yield "shipped hull", shipped_database()
+    folder = os.environ.get("SEACRANE_SHARED")
+    if folder:
+        yield "tanker (WAMIT)", load_database(Path(folder) / "wamit")
+        yield "supply vessel (VERES)", load_database(Path(folder) / "veres" / "supply")
 
 
-def _of_mesh(mesh: Any, name: str) -> Hull:
-    return Hull.from_mesh(vertices=mesh.vertices, faces=mesh.faces, name=name)
-
-
-def wigley_hull() -> Hull:
-    """y = B / 2 (1 - (2 x / L)^2) (1 - (z / T)^2) of 100 x 10 x 6.25 m [Wigley 1934], 34 x 12 panels."""
-    x, z = np.linspace(-50.0, 50.0, 33), np.linspace(0.0, -6.25, 13)
-    half = 5.0 * (1.0 - (x[:, None] / 50.0) ** 2) * (1.0 - (z / 6.25) ** 2)
-    sections = tuple(np.column_stack([row, z]) for row in half)
-    table = OffsetTable(x=x, sections=sections, name="Wigley hull")
-    return Hull.from_offsets(table).remeshed(stations=34, girth=6)
-
-
-def memory_fits() -> Section:
+def memory_fits() -> Iterator[list[Any]]:
     """Per pair at R2 = 0.99, by motion at its limits, and the convolution."""
-    os.environ["SEACRANE_CACHE"] = "off"
-    rows: list[list[Any]] = []
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        for name, database in databases():
-            rows += _rows(name, replace(database, memory=None))
-    return Section(
-        title="Memory by motion",
-        text=(
-            "What a memory changes of each motion, in %: standard deviation of the difference over that of "
-            "the motion, worst of the seas of Tp 5 to 18 s and of the headings; `peak` is the largest of the "
-            "complex differences at the peaks of heave, roll and pitch. CPU seconds of one fit."
-        ),
-        head=["database", "memory", "states", "fit, s", *MOTIONS, "peak"],
-        rows=rows,
-    )
+    before, os.environ["SEACRANE_CACHE"] = os.environ.get("SEACRANE_CACHE"), "off"
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for name, database in databases():
+                yield from _rows(name, replace(database, memory=None))
+    finally:
+        os.environ.pop("SEACRANE_CACHE")
+        if before is not None:
+            os.environ["SEACRANE_CACHE"] = before
 
 
 def _rows(name: str, database: HydroDatabase) -> list[list[Any]]:
@@ -114,3 +66,18 @@ def _rows(name: str, database: HydroDatabase) -> list[list[Any]]:
             [name, label, states, spent, *(100.0 * error.seas).tolist(), 100.0 * float(error.peaks.max())]
         )
     return rows
+
+
+SECTION = Section(
+    title="Memory by motion",
+    text=(
+        "What a memory changes of each motion, in %: standard deviation of the difference over that of the "
+        "motion, worst of the seas of Tp 5 to 18 s and of the headings; `peak` is the largest of the "
+        "complex differences at the peaks of heave, roll and pitch. CPU seconds of one fit. Ships need "
+        "SEACRANE_SHARED."
+    ),
+    head=["database", "memory", "states", "fit, s", *MOTIONS, "peak"],
+    rows=memory_fits,
+    sources=HULL,
+    needs=lambda: "" if os.environ.get("SEACRANE_SHARED") else "SEACRANE_SHARED, the folder of the ships",
+)

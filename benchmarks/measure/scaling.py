@@ -1,24 +1,33 @@
-"""How the cost of one evaluation grows: chains, trees, cranes on one base, and rows of loops."""
+"""How the cost of one evaluation grows: chains, trees, cranes on one base, and rows that close loops."""
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from seacrane import Frame, Model, Scene
+from seacrane import Frame, Scene
 from seacrane.crane import Payload
 
-from .exponent import exponent
 from .section import Section
+from .sources import STEPS
 from .timing import evaluation_ns
 
 BODIES = (1, 3, 10, 30, 100, 300, 1000)
-CRANES = (1, 2, 5, 15, 50, 100)
+CRANES = (1, 5, 15, 50, 100)
+MESHED, ROWS = 30, (1, 3, 10, 20)
 LARGE = 30  # the exponent is fitted from here on, where what every evaluation costs no longer shows
-EVALUATIONS = 200_000  # over the number of bodies
+EVALUATIONS = 100_000  # over the number of bodies
+REPEATS = 3
+
+
+def exponent(sizes: Sequence[float], costs: Sequence[float], smallest: float) -> float:
+    """Slope of the cost over the size in logarithms, from the smallest size that counts on."""
+    x, y = np.array(sizes, dtype=float), np.array(costs, dtype=float)
+    large = x >= smallest
+    return float(np.polyfit(np.log(x[large]), np.log(y[large]), 1)[0])
 
 
 def chain(bodies: int) -> Scene:
@@ -32,9 +41,8 @@ def tree(bodies: int) -> Scene:
 
 
 def _linked(bodies: int, parent: Callable[[int], int]) -> Scene:
-    scene = Scene(name="linked")
+    scene, rng = Scene(name="linked"), np.random.default_rng(1)
     ends = {-1: np.zeros(3)}
-    rng = np.random.default_rng(1)
     for i in range(bodies):
         start = ends[parent(i)]
         arm = rng.normal(size=3)
@@ -65,10 +73,8 @@ def cranes(count: int) -> Scene:
             frames = [joint.first_frame, joint.second_frame]
             names = ["base" if body == "ground" else f"{body} {i}" for body in (joint.first, joint.second)]
             if joint.first == "ground":
-                frames[0] = Frame(
-                    point=np.array(joint.first_frame.point) + shift + [0.0, 0.0, 5.0],
-                    axes=joint.first_frame.axes,
-                )
+                point = np.array(joint.first_frame.point) + shift + [0.0, 0.0, 5.0]
+                frames[0] = Frame(point=point, axes=joint.first_frame.axes)
             scene.add_joint(
                 kind=joint.kind, name=f"{joint.name} {i}", first=names[0], second=names[1],
                 first_frame=frames[0], second_frame=frames[1], **joint.parameters,
@@ -89,66 +95,44 @@ def meshed(bodies: int, loops: int) -> Scene:
     return scene
 
 
-def _compiled(scene: Scene) -> Model:
+def _cost(scene: Scene) -> list[float]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
-        return scene.compile()
-
-
-def _cost(scene: Scene, *, repeats: int, formulations: tuple[str, ...]) -> list[float]:
-    model = _compiled(scene)
+        model = scene.compile()
     count = max(20, EVALUATIONS // len(model.bodies) // 20)
     return [
-        1e-3 * evaluation_ns(model, repeats=repeats, count=count, formulation=formulation)
-        for formulation in formulations
+        1e-3 * evaluation_ns(model, repeats=REPEATS, count=count, formulation=formulation)
+        for formulation in ("recursive", "redundant")
     ]
 
 
-def growth(*, repeats: int) -> Section:
-    """Chains, trees and cranes of growing size, with the fitted exponents."""
-    rows: list[list[Any]] = []
+def growth() -> Iterator[list[Any]]:
+    """Scenes of growing size, the exponents in the last row of each; a chain with more and more rods."""
     for label, make, sizes in (
         ("chain", chain, BODIES), ("binary tree", tree, BODIES), ("cranes on one base", cranes, CRANES)
     ):  # fmt: skip
-        bodies, costs = [], []
-        for size in sizes:
-            scene = make(size)
-            bodies.append(len(scene.bodies))
-            costs.append(_cost(scene, repeats=repeats, formulations=("recursive", "redundant")))
-        slopes = [exponent(bodies, [c[k] for c in costs], LARGE) for k in range(2)]
-        for size, n, (recursive, redundant) in zip(sizes, bodies, costs, strict=True):
-            loops = 2 * size if make is cranes else 0
-            rows.append([label, n, loops, recursive, redundant, redundant / recursive, None, None])
-        rows[-1][-2:] = slopes
-    return Section(
-        title="Cost over the size of a scene",
-        text=(
-            "One evaluation, us, of bodies under gravity alone. Exponent: slope in logarithms from "
-            f"{LARGE} bodies on; the aim for `recursive` is at most 1.1. A crane has nine bodies, two of its "
-            "loops are cylinders, and none needs a constraint."
-        ),
-        head=["scene", "bodies", "cylinder loops", "recursive, us", "redundant, us",
-              "redundant over recursive", "exponent, recursive", "exponent, redundant"],
-        rows=rows,
-    )  # fmt: skip
+        scenes = [make(size) for size in sizes]
+        bodies = [len(scene.bodies) for scene in scenes]
+        costs = [_cost(scene) for scene in scenes]
+        slopes = [exponent(bodies, [cost[k] for cost in costs], LARGE) for k in range(2)]
+        for i, (n, cost) in enumerate(zip(bodies, costs, strict=True)):
+            last = slopes if i == len(bodies) - 1 else [None, None]
+            yield [label, n, None, *cost, cost[1] / cost[0], *last]
+    for rods in ROWS:
+        cost = _cost(meshed(MESHED, rods))
+        yield ["chain with rods", MESHED, rods, *cost, cost[1] / cost[0], None, None]
 
 
-def loop_rows(*, repeats: int) -> Section:
-    """Where a dense block for loops costs more than sparse elimination of all joints."""
-    rows: list[list[Any]] = []
-    for bodies in (10, 30, 100):
-        for loops in (1, 2, 3, 5, 10, 20):
-            if loops > bodies:
-                continue
-            scene = meshed(bodies, loops)
-            recursive, redundant = _cost(scene, repeats=repeats, formulations=("recursive", "redundant"))
-            rows.append([bodies, loops, recursive, redundant, redundant / recursive])
-    return Section(
-        title="Rows that close loops",
-        text=(
-            "One evaluation, us, of chains that rods tie to the ground, one row each. A row costs the "
-            "recursive form a pass over the tree, and its share of a dense factorisation."
-        ),
-        head=["bodies", "rows", "recursive, us", "redundant, us", "redundant over recursive"],
-        rows=rows,
-    )
+SECTION = Section(
+    title="Cost over the size of a scene",
+    text=(
+        f"One evaluation, us, of bodies under gravity alone. Exponent: slope in logarithms from {LARGE} "
+        "bodies on; the aim for `recursive` is at most 1.1. A crane has nine bodies and two cylinders, "
+        "whose loops need no constraint. A rod from a link to the ground is a row: it costs the recursive "
+        "form a pass over the tree, and its share of a dense factorisation."
+    ),
+    head=["scene", "bodies", "rows", "recursive, us", "redundant, us", "redundant over recursive",
+          "exponent, recursive", "exponent, redundant"],
+    rows=growth,
+    sources=STEPS,
+)  # fmt: skip

@@ -1,57 +1,80 @@
-"""A part of the benchmark document: what was measured, how, and the numbers as a Markdown table."""
+"""A table that somebody decides by: what it tells, how it is measured, and which sources it depends on."""
 
 from __future__ import annotations
 
+import inspect
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .table import markdown, write
+from . import sources
+from .table import write
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = ROOT / "benchmarks" / "results"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Section:
-    """One table with its heading and the sentences that say how it was measured."""
+    """One table with its heading and the sentences that say how it was measured.
+
+    Attributes
+    ----------
+    title, text, head : what a reader sees.
+    rows : measures them.
+    sources : files, folders or globs that the numbers depend on, besides the module of `rows`.
+    name : of its file; "": from the title.
+    of : tables that it is made of.
+    needs : what has to be there before it can be measured, in words; "" where all is.
+    """
 
     title: str
     text: str
     head: Sequence[str]
-    rows: Sequence[Sequence[Any]]
-    folder: str = "benchmarks/results"  # of its published file
+    rows: Callable[[], Iterable[Sequence[Any]]]
+    sources: Sequence[str] = ()
+    name: str = ""
+    of: Sequence[str] = ()
+    needs: Callable[[], str] = str
 
     @property
-    def name(self) -> str:
-        """Of its file: the title in lower-case words joined by hyphens."""
-        return re.sub(r"[^a-z0-9]+", "-", self.title.lower()).strip("-")
+    def path(self) -> Path:
+        """Of its published file: the name, or the title in lower-case words joined by hyphens."""
+        name = self.name or re.sub(r"[^a-z0-9]+", "-", self.title.lower()).strip("-")
+        return RESULTS / f"{name}.csv"
 
     @property
-    def cells(self) -> list[list[str]]:
-        """The rows as they are published, numbers to three significant digits."""
-        return [[_cell(value) for value in row] for row in self.rows]
+    def globs(self) -> tuple[str, ...]:
+        """Its sources, and the module that measures it."""
+        own = Path(inspect.getfile(inspect.unwrap(self.rows))).resolve()
+        return (*self.sources, own.relative_to(ROOT).as_posix())
 
-    def save(self, folder: Path) -> None:
-        """Write the table to a file of the section's name."""
-        write(folder / f"{self.name}.csv", self.head, self.cells)
+    def measure(self, *, cpu: Callable[[], float], path: Path | None = None) -> None:
+        """Measure and write the table, with what measured it and what that took by a clock in s."""
+        before = cpu()
+        rows = [[cell(value) for value in row] for row in self.rows()]
+        of = [RESULTS / f"{name}.csv" for name in self.of]
+        write(path or self.path, self.head, rows, of=of, globs=self.globs, cpu_s=cpu() - before)
 
-    def markdown(self) -> str:
-        """Heading, text and table."""
-        return f"## {self.title}\n\n{self.text}\n\n{markdown(self.head, self.cells)}"
+    @property
+    def stale(self) -> str:
+        """Why it has to be measured again; "" where it has not."""
+        return sources.stale(self.path, self.globs)
 
-    def marked(self, *, shown: bool = True) -> str:
-        """Heading, text, and a mark that `benchmarks/documents.py` fills with the table or its place."""
-        word = "table" if shown else "place"
-        mark = f"<!-- {word} {self.folder}/{self.name}.csv -->\n<!-- end of {word} -->"
-        return f"## {self.title}\n\n{self.text}\n\n{mark}"
+    @property
+    def marked(self) -> str:
+        """Heading, text, and a mark that `benchmarks/documents.py` fills with the table."""
+        mark = f"<!-- table {self.path.relative_to(ROOT).as_posix()} -->\n<!-- end of table -->"
+        return f"### {self.title}\n\n{self.text}\n\n{mark}\n"
 
 
-def _cell(value: Any) -> str:
+def cell(value: Any) -> str:
+    """As it is published, numbers to three significant digits."""
     if value is None:
         return ""
-    if isinstance(value, float):
-        return significant(value)
-    return str(value)
+    return significant(value) if isinstance(value, float) else str(value)
 
 
 def significant(value: float, digits: int = 3) -> str:

@@ -15,12 +15,14 @@ from seacrane.trading.case import Case
 from seacrane.trading.measured_case import timed
 
 from .section import Section
+from .sources import CRANE, LINE
 
 Array = NDArray[np.float64]
 
 T_END, DT_OUT = 100.0, 0.2  # s
 STIFFNESSES = (1e7, 1e8, 1e9, 1e10, 1e11)  # N
 STIFFEST_IMPLICIT = 1e8  # N: beyond it implicit methods take minutes
+REPEATS = 3
 WEIGHT, LINK = 1e4 * 9.80665, 8.0  # N, m
 TIGHT = Method(integrator="dop853", rtol=1e-8)
 RIGID = Method(integrator="dopri5", rtol=1e-4)
@@ -57,49 +59,22 @@ def lifted(stiffness: float, stretch: str) -> Scene:
     return scene
 
 
-def stiff_lines(*, repeats: int) -> Section:
-    """Cost and error of every rung and sensible method over EA."""
-    rigid = run_of(cases.case2(), RIGID, repeats=repeats)
-    rows: list[list[Any]] = []
+def stiff_lines() -> Iterator[list[Any]]:
+    """Cost and error of every rung and sensible method over EA; the rigid link first."""
+    rigid = run_of(cases.case2(), RIGID, repeats=REPEATS)
+    yield ["", "rigid link", f"{RIGID.integrator} {RIGID.rtol:g}", rigid.evaluations, 1, 1, None, None]
     for stiffness in STIFFNESSES:
         truth = run_of(lifted(stiffness, "elastic"), TIGHT, repeats=1)
         for stretch, method in _tried(stiffness):
             ran = run_of(
-                lifted(stiffness, stretch), method, repeats=1 if method.integrator != "dopri5" else repeats
+                lifted(stiffness, stretch), method, repeats=1 if method.integrator != "dopri5" else REPEATS
             )
-            rows.append(
-                [
-                    power_of_ten(stiffness),
-                    stretch,
-                    f"{method.integrator} {method.rtol:g}",
-                    ran.evaluations,
-                    ran.evaluations / rigid.evaluations,
-                    ran.cpu_ms / rigid.cpu_ms,
-                    1e3 * float(np.linalg.norm(ran.payload - truth.payload, axis=1).max()),
-                    100.0 * float(np.abs(ran.tension - truth.tension).max() / np.ptp(truth.tension)),
-                ]
-            )
-    return Section(
-        title="Stiff lines",
-        text=(
-            f"{T_END:g} s of case 2, its link of {LINK:g} m replaced by a line of EA, 2 % damped. "
-            "Errors are those of the payload's place and of the tension (of its range) against the elastic "
-            f"line solved tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}); costs are over those "
-            f"of the rigid link with `{RIGID.integrator}`, {RIGID.rtol:g}: "
-            f"{rigid.evaluations} evaluations."
-        ),
-        head=[
-            "EA, N",
-            "stretch",
-            "method",
-            "evaluations",
-            "evaluations over rigid",
-            "CPU over rigid",
-            "payload error, mm",
-            "tension error, %",
-        ],
-        rows=rows,
-    )
+            yield [
+                power_of_ten(stiffness), stretch, f"{method.integrator} {method.rtol:g}", ran.evaluations,
+                ran.evaluations / rigid.evaluations, ran.cpu_ms / rigid.cpu_ms,
+                1e3 * float(np.linalg.norm(ran.payload - truth.payload, axis=1).max()),
+                100.0 * float(np.abs(ran.tension - truth.tension).max() / np.ptp(truth.tension)),
+            ]  # fmt: skip
 
 
 def _tried(stiffness: float) -> Iterator[tuple[str, Method]]:
@@ -110,8 +85,9 @@ def _tried(stiffness: float) -> Iterator[tuple[str, Method]]:
             yield "elastic", method
 
 
-def run_of(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) -> Ran:
-    case = Case(scene=scene, t_end=t_end, dt_out=DT_OUT)
+def run_of(scene: Scene, method: Method, *, repeats: int) -> Ran:
+    """Of the payload and the line."""
+    case = Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
     has_line = "link" in scene.loads
     done = timed(case, method, ["position", "line_tension" if has_line else "tension"], repeats=repeats)
     if done.stopped is not None:
@@ -125,11 +101,20 @@ def run_of(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) 
     )
 
 
-def path_of(stiffness: float, t_end: float) -> Array:
-    """Places of the payload on an elastic line, solved tightly."""
-    return run_of(lifted(stiffness, "elastic"), TIGHT, repeats=1, t_end=t_end).payload
-
-
 def power_of_ten(stiffness: float) -> str:
     """As 1e8."""
     return f"1e{round(np.log10(stiffness))}"
+
+
+SECTION = Section(
+    title="Stiff lines",
+    text=(
+        f"{T_END:g} s of case 2, its link of {LINK:g} m replaced by a line of EA, 2 % damped. Errors are "
+        "those of the payload's place and of the tension (of its range) against the elastic line solved "
+        f"tightly (`{TIGHT.integrator}`, {TIGHT.rtol:g}); costs are over those of the rigid link."
+    ),
+    head=["EA, N", "stretch", "method", "evaluations", "evaluations over rigid", "CPU over rigid",
+          "payload error, mm", "tension error, %"],
+    rows=stiff_lines,
+    sources=(*CRANE, *LINE),
+)  # fmt: skip

@@ -6,8 +6,11 @@ import csv
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-from .engine import record
+from seacrane.inputs.atomic import atomic_write
+
+from .sources import record
 
 
 def read(path: Path) -> tuple[list[str], list[list[str]]]:
@@ -17,12 +20,12 @@ def read(path: Path) -> tuple[list[str], list[list[str]]]:
     return head, rows
 
 
-def write(path: Path, head: Sequence[str], rows: Sequence[Sequence[str]], *, of: Sequence[Path] = ()) -> None:
-    """A CSV file, with what measured it noted beside it; `of` are the tables that it is made of."""
+def write(path: Path, head: Sequence[str], rows: Sequence[Sequence[str]], **about: Any) -> None:
+    """A CSV file, complete or not at all, with what measured it noted beside it (see `record`)."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with atomic_write(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
-    record(path, of)
+    record(path, **about)
 
 
 def markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -14,37 +15,28 @@ from seacrane.scene import HullLoads, Waves
 from seacrane.scene.position import force_by_heading
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
 
-from .exponent import exponent
+from .scaling import exponent
 from .section import Section
+from .sources import HULL, STEPS, WATER
 from .timing import evaluation_ns
 
 COUNTS = (10, 30, 100, 300, 1_000, 3_000, 10_000)
 LARGE = 100  # exponents are fitted from here on, where fixed costs no longer show
 BAND = (0.3, 2.5)  # rad/s
+REPEATS = 5
 
 
-def wave_loads(*, repeats: int, counts: tuple[int, ...] = COUNTS) -> Section:
+def wave_loads() -> Iterator[list[Any]]:
     """One evaluation with waves less one without, by number of components and kind of evaluation."""
     database = shipped_database()
     calm = Scene(name="calm")
     calm.add_vessel(database, memory="per-pair")
-    rows = [_row(calm, database, count, repeats) for count in counts]
-    slopes = [exponent(list(counts), [row[k] for row in rows], LARGE) for k in range(1, 5)]
-    return Section(
-        title="Wave loads",
-        text=(
-            "The vessel alone in waves less the vessel in calm water, ns per evaluation; calls 25 ms apart, "
-            "as in a run. The table's knots are made on the way and are part of it. Set-up is the time to "
-            "compile the scene. Frequencies are equally spaced: the FFT's series holds one period. "
-            f"Exponent: slope in logarithms from {LARGE} components on."
-        ),
-        head=["components", "exact sum", "table", "FFT series", "actual position", "table, knots s apart",
-              "set-up table [ms]", "set-up FFT [ms]", "FFT series covers [h]"],
-        rows=[*rows, ["exponent", *slopes, None, None, None, None]],
-    )  # fmt: skip
+    rows = [_row(calm, database, count) for count in COUNTS]
+    slopes = [exponent(list(COUNTS), [row[k] for row in rows], LARGE) for k in range(1, 5)]
+    yield from (*rows, ["exponent", *slopes, None, None, None, None])
 
 
-def _row(calm: Scene, database: HydroDatabase, count: int, repeats: int) -> list[Any]:
+def _row(calm: Scene, database: HydroDatabase, count: int) -> list[Any]:
     waves = _sea(database, count)
     kinds = {
         "calm": None,
@@ -59,7 +51,7 @@ def _row(calm: Scene, database: HydroDatabase, count: int, repeats: int) -> list
         start = time.thread_time()
         models[kind] = scene.compile()
         setup[kind] = (time.thread_time() - start) * 1e3
-    for _ in range(repeats):  # in turn, so that all kinds meet the same disturbances
+    for _ in range(REPEATS):  # in turn, so that all kinds meet the same disturbances
         for kind, model in models.items():
             calls = max(200, 400_000 // count) if kind in ("exact", "actual") else 20_000
             cost[kind] = min(cost[kind], evaluation_ns(model, repeats=1, count=calls))
@@ -86,3 +78,18 @@ def _sea(database: HydroDatabase, count: int) -> Waves:
         direction=np.full(omega.size, direction),
         hulls={"vessel": HullLoads(transfer=transfer)},
     )
+
+
+SECTION = Section(
+    title="Wave loads",
+    text=(
+        "The vessel alone in waves less the vessel in calm water, ns per evaluation; calls 25 ms apart, as "
+        "in a run. The table's knots are made on the way and are part of it. Set-up is the time to compile "
+        "the scene. Frequencies are equally spaced: the FFT's series holds one period. Exponent: slope in "
+        f"logarithms from {LARGE} components on."
+    ),
+    head=["components", "exact sum", "table", "FFT series", "actual position", "table, knots s apart",
+          "set-up table [ms]", "set-up FFT [ms]", "FFT series covers [h]"],
+    rows=wave_loads,
+    sources=(*STEPS, *WATER, *HULL),
+)  # fmt: skip

@@ -13,15 +13,11 @@ mujoco=$(echo "$site"/mujoco/libmujoco.so.*)
 g++ "${flags[@]}" "-I$site/mujoco/include" "$here/mujoco_run.cpp" -o "$out/mujoco_run" "$mujoco" \
   "-Wl,-rpath,$site/mujoco"
 
-g++ "${flags[@]}" -fPIC -shared "-I$site/mujoco/include" "$here/mujoco_loads.cpp" -o "$out/mujoco_loads.so"
-
 prefix=$site/cmeel.prefix
 g++ "${flags[@]}" -w -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
   -isystem "$prefix/include" -isystem /usr/include/eigen3 -c "$here/pinocchio_dynamics.cpp" \
   -o "$out/pinocchio_dynamics.o"
 integrate=$here/../../cpp/seacrane/integrate
-for driver in pinocchio_run pinocchio_batch; do
-  g++ "${flags[@]}" "$here/$driver.cpp" "$out/pinocchio_dynamics.o" -o "$out/$driver" \
+g++ "${flags[@]}" "$here/pinocchio_run.cpp" "$out/pinocchio_dynamics.o" -o "$out/pinocchio_run" \
     "$integrate"/{integrator,last_step,integration_error,error_norm,one_step,adaptive_step,fixed_step,rk4,embedded_pairs}.cpp \
     "-L$prefix/lib" -pthread -lpinocchio_default "-Wl,-rpath,$prefix/lib"
-done

@@ -24,10 +24,8 @@ from system import DT_OUT, T_END, tree_data, write_tree
 from seacrane import Scene
 
 Array = NDArray[np.float64]
-HERE = Path(__file__).resolve().parent
 SEACRANE = {
     "rk4": ("dt", (0.1, 0.05, 0.025)),
-    "dopri5": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
     "tsit5": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
     "verner65": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
     "verner76": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
@@ -38,17 +36,8 @@ PINOCCHIO = {
     "rk4": ("dt", (0.1, 0.05, 0.025, 0.0125, 0.00625)),
 }
 BAUMGARTE = 10.0  # 1/s
-MUJOCO = [
-    ("rk4", step, factor * step)
-    for step in (0.05, 0.025, 0.0125, 0.005, 0.0025, 0.00125)
-    for factor in (1.0, 0.5)
-] + [("implicitfast", step, 2.0 * step) for step in (0.01, 0.002)]
-EXUDYN = [  # method, step, relative tolerance of Newton's iterations
-    ("trapezoidal", 0.01, 1e-8), ("trapezoidal", 0.005, 1e-8), ("trapezoidal", 0.0025, 1e-10),
-    ("trapezoidal", 0.001, 1e-10), ("trapezoidal", 0.0008, 1e-10),
-    ("generalized-alpha 0.9", 0.005, 1e-8), ("generalized-alpha 0.9", 0.001, 1e-10),
-]  # fmt: skip
-NUMPY = [("RK45", 1e-4), ("RK45", 1e-6), ("DOP853", 1e-6), ("DOP853", 1e-9)]
+MUJOCO = [("rk4", step, factor * step) for step in (0.05, 0.0125, 0.005, 0.00125) for factor in (1.0, 0.5)]
+NUMPY = [("RK45", 1e-6), ("DOP853", 1e-9)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,10 +103,8 @@ def driver_run(command: list[str]) -> tuple[float, int, Array, Array]:
     return float(head.split()[0]), int(head.split()[1]), values[:, :3], values[:, 3]
 
 
-def peer_points(
-    scene: Scene, reference: Reference, drivers: Path, python: str, repeats: int
-) -> Iterator[Point]:
-    """Pinocchio, MuJoCo and Exudyn; the last one once each, in the peers' Python."""
+def peer_points(scene: Scene, reference: Reference, drivers: Path, repeats: int) -> Iterator[Point]:
+    """Pinocchio and MuJoCo."""
     with tempfile.TemporaryDirectory() as folder:
         tree, model = Path(folder) / "tree.txt", Path(folder) / "model.xml"
         write_tree(scene, tree)
@@ -135,13 +122,6 @@ def peer_points(
             cpu, evaluations, payload, roll = driver_run([str(word) for word in command])
             yield reference.point(
                 payload, roll, engine="MuJoCo", method=method, setting=f"dt {step:g}, loops {constant:g} s",
-                cpu=cpu, evaluations=evaluations,
-            )  # fmt: skip
-        for method, step, tolerance in EXUDYN:
-            command = [python, HERE / "exudyn_run.py", tree, method, step, tolerance, 1]
-            cpu, evaluations, payload, roll = driver_run([str(word) for word in command])
-            yield reference.point(
-                payload, roll, engine="Exudyn", method=method, setting=f"dt {step:g}, Newton {tolerance:g}",
                 cpu=cpu, evaluations=evaluations,
             )  # fmt: skip
 

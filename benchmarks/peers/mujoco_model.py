@@ -63,13 +63,7 @@ class _Writer:
 X, Y, Z = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]
 
 
-IN_A_BATCH = (
-    '<custom><numeric name="member" size="1"/></custom>'
-    '<sensor><framepos objtype="body" objname="payload"/></sensor>'
-)
-
-
-def mjcf(data: Mapping[str, Array], more: str = "") -> str:
+def mjcf(data: Mapping[str, Array]) -> str:
     """The model; step, integrator and stiffness of the loops are set by the driver."""
     w = _Writer(data)
     w.open("vessel", np.zeros(3), "vessel", "tower")
@@ -104,6 +98,5 @@ def mjcf(data: Mapping[str, Array], more: str = "") -> str:
     return (
         f'<mujoco><compiler angle="radian" autolimits="false"/><option gravity="{gravity}" solver="Newton" '
         'tolerance="1e-14" iterations="20" jacobian="dense"><flag contact="disable"/></option>'
-        f"<worldbody>{''.join(w.lines)}</worldbody><equality>{anchors}</equality>"
-        f"{more}</mujoco>"
+        f"<worldbody>{''.join(w.lines)}</worldbody><equality>{anchors}</equality></mujoco>"
     )

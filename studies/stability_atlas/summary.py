@@ -1,22 +1,10 @@
-"""The summary that README.md shows, from all runs of an atlas.
-
-    PYTHONPATH=studies python -m stability_atlas.summary out/extremes/extremes.csv [NAME]
-
-writes it to ``benchmarks/results/<NAME>.csv``, by default ``stability-atlas``, and fills README.md by
-``benchmarks/documents.py``.
-"""
+"""The summary that README.md shows, from all runs of an atlas: `benchmarks/run.py --only stability-atlas`."""
 
 from __future__ import annotations
 
-import csv
-import subprocess
-import sys
 from collections.abc import Iterable
 from math import isfinite
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-RESULTS = ROOT / "benchmarks" / "results"
 VERDICTS = ("completed", "refused", "stopped", "slow")
 HEAD = ("axis", "values", "runs", *VERDICTS, "default: error", "default: energy", "known within")
 
@@ -49,18 +37,3 @@ def _counts(runs: list[dict[str, str]]) -> list[str]:
 def _largest(runs: list[dict[str, str]], column: str) -> str:
     values = [float(row[column]) for row in runs if row[column] and isfinite(float(row[column]))]
     return f"{max(values):.0e}" if values else ""
-
-
-def main(source: str, name: str = "stability-atlas") -> None:
-    """Read the atlas, write its summary."""
-    target = RESULTS / f"{name}.csv"
-    with Path(source).open(newline="", encoding="utf-8") as file:
-        rows = summary(csv.DictReader(file))
-    with target.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
-    fill = [sys.executable, str(ROOT / "benchmarks" / "documents.py"), "--measured", str(target)]
-    subprocess.run(fill, check=True)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

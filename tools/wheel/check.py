@@ -4,7 +4,7 @@ It is installed where no compiler is found. `seacrane doctor` and `seacrane --ve
 what `seacrane examples` writes a script, a lift file and the first notebook; every notebook has its outputs.
 A run of case 2 is compared with one of the package that the system's own compiler made. Seeds of it in lanes,
 as many as this processor has instructions for, are compared with seeds one by one. Facts go to
-wheel-facts.csv beside the wheel, with --publish also into benchmarks/results and the documents.
+wheel-facts.csv beside the wheel, which `benchmarks/run.py --only wheel` publishes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,6 @@ from processor import lanes_of_this_processor
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
 TRIAL = ROOT / "build" / "wheel" / "trial"
-PUBLISHED = ROOT / "benchmarks" / "results" / "wheel.csv"
 OLDEST = (2, 28)  # the newest glibc that the wheel may ask for
 SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}  # and the loader
 LOADER = "ld-linux"
@@ -161,18 +160,12 @@ def main() -> None:
     parser.add_argument(
         "--notebooks", nargs="+", default=every, metavar="NAME", help="that it holds (default: all)"
     )
-    parser.add_argument("--publish", action="store_true", help="also into benchmarks/ and the documents")
     asked = parser.parse_args()
     facts = checked_inside(asked.wheel)
     clean = Clean.with_wheel(asked.wheel.resolve(), TRIAL)
     facts |= tried(clean, asked.notebooks) | stepped_in_lanes(clean) | compared(clean, asked.against)
     write(facts, asked.wheel.with_name("wheel-facts.csv"))
     print("\n".join(f"{name}: {value}" for name, value in facts.items()))
-    if asked.publish:
-        write(facts, PUBLISHED)
-        subprocess.run(
-            [sys.executable, ROOT / "benchmarks" / "documents.py", "--measured", PUBLISHED], check=True
-        )
 
 
 if __name__ == "__main__":
