@@ -75,6 +75,7 @@ def test_names_exchanged_exchange_everything() -> None:
     found = unpacked(packed(group), (HydroGroup,))  # stored as bytes
     assert isinstance(found, HydroGroup)
     assert (found.digest, found.names) == (group.digest, group.names)
+    assert "crane, feeder" in repr(group)
 
 
 def axisymmetric(force: float) -> HydroDatabase:

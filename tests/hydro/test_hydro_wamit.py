@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
@@ -246,7 +247,12 @@ def test_length_scale_depth_and_upper_case_suffixes(copy: Path, database: HydroD
         assert getattr(found, name)[at] == pytest.approx(factor * getattr(database, name)[at]), (name, at)
 
 
-def test_files_that_are_missing_or_side_by_side(copy: Path, database: HydroDatabase) -> None:
+def test_files_that_are_missing_or_side_by_side(
+    copy: Path, database: HydroDatabase, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["hydro", str(copy / "tanker"), "--json"]) == 0
+    rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
+    assert rows["motion_rao_heave"]["verdict"] == "pass"
     database.save(copy / "ours.nc")  # with its limits
     again = load_database(copy / "ours.nc")
     (copy / "ours.nc").unlink()

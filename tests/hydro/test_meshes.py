@@ -182,6 +182,7 @@ def test_scene_files_hold_the_triangles(tmp_path: Path) -> None:
     assert loaded == copy.deepcopy(scene) == scene
     np.testing.assert_array_equal(loaded.meshes["ball"].vertices, mesh.vertices)
     np.testing.assert_array_equal(loaded.meshes["ball"].faces, mesh.faces)
+    assert "meshes" in str(scene)
     twin = pickle.loads(pickle.dumps(mesh))
     assert twin == mesh and hash(twin) == hash(mesh) and not twin.vertices.flags.writeable
     assert mesh != pendulum().add_mesh(body="ball", **BOX)

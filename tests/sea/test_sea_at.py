@@ -92,8 +92,8 @@ def test_a_profile_is_linear_between_depths_and_held_beyond() -> None:
     assert current.mean(0.0) == pytest.approx((1.0, 0.0))
     scene = Scene(name="flow")
     scene.add_sea(vessel=None, hs=0.0, current=current)
-    at = scene.sea_at(points=[(0.0, 0.0, -10.0), (3.0, 0.0, -40.0)], times=[1.0])
-    assert np.allclose(at.velocity[0], [[0.75, 0.0, 0.0], [0.25, 0.0, 0.0]])
+    at = scene.sea_at(points={"ten": (0.0, 0.0, -10.0), "forty": (3.0, 0.0, -40.0)}, times=[1.0])
+    assert np.allclose(at.velocity.sel(point=["forty", "ten"])[0], [[0.25, 0.0, 0.0], [0.75, 0.0, 0.0]])
     assert not at.elevation.any() and not at.acceleration.any()
 
 

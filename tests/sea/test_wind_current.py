@@ -162,6 +162,8 @@ def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
     again = Scene.load(tmp_path / "wind.json")
     assert list(again.loads) == ["wind", "current"]
     assert kind_of(again.loads["wind"]) == "flow force"
+    rows = [row for rows in scene.report().values() for row in rows]
+    assert ("wind and current", ["wind (block)", "current (block)"]) in rows
     first, second = (simulate(s, t_end=10.0, dt_out=1.0) for s in (scene, again))
     for name in ("position", "quaternion"):
         np.testing.assert_array_equal(first.channels[name], second.channels[name])
@@ -205,5 +207,10 @@ def test_bad_values_are_refused() -> None:
     scene.add_wind(speed=1.0, direction_deg=0.0, **FLOW)
     with pytest.raises(SceneError, match="used twice"):
         scene.add_wind(speed=1.0, direction_deg=0.0, **FLOW)
+    with pytest.raises(SceneError, match="of no known kind"):
+        scene.add_load(3.0)
+    ends = {"bodies": ["ground", "block"], "points": [[0, 0, 9], [0, 0, 0]], "EA": 1e6, "length": 9.0}
+    with pytest.raises(SceneError, match="line 'wind': the name is used twice"):
+        scene.add_line(name="wind", **ends)
     with pytest.raises(SceneError, match="gust: duration is -1"):
         gust_curve(mean_speed=20.0, duration=-1.0)
