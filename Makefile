@@ -23,6 +23,8 @@
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
+# Compiled modules are kept, whatever the shell says: tests start thousands of processes.
+unexport PYTHONDONTWRITEBYTECODE
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
