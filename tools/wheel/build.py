@@ -40,6 +40,7 @@ def compilers() -> dict[str, str]:
     return {
         **os.environ,
         **launcher,
+        "CCACHE_BASEDIR": str(BUILD),  # of the sources and of the libraries
         # A package of Python has another date in each environment, and its contents take long to read.
         "CCACHE_COMPILERCHECK": f"string:zig{version('ziglang')}",
         "CC": f"{zig} cc {options}",
