@@ -281,7 +281,7 @@ def test_waves_on_parts_beside_a_given_ship_may_be_fewer() -> None:
 
 
 @pytest.mark.slow("fits memories")
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.RelativePlaceWarning", "ignore::seacrane.warnings.MemoryFitWarning")
+@pytest.mark.warns("RelativePlaceWarning", "MemoryFitWarning")
 def test_hulls_that_do_not_feel_each_other_need_no_group() -> None:
     alone = barges(lid=None)
     (choice,) = [one for one in choices_of(alone) if one.of.startswith("coupling")]
