@@ -67,8 +67,8 @@ SPEED = Section(
     title="Speed of 100 s",
     text=(
         "One evaluation of the whole right-hand side, and the CPU time of the loop over 100 s, recording "
-        "included: `dopri5` at rtol 1e-6 with every default channel every 0.1 s, which is the default, and "
-        f"`tsit5` at rtol 1e-2. Memory per pair, 200 wave components by table; best of {REPEATS}. The "
+        "included. The default is `dopri5` at rtol 1e-6 with every default channel every 0.1 s; beside it "
+        f"runs `tsit5` at rtol 1e-2. Memory per pair, 200 wave components by table; best of {REPEATS}. The "
         "default of `formulation` takes the recursive form where it can. Aims for case2: 3,000 ns, and 300 "
         "times real time."
     ),

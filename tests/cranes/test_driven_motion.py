@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from element_runs import FORMULATIONS as FORMS
 from element_runs import goes_on
+from marks import needs_lanes
 from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
 from numpy.typing import NDArray
 
@@ -183,7 +184,7 @@ def test_a_stop_that_holds_leaves_one_unknown_less_and_the_same_motion() -> None
     assert np.abs(led["position"] - rows["position"]).max() < 1e-6
 
 
-@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@needs_lanes
 @pytest.mark.parametrize("name", ["crane", "crane on the rod's rung", "given ship"])
 def test_lanes_follow_drivers_too(name: str) -> None:
     scenes = [lift(rung="elastic" if name == "crane" else "quasi-static", seed=seed) for seed in range(1, 5)]

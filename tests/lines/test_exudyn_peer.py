@@ -26,5 +26,5 @@ def test_the_engine_agrees_with_the_record(compared: Any) -> None:
 
 
 def test_exudyn_gives_its_record(compared: Any) -> None:
-    pytest.importorskip("exudyn", reason="needs the package 'exudyn', as `make bench-peers` installs it")
+    pytest.importorskip("exudyn", reason="needs the package 'exudyn', as `make bench` installs it")
     assert_allclose(np.array(compared.peer.run()), compared.recorded(), atol=1e-6, rtol=1e-8)

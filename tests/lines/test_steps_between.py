@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 from dropped import GRAVITY, METHODS, drops
+from marks import needs_lanes
 
 from seacrane import Run, Scene, SimulationError, Stage, Until, simulate, simulate_stages
-from seacrane.run.lanes import advance_side_by_side, module_of
+from seacrane.run.lanes import advance_side_by_side
 
 FORMULATIONS = ("recursive", "redundant")
 FIXED = ("semi-implicit-euler", "rk4", "rk-low-storage", "generalized-alpha")
@@ -73,7 +74,7 @@ def test_a_given_step_that_leads_through_a_deck_is_refused_and_a_short_one_holds
     assert simulate(over_deck(5.0, 0.5), 2.0, dt=0.002, **given)["position"][:, 0, 2].min() > 0.75
 
 
-@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@needs_lanes
 def test_lanes_step_over_no_deck() -> None:
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "formulation": "recursive", "dt_out": 0.1}
     runs = [Run(over_deck(4.0, 1.0, speed), **given) for speed in (0.0, 1.0, 3.0, 6.0)]

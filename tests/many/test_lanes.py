@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from ensemble_studies import drifting_hull, luffed, pendulum
+from marks import needs_lanes
 from random_scenes import KINDS, Shape, build
 
 from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
@@ -21,7 +22,7 @@ from seacrane.ensembles.paths import with_values
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
 
 LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
-needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
+
 TRACK = Kept(channel="position", names={"body": "payload"}, interval=2.0)
 MORE = "the lifts differ in what lanes share: in"
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from ensemble_studies import pendulum
 from hydraulic_scenes import raised
+from marks import needs_lanes
 
 from seacrane import Curve, Kept, Run, Scene, _core, ensemble, shipped_database
 from seacrane.run.lanes import advance_side_by_side, module_of
 
 pytestmark = [
-    pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
+    needs_lanes,
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 from ensemble_studies import cart, luffed
+from marks import needs_lanes
 from stage_scenes import on_deck
 
 from seacrane import Kept, Move, Scene, Stage, Until, ensemble, shipped_database
-from seacrane.run.lanes import module_of
 
 pytestmark = [
-    pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
+    needs_lanes,
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
 FINE = {"rtol": 1e-8, "dt_out": 0.1}

@@ -12,18 +12,19 @@ import numpy as np
 import pytest
 from ensemble_studies import drifting_hull
 from limit_scenes import limited
+from marks import needs_lanes
 from random_scenes import KINDS, Shape, build
 
 from seacrane import Result, Run, Scene, SceneError, SeacraneError, Stage, Until, cases
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import _paths, with_values
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.lanes import advance_side_by_side, module_of
+from seacrane.run.lanes import advance_side_by_side
 from seacrane.run.lifts_in_lanes import LiftsInLanes
 from seacrane.run.staged_run import StagedRun
 
 pytestmark = [
-    pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
+    needs_lanes,
     pytest.mark.filterwarnings("ignore::UserWarning"),
 ]
 T_END = 3.0

@@ -39,7 +39,7 @@ BY_NIGHT = pytest.mark.slow("many runs")
     "job", [pytest.param(path, marks=BY_NIGHT if path.stem in LONG else [], id=path.stem) for path in JOBS]
 )
 def test_a_job_prints_what_its_document_shows(job: Path, tmp_path: Path) -> None:
-    """Words exactly, numbers within 5 %: `python benchmarks/jobs.py --publish` writes the document anew."""
+    """Words exactly, numbers within 5 %: `python benchmarks/run.py --only jobs` writes the document anew."""
     done = subprocess.run(
         [sys.executable, str(job)], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False
     )

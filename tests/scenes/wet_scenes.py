@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, _core, simulate
-from seacrane.run import Run
 from seacrane.run.lanes import module_of
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.water.parts import Part
@@ -68,16 +67,6 @@ def alike_in_both_forms(scene: Scene, t_end: float, ledger: float, *, rtol: floa
     for run in runs:
         assert np.max(np.abs(run["energy_balance"])) < ledger * np.max(run["absolute_work"])
     return runs
-
-
-def goes_on_bit_for_bit(scene: Scene, *, t_end: float = 2.0, at: float = 0.97, **given: Any) -> None:
-    given = {"integrator": "dopri5", "dt_out": 0.1} | given
-    whole = Run(scene, t_end, **given)
-    whole.advance(at)
-    rest = Run(scene, t_end, start=whole.state, outputs_from=0.0, **given)
-    for one in (whole, rest):
-        one.advance(t_end)
-    assert np.array_equal(whole.state.values, rest.state.values)
 
 
 def has_the_jacobian_of_differences(

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from marks import needs_lanes
 
 from seacrane import (
     FlowCoefficients,
@@ -197,7 +198,7 @@ def test_another_sea_for_a_compiled_model_is_another_field() -> None:
     assert np.abs(seen - expected.velocity[:, 0, 0]).max() < 1e-12
 
 
-@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@needs_lanes
 def test_each_lane_is_in_its_own_sea() -> None:
     def scene(seed: int) -> Scene:
         out = ship_in_a_sea(seed=seed, count=40, current=Current(speed=0.1 * seed, direction_deg=160.0))

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 import wet_scenes as wet
+from element_runs import goes_on
+from marks import needs_lanes
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, equilibrium, simulate
-from seacrane.run.lanes import module_of
 from seacrane.scene import Waves
 from seacrane.sea import Current
 from seacrane.water import BoxPart, CylinderPart, Opening
@@ -325,17 +326,17 @@ def test_both_formulations_agree_and_the_ledger_closes(seed: int, air: str) -> N
 @pytest.mark.parametrize("air", ["free", "vented", "shut"])
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_run_continues_bit_for_bit(formulation: str, air: str) -> None:
-    wet.goes_on_bit_for_bit(hanging(1, air), formulation=formulation)
+    goes_on(lambda: hanging(1, air), 2.0, 0.97, integrator="dopri5", dt_out=0.1, formulation=formulation)
 
 
 def test_a_run_continues_at_a_bound_bit_for_bit() -> None:
     scene = standing(-3.6, ((0.0, 0.0, 0.0), 0.3))
     scene.waves = wave(period=8.0, amplitude=1.0)
     for stop in np.arange(8.0, 15.0, 0.7):
-        wet.goes_on_bit_for_bit(scene, at=float(stop), t_end=float(stop) + 0.7)
+        goes_on(lambda: scene, float(stop) + 0.7, float(stop), integrator="dopri5", dt_out=0.1)
 
 
-@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@needs_lanes
 @pytest.mark.parametrize("air", ["free", "vented", "shut"])
 def test_lanes_hold_water_each_its_own(air: str) -> None:
     scenes = [hanging(2, air) for _ in range(4)]

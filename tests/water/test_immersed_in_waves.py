@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 import wet_scenes as wet
+from element_runs import goes_on
+from marks import needs_lanes
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
 from seacrane.description.forces import add_load
-from seacrane.run.lanes import module_of
 from seacrane.scene import Waves
 from seacrane.sea import Current
 from seacrane.water import BoxPart, CylinderPart, SpherePart
@@ -135,11 +136,11 @@ def test_both_formulations_agree_in_waves_and_the_ledger_closes(seed: int) -> No
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
 @pytest.mark.parametrize("formulation", FORMS)
 def test_a_run_in_waves_continues_bit_for_bit(formulation: str) -> None:
-    wet.goes_on_bit_for_bit(hanging(1), formulation=formulation)
+    goes_on(lambda: hanging(1), 2.0, 0.97, integrator="dopri5", dt_out=0.1, formulation=formulation)
 
 
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
-@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+@needs_lanes
 def test_lanes_see_parts_each_in_its_own_sea_with_its_own_mass() -> None:
     scenes = [hanging(seed) for seed in range(4)]
     for lane, scene in enumerate(scenes):
