@@ -12,7 +12,7 @@ from line_scenes import STIFFNESS, hung
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
-from seacrane import Curve, Scene, SceneError, _core, cases, equilibrium, natural_modes, simulate
+from seacrane import Curve, Scene, _core, cases, equilibrium, natural_modes, simulate
 from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
@@ -52,9 +52,7 @@ def test_a_point_mass_swings_with_that_ratio_of_critical_damping(ratio: float, f
     scene = pendulum()
     scene.add_pendulum_damping(name="swing", first="ground", second="load", ratio=ratio)
     result = simulate(scene, t_end=30.0, rtol=1e-10, formulation=formulation)
-    assert swing(result) == pytest.approx(
-        1e-3 * decay(result.time, ratio), abs=1e-8
-    )  # sin: 1e-6 of the angle in the period
+    assert swing(result) == pytest.approx(1e-3 * decay(result.time, ratio), abs=1e-8)
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
 
 
@@ -87,16 +85,12 @@ def test_swing_damping_makes_no_momentum_and_no_force_along_the_wire() -> None:
     places = np.array([scene.bodies[name].position for name in ("tip", "load")])
     assert wrench[:, :3].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
     total = wrench[:, 3:] + np.cross(places, wrench[:, :3])
-    gyroscopic = [_gyroscopic(scene.bodies[name]) for name in ("tip", "load")]
+    bodies = [scene.bodies[name] for name in ("tip", "load")]
+    gyroscopic = [np.cross(b.angular_velocity, b.inertia @ b.angular_velocity) for b in bodies]
     assert total.sum(axis=0) == pytest.approx(-np.sum(gyroscopic, axis=0), abs=1e-9)
     wire = places[1] + points[1] - places[0] - points[0]
     assert wrench[1, :3] @ wire == pytest.approx(0.0, abs=1e-12)
     assert np.linalg.norm(wrench[1, :3]) > 0.1
-
-
-def _gyroscopic(body: _core.Body) -> Array:
-    omega = np.asarray(body.angular_velocity)
-    return np.cross(omega, np.asarray(body.inertia) @ omega)
 
 
 def test_a_free_body_slows_in_still_air_as_one_over_time() -> None:
@@ -136,11 +130,10 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
 
 
-KINDS = ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
-
-
 @pytest.mark.warns(sometimes=["UnitWarning"])
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind", ["pendulum damping", "span drag", "immersed span", "wound span", "seabed node"]
+)
 def test_the_jacobian_is_exact_and_both_formulations_agree_to_the_bits_of_a_restart(kind: str) -> None:
     def make() -> Scene:
         scene, rng = Scene(name="two"), np.random.default_rng(5)
@@ -173,48 +166,14 @@ def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
 
 
 def test_a_crane_without_damping_has_none_and_a_payload_of_each_has_its_own() -> None:
-    scenes = []
-    for payload, damping in (
-        (Payload(), False), (Payload(swing_damping_ratio=0.0, drag_coefficient=0.0), True), (Payload(), True)
-    ):  # fmt: skip
-        scene = Scene(name="crane")
-        scene.add_crane(base="ground", payload=payload, damping=damping)
-        scenes.append(scene)
-    bare, zero, damped = scenes
-    assert bare == zero and not bare.loads and list(damped.loads) == ["payload swing", "payload drag"]
+    bare, damped = Scene(name="crane"), Scene(name="crane")
+    bare.add_crane(base="ground", payload=Payload(), damping=False)
+    damped.add_crane(base="ground", payload=Payload())
+    assert not bare.loads and list(damped.loads) == ["payload swing", "payload drag"]
     damped.add_crane(base="ground", foot=(0.0, 30.0, 0.0), prefix="aft ", payload=Payload())
     assert list(damped.loads)[2:] == ["aft payload swing", "aft payload drag"]
     assert damped.loads["aft payload swing"].first == "aft knuckle_jib"
     assert not any(case().loads for case in (cases.case1, cases.case2, cases.case3))
-
-
-SWING: dict[str, Any] = {"name": "swing", "first": "ground", "second": "load"}
-DRAG: dict[str, Any] = {"body": "load", "frontal_area": 1.0, "lateral_area": 1.0}
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (SWING | {"ratio": 20.0}, "'swing': ratio is 20"),
-        (SWING | {"second": "hook"}, "'swing': there is no body 'hook'"),
-        (SWING | {"first": "load"}, "joins 'load' to itself"),
-        (DRAG | {"drag_coefficient": -1.0}, "drag_coefficient is -1.0"),
-        (DRAG | {"body": "hook"}, "'hook drag': there is no body 'hook'"),
-        (DRAG | {"frontal_area": -2.0}, "frontal_area is -2"),
-        ({"swing_damping_ratio": -0.1}, "payload: swing_damping_ratio is"),
-        ({"drag_coefficient": float("nan")}, "payload: drag_coefficient is"),
-    ],
-)
-def test_wrong_damping_is_refused_by_name(given: dict[str, Any], message: str) -> None:
-    scene = pendulum()
-    with pytest.raises(SceneError, match=message):
-        if "name" in given:
-            scene.add_pendulum_damping(**given)
-        elif "body" in given:
-            scene.add_air_drag(**given)
-        else:
-            Payload(**given)
-        scene.compile()
 
 
 def below_a_ship(order: int) -> Scene:
@@ -228,35 +187,27 @@ def below_a_ship(order: int) -> Scene:
     return scene
 
 
-def bounce(scene: Scene, name: str = "hoist") -> tuple[float, float, float]:
+def bounce(scene: Scene) -> tuple[float, float, float]:
     """Mass (kg), frequency (rad/s) and ratio."""
-    return scene.compile().line_bounces[name]
+    return scene.compile().line_bounces["hoist"]
 
 
 def test_the_order_of_the_ends_does_not_matter() -> None:
     there, back = (bounce(below_a_ship(order)) for order in (1, -1))
     assert there == pytest.approx(back, rel=1e-12)
     assert 0.8 * LOAD < there[0] < LOAD and there[2] == pytest.approx(0.02)
-    left = []
-    for order in (1, -1):
-        result = simulate(below_a_ship(order), 8.0, dt_out=0.01, rtol=1e-7)
-        left.append(np.ptp(result["line_tension"][600:, 0]))
-    assert left[0] == pytest.approx(left[1], rel=1e-3)
+    left = [simulate(below_a_ship(order), 8.0, dt_out=0.01, rtol=1e-7)["line_tension"] for order in (1, -1)]
+    assert np.ptp(left[0][600:]) == pytest.approx(np.ptp(left[1][600:]), rel=1e-3)
 
 
-@pytest.mark.parametrize("falls", [1, 3])
-def test_falls_count_and_a_mass_that_is_given_is_taken(falls: int) -> None:
-    scene = hung(falls=falls, damping=0.02)
+def test_falls_count_and_a_mass_that_is_given_is_taken() -> None:
+    falls, scene = 3, hung(falls=3, damping=0.02)
     scene.replace("hoist", mass=0.0)
-    mass, omega, ratio = bounce(scene)
-    assert mass == pytest.approx(LOAD / falls**2, rel=1e-9)
-    assert omega == pytest.approx(np.sqrt(STIFFNESS / LOAD), rel=1e-9)
-    assert ratio == pytest.approx(0.02)
+    assert bounce(scene) == pytest.approx((LOAD / falls**2, np.sqrt(STIFFNESS / LOAD), 0.02), rel=1e-9)
     modes = natural_modes(scene, state=equilibrium(scene))
     assert np.max(modes.damping_ratio) == pytest.approx(0.02, rel=1e-2)
     scene.replace("hoist", mass=100.0 * LOAD / falls**2)
     assert bounce(scene)[2] == pytest.approx(0.2)
-    assert "damped by 20 % of critical" in dict(scene.report()["lines"])["hoist"]
     seated = Scene(name="deck")
     seated.add_body(name="load", mass=LOAD, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     seated.add_joint(kind="weld", name="deck", first="ground", second="load")
@@ -265,27 +216,19 @@ def test_falls_count_and_a_mass_that_is_given_is_taken(falls: int) -> None:
     assert bounce(seated)[0] == pytest.approx(LOAD / (2 * falls - 1) ** 2, rel=1e-9)  # as if lifted
 
 
-def on_slings(**line: Any) -> Scene:
+def test_all_that_hangs_on_a_hook_counts() -> None:
     """20 t on four stiff slings below a hook of 500 kg on a soft hoist."""
-    scene = Scene(name="slings")
+    scene, whole = Scene(name="slings"), LOAD + 500.0
     scene.add_body(name="hook", mass=500.0, inertia=(50.0, 50.0, 50.0), position=(0, 0, -20.0))
     scene.add_body(name="box", mass=LOAD, inertia=(4e4, 4e4, 6e4), position=(0, 0, -25.0))
-    scene.add_bridle(
-        name="sling", hook="hook", load="box", EA=2e8,
-        points=[(2, 1, 1), (-2, 1, 1), (-2, -1, 1), (2, -1, 1)],
-    )  # fmt: skip
+    corners = [(2, 1, 1), (-2, 1, 1), (-2, -1, 1), (2, -1, 1)]
+    scene.add_bridle(name="sling", hook="hook", load="box", EA=2e8, points=corners)
     scene.add_line(
-        name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=3e7,
-        tension_at_start=(LOAD + 500.0) * G, **line,
-    )  # fmt: skip
-    return scene
-
-
-def test_all_that_hangs_on_a_hook_counts() -> None:
-    mass, _, ratio = bounce(on_slings())
-    assert mass == pytest.approx(LOAD + 500.0, rel=0.05)
-    assert ratio == pytest.approx(0.02, rel=0.05)
-    modes = natural_modes(on_slings(), state=equilibrium(on_slings()))
-    period = 2.0 * np.pi * np.sqrt((LOAD + 500.0) * 20.0 / 3e7)
+        name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=3e7, tension_at_start=whole * G
+    )
+    mass, _, ratio = bounce(scene)
+    assert mass == pytest.approx(whole, rel=0.05) and ratio == pytest.approx(0.02, rel=0.05)
+    modes = natural_modes(scene, state=equilibrium(scene))
+    period = 2.0 * np.pi * np.sqrt(whole * 20.0 / 3e7)
     heave = int(np.argmin(np.abs(modes.natural_period / period - 1.0)))
     assert modes.damping_ratio[heave] == pytest.approx(0.02, rel=0.05)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import Any
 
@@ -9,17 +10,7 @@ import numpy as np
 import pytest
 from line_scenes import MASS, G, below, hung
 
-from seacrane import (
-    Lift,
-    Scene,
-    SceneError,
-    Stage,
-    _core,
-    cases,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Scene, SceneError, Stage, _core, cases, equilibrium, simulate, simulate_stages
 from seacrane.warnings import LiftedStartWarning
 
 
@@ -33,53 +24,39 @@ def told(scene: Scene, t_end: float = 0.2) -> list[str]:
 
 @pytest.mark.warns("LineLengthWarning")
 def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
-    for falls in (1, 3):
-        with pytest.warns(
-            LiftedStartWarning, match=r"body 'load': its lines start by lifting it with .*, 2\.\d+"
-        ):
-            simulate(hung(stretch=2.6 * MASS * G / 3e6, falls=falls), 0.05, dt_out=0.05)
+    with pytest.warns(LiftedStartWarning, match=r"'load': its lines start by lifting it with .*, 2\.\d+"):
+        simulate(hung(stretch=2.6 * MASS * G / 3e6, falls=3), 0.05, dt_out=0.05)
     assert told(hung(stretch=1.4 * MASS * G / 3e6)) == []
-    assert told(hung(stretch=0.0)) == []
     rest = equilibrium(hung(stretch=0.15))
     with warnings.catch_warnings():
         warnings.simplefilter("error", LiftedStartWarning)
         simulate(hung(stretch=0.15), 0.05, dt_out=0.05, start=rest)
 
 
-@pytest.mark.parametrize(
-    ("length", "words"), [(0.71, "stage 'hook on': line 'tag' connects stretched"), (1.0, "")]
-)
-def test_a_stage_that_connects_a_line_too_short_is_told(length: float, words: str) -> None:
-    scene = hung()
-    path = {"bodies": ["ground", "load"], "points": [(1.0, 0, -10.0), (0, 0, 0)]}
-    scene.add_line(name="tag", EA=1e6, length=length, **path)
-    stages = [Stage(name="wait", duration=0.1), Stage(name="hook on", duration=0.1, connect=["tag"])]
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        simulate_stages(scene, stages)
-    found = [str(one.message) for one in caught if "connects" in str(one.message)]
-    assert [words in one and "by 0.29" in one for one in found] == ([True] if words else [])
-
-
-def moored() -> Scene:
-    """A barge of 100 t that hangs between two lines: at rest these are stretched by a fifth."""
-    scene = Scene(name="moored")
-    scene.add_body(name="barge", mass=1e5, size=(20, 8, 4))
-    for name, x in (("fore", 1.0), ("aft", -1.0)):
-        points = [(30.0 * x, 0, 5), (10.0 * x, 0, 0)]
-        scene.add_line(name=name, bodies=["ground", "barge"], points=points, EA=4e6, length=19.0)
-    return scene
+def test_a_stage_that_connects_a_line_too_short_is_told() -> None:
+    for length, words in ((0.71, "stage 'hook on': line 'tag' connects stretched.*by 0.29"), (1.0, "")):
+        scene = hung()
+        path = {"bodies": ["ground", "load"], "points": [(1.0, 0, -10.0), (0, 0, 0)]}
+        scene.add_line(name="tag", EA=1e6, length=length, **path)
+        stages = [Stage(name="wait", duration=0.1), Stage(name="hook on", duration=0.1, connect=["tag"])]
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            simulate_stages(scene, stages)
+        found = [str(one.message) for one in caught if "connects" in str(one.message)]
+        assert len(found) == bool(words) and all(re.search(words, one) for one in found)
 
 
 @pytest.mark.warns(sometimes=["LineLengthWarning"])
 @pytest.mark.parametrize("start", [None, "rest"])
 def test_a_line_that_is_stretched_at_rest_contradicts_nothing(start: Any) -> None:
-    """Its described pose does; runs and lifts in stages alike."""
-    runs = (
-        simulate(moored(), 0.2, start=start),
-        simulate_stages(moored(), [Stage(name="wait", duration=0.2)], start=start),
-    )
-    for run in runs:
+    """A barge of 100 t between two lines: its described pose does. Runs and lifts in stages alike."""
+    scene = Scene(name="moored")
+    scene.add_body(name="barge", mass=1e5, size=(20, 8, 4))
+    for name, x in (("fore", 1.0), ("aft", -1.0)):
+        points = [(30.0 * x, 0, 5), (10.0 * x, 0, 0)]
+        scene.add_line(name=name, bodies=["ground", "barge"], points=points, EA=4e6, length=19.0)
+    stages = [Stage(name="wait", duration=0.2)]
+    for run in (simulate(scene, 0.2, start=start), simulate_stages(scene, stages, start=start)):
         said = str(run.stats.get("validity", ""))
         assert ("line 'fore': starts stretched" in said) == (start is None)
         assert (run["line_stretch"][0] > 0.05 * 19.0).all()
@@ -99,22 +76,16 @@ def on_drum(**winch: Any) -> Scene:
 @pytest.mark.parametrize(
     ("winch", "words"),
     [
-        (
-            {"maximum_tension": 300.0},
-            "its motor and brake hold 300 N at the start, less than the 1.961e+05 N",
-        ),
+        ({"maximum_tension": 300.0}, "its motor and brake hold 300 N at the start, less than the 1.961e+05"),
         ({"brake": 1.0, "brake_capacity": 300.0}, "its motor and brake hold 300 N at the start"),
         ({"brake_capacity": 300.0}, "its brake holds 300 N, less than"),
         ({"brake": 1.0, "brake_capacity": 4e5, "maximum_tension": 300.0}, "its motor holds 300 N, less than"),
         ({"rate": -0.5, "maximum_power": 1e3}, "its winch reached its maximum_power, 1000 W, at t = "),
-        ({"rate": -0.5, "maximum_tension": 2e5}, "its winch reached its maximum_tension, 2e+05 N, at t = "),
         ({"brake": 1.0, "brake_capacity": 1.05 * MASS * G, "length": 9.99}, "reached its brake_capacity, "),
         ({"maximum_tension": 3e5, "brake_capacity": 4e5}, ""),
     ],
 )
-def test_a_winch_that_holds_too_little_or_reached_its_bound_is_told(
-    winch: dict[str, Any], words: str
-) -> None:
+def test_a_winch_that_holds_too_little_or_reached_its_bound_is_told(winch: Any, words: str) -> None:
     found = [one for one in told(on_drum(**winch), 0.5) if one.startswith("WinchLimitWarning")]
     assert any(f"line 'hoist': {words}" in one or f"its winch {words}" in one for one in found) == bool(words)
     assert bool(found) == bool(words)
@@ -154,12 +125,11 @@ def test_a_line_that_starts_with_the_weight_rests(rung: str) -> None:
     assert np.abs(result["velocity"]).max() < 1e-6
 
 
-@pytest.mark.parametrize("tension", [0.0, 3e4, 1.5e5, 9e5, 1.2e6])
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("tension", [0.0, 1.5e5, 1.2e6])
 def test_a_cord_starts_with_the_tension_of_its_table(tension: float) -> None:
     scene = tied(EA=None, tension_at_start=tension, **TABLE)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        assert simulate(scene, t_end=0.01)["line_tension"][0] == pytest.approx([tension], rel=1e-9, abs=1e-4)
+    assert simulate(scene, t_end=0.01)["line_tension"][0] == pytest.approx([tension], rel=1e-9, abs=1e-4)
 
 
 @pytest.mark.parametrize(("longer", "warned"), [(0.0, False), (0.005, False), (0.02, True), (-0.04, True)])
@@ -170,7 +140,7 @@ def test_a_soft_wire_at_rest_is_no_contradiction(longer: float, warned: bool) ->
 
 
 def test_the_length_is_that_of_the_path_and_falls_carry_half_each() -> None:
-    """Over a block: the weight on n falls stretches the line by W / (n EA). Lift files tell both."""
+    """Over a block: the weight on n falls stretches the line by W / (n EA)."""
     scene = Scene(name="falls")
     scene.add_body(name="load", mass=2.0 * MASS, inertia=MASS * np.eye(3), position=(0, 0, -4.0))
     block = {"bodies": ["ground", "load", "ground"], "points": [(-3, 0, 0), (0, 0, 0), (3, 0, 0)]}
@@ -178,12 +148,6 @@ def test_the_length_is_that_of_the_path_and_falls_carry_half_each() -> None:
     assert free.length.evaluate([0.0])[0, 0] == pytest.approx(10.0, rel=1e-12)
     pulled = scene.add_line(name="pulled", EA=SOFT, tension_at_start=MASS * G, **block)
     assert pulled.length.evaluate([0.0])[0, 0] == pytest.approx(10.0 / (1.0 + MASS * G / SOFT), rel=1e-12)
-    place = {"inertia_kg_m2": [1e5, 1e5, 1e5], "position_m": [0, 0, -DROP]}
-    line = {"name": "hoist", "bodies": ["ground", "load"], "points_m": [[0, 0, 0], [0, 0, 0]],
-            "EA_N": SOFT, "tension_at_start_N": MASS * G}  # fmt: skip
-    lift = Lift({"body": [{"name": "load", "mass_kg": MASS, **place}], "line": [line]})
-    start = lift.scene().loads["hoist"].length.evaluate([0.0])[0, 0]
-    assert start == pytest.approx(DROP / (1.0 + MASS * G / SOFT), rel=1e-12)
 
 
 def test_a_line_is_tied_above_the_center_of_a_body_with_a_size_else_to_its_origin() -> None:
@@ -204,14 +168,12 @@ BETWEEN = {"name": "hoist", "first": "ground", "second": "load"}
 def test_what_is_returned_is_what_the_scene_holds() -> None:
     scene = below((0.0, 0.0, -10.0))
     assert scene.add_line(**BETWEEN, EA=1e7) is scene.loads["hoist"]
-    segments = below((0.0, 0.0, -10.0)).add_line(
-        **BETWEEN, rung="with mass", EA=1e7, mass_per_length=10.0, segments=3
-    )
+    heavy = {"rung": "with mass", "mass_per_length": 10.0, "segments": 3}
+    segments = below((0.0, 0.0, -10.0)).add_line(**BETWEEN, EA=1e7, **heavy)
     assert [one.name for one in segments] == ["hoist.1", "hoist.2", "hoist.3"]
     scene = cases.case2()
     limit = scene.add_line(joint="link", rung="rigid")
     assert (limit.name, limit.kind, limit.joint) == ("link", "wire", "link")
-    assert scene.joints["link"].kind == "distance"
     with pytest.raises(SceneError, match="line 'link': rung 'rigid' takes no winch"):
         scene.add_winch(line="link")
 
@@ -220,19 +182,13 @@ THREE = {"first": None, "second": None, "bodies": ["ground", "load", "ground"], 
 
 REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"rung": "stiff"}, "rung is 'stiff'"), ({"rung": "rigid", "EA": 1e7}, "takes no EA"),
-    ({"rung": "rigid", "tension_at_start": 1e3}, "takes no tension_at_start"),
-    ({"rung": "rigid", "radii": [0, 1, 0]}, "takes no radii"),
     ({"rung": "rigid", "length": _core.Curve.constant(value=9.0)}, "length is"),
     (THREE | {"rung": "rigid"}, "between two bodies"),
-    ({"EA": 1e7, "restitution": 0.5}, "takes no restitution.*'rigid'"),
     ({"EA": 1e7, "mass_per_length": 5.0}, "'with mass'"), ({"EA": 1e7, "joint": "link"}, "takes no joint"),
     ({"rung": "with mass", "EA": 1e7, "strains": [0, 1], "tensions": [0, 1]}, "takes no strains"),
     ({"rung": "with mass", "EA": 1e7}, "mass_per_length is 0.0"),
     ({"EA": 1e7, "bodies": ["ground", "load"]}, "other words for its path"),
-    ({"EA": 1e7, "length": 29.0, "tension_at_start": 1e5}, "a length and a tension_at_start"),
-    ({"EA": 1e7, "tension_at_start": -1.0}, "tension_at_start is -1.0"),
-    ({"EA": 1e7, "tension_at_start": "much"}, "tension_at_start"),
-    ({"EA": 1e7, "second": "hook"}, "body 'hook'"), ({}, "has no EA"),
+    ({"EA": 1e7, "length": 29.0, "tension_at_start": 1e5}, "a length and a tension"), ({}, "has no EA"),
 ]  # fmt: skip
 
 
@@ -248,8 +204,6 @@ def test_what_a_rung_does_not_take_is_refused_by_name(given: dict[str, Any], mes
 def test_a_winch_on_a_segment_of_a_line_with_mass_is_refused() -> None:
     scene = below((0.0, 0.0, -100.0))
     scene.add_line(**BETWEEN, rung="with mass", EA=1e8, length=100.0, mass_per_length=12.0, segments=4)
-    with pytest.raises(SceneError, match=r"'hoist\.1': is a segment of line 'hoist'"):
-        scene.add_winch(line="hoist.1", rate=0.1)
     scene.replace("hoist.1", kind="load", winch=True)
     with pytest.raises(SceneError, match=r"'hoist\.1': is a segment of line 'hoist'"):
         scene.compile()

@@ -5,15 +5,15 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import Result, Scene, Stage, ensemble, report, shipped_database, simulate, view
+from seacrane import Lift, Result, Scene, Stage, ensemble, report, shipped_database, simulate, view
 from seacrane.answers import load_chart, statics, summary
 from seacrane.crane import Payload
 from seacrane.description.suspension import hung_loads
@@ -40,11 +40,11 @@ STAGES = [Stage(name="hang", duration=0.04), Stage(name="up", duration=0.04)]
 HOW: dict[str, Any] = {"dt_out": 0.02, "integrator": "rk4", "dt": 5e-4}
 
 
-@dataclass(frozen=True)
 class Hung:
     """One of the lifts, and what is told of it."""
 
-    by: str
+    def __init__(self, by: str) -> None:
+        self.by = by
 
     @property
     def hook(self) -> str:
@@ -78,35 +78,30 @@ class Hung:
     def page(self) -> str:
         return report(self.run).html
 
-    @cached_property
-    def drawn(self) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(view(self.run).html.split('id="data">')[1].split("</script>")[0])
-        return found
-
-    def warned(self, category: type[Warning], **given: Any) -> bool:
+    def warned(self, category: type[Warning], *, runs: bool = True, **given: Any) -> bool:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            simulate(self.scene(**given), 0.01, **HOW)
+            scene = self.scene(**given)
+            if runs:
+                simulate(scene, 0.01, **HOW)
         return category in {one.category for one in caught}
 
-    def lift_file(self, folder: Path) -> None:
-        """The lift on the ground, in stages, and a study of it."""
-        given = [f"{key} = {text(value)}" for key, value in LIFTS[self.by].items() if key not in UNITS]
-        given += [f"{UNITS[key]} = {text(value)}" for key, value in LIFTS[self.by].items() if key in UNITS]
-        hung = [f"payload_mass_kg = {MASS}"] if self.by == "rod" else [
-            "[hoist]", 'load = "payload"', f"mass_kg = {MASS}", f"size_m = {list(SIZE)}", *given,
-        ]  # fmt: skip
-        crane = ["[[crane]]", 'base = "ground"', *hung]
-        lines = [*HEAD, *crane, *(f'[[stage]]\nname = "{one.name}"\nduration_s = 0.1' for one in STAGES)]
-        (folder / "lift.toml").write_text("\n".join(lines), encoding="utf-8")
-        (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    def lift_file(self, path: Path) -> None:
+        """The lift on the ground, in stages."""
+        told: dict[str, Any] = {
+            "scene": {"name": "hung"}, "method": {"integrator": "rk4", "dt_s": 5e-4},
+            "outputs": {"dt_out_s": 0.02}, "crane": [{"base": "ground"}],
+            "stage": [{"name": one.name, "duration_s": 0.1} for one in STAGES],
+        }  # fmt: skip
+        if self.by == "rod":
+            told["crane"][0]["payload_mass_kg"] = MASS
+        else:
+            shape = {"load": "payload", "mass_kg": MASS, "size_m": list(SIZE)}
+            told["hoist"] = shape | in_file(LIFTS[self.by])
+        Lift(told).save(path)
 
 
 UNITS = {"EA": "EA_N", "mass_per_length": "mass_per_length_kg_per_m", "block_mass": "block_mass_kg"}
-HEAD = (
-    'format = "seacrane lift"', "version = 2", "[scene]", 'name = "hung"', "[method]",
-    'integrator = "rk4"', "dt_s = 5e-4", "[outputs]", "dt_out_s = 0.02",
-)  # fmt: skip
 STUDY = """format = "seacrane study"
 version = 2
 lift = "lift.toml"
@@ -121,10 +116,8 @@ what = "maximum"
 """
 
 
-def text(value: Any) -> str:
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{UNITS.get(key, key)} = {one}" for key, one in value.items()) + "}"
-    return f'"{value}"' if isinstance(value, str) else str(value)
+def in_file(given: dict[str, Any]) -> dict[str, Any]:
+    return {UNITS.get(key, key): in_file(one) if isinstance(one, dict) else one for key, one in given.items()}
 
 
 def weight(hung: Hung) -> float:
@@ -147,13 +140,10 @@ def prints_its_factor(hung: Hung) -> bool:
     return known and row.factor == pytest.approx(factor, rel=1e-6) and f"{factor:.2f}" in hung.page
 
 
-def glances(hung: Hung) -> bool:
-    return "Largest hook load" in hung.page and "Least hook load" in hung.page
-
-
 def draws_pull_and_track(hung: Hung) -> bool:
-    arrows = {one["group"] for one in hung.drawn["arrows"]}
-    tracks = {(one["kind"], one["name"]) for one in hung.drawn["tracks"]}
+    drawn = json.loads(view(hung.run).html.split('id="data">')[1].split("</script>")[0])
+    arrows = {one["group"] for one in drawn["arrows"]}
+    tracks = {(one["kind"], one["name"]) for one in drawn["tracks"]}
     return "link" in arrows and ("payload", "payload") in tracks
 
 
@@ -162,13 +152,6 @@ def draws_its_jib(hung: Hung) -> bool:
     jib, tip = scene.roles[""].tip or ("", ())
     points = looks(scene)[jib].points + scene.bodies[jib].center_of_mass
     return bool(np.all(points.min(axis=0) - 0.5 < tip) and np.all(tip < points.max(axis=0) + 0.5))
-
-
-def warns_of_tonnes(hung: Hung) -> bool:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        hung.scene(mass=40.0)
-    return MassUnitWarning in {one.category for one in caught}
 
 
 def is_damped(hung: Hung) -> bool:
@@ -184,9 +167,8 @@ def has_a_chart(hung: Hung) -> bool:
 
 def has_statics(hung: Hung) -> bool:
     told = statics(hung.scene())
-    return (
-        float(told["hook load"]) == pytest.approx(weight(hung), rel=0.01) and "hoist tension" in told.columns
-    )
+    pulls = float(told["hook load"]) == pytest.approx(weight(hung), rel=0.01)
+    return pulls and "hoist tension" in told.columns
 
 
 def keeps_limit_states(hung: Hung) -> bool:
@@ -222,10 +204,10 @@ ROWS: dict[str, Callable[[Hung], bool]] = {
         "payload swing", "offlead", "sidelead", "payload offset x", "payload offset y"
     ),
     "dynamic factor by itself, in summary and report": prints_its_factor,
-    "hook load at a glance": glances,
+    "hook load at a glance": lambda hung: "Largest hook load" in hung.page and "Least hook load" in hung.page,
     "arrow of tension and track in the page": draws_pull_and_track,
     "jib drawn to its tip": draws_its_jib,
-    "`MassUnitWarning`": warns_of_tonnes,
+    "`MassUnitWarning`": lambda hung: hung.warned(MassUnitWarning, runs=False, mass=40.0),
     "`BallastWarning`": lambda hung: hung.warned(BallastWarning, mass=400e3),
     "`LoadInHullWarning`": lambda hung: hung.warned(LoadInHullWarning, length=18.0, slew=0.0),
     "damping by default": is_damped,
@@ -236,21 +218,20 @@ ROWS: dict[str, Callable[[Hung], bool]] = {
     "stages with `until=`": runs_until,
     "stages in `allowable_hs`": has_allowable_hs,
 }
-MANY_RUNS = ("stages with `until=`",)
-IN_FILES = "stages in study files"
 
 
-MANY = [pytest.mark.slow("many runs")]
-ASKED = [
-    pytest.param(by, row, marks=MANY if by == "with mass" and row in MANY_RUNS else [])
-    for by in LIFTS
-    for row in ROWS
-]
+MANY_RUNS = [("with mass", "stages with `until=`")]
 hung = lru_cache(Hung)
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(("by", "row"), ASKED)
+@pytest.mark.parametrize(
+    ("by", "row"),
+    [
+        pytest.param(*one, marks=[pytest.mark.slow("many runs")] if one in MANY_RUNS else [])
+        for one in product(LIFTS, ROWS)
+    ],
+)
 def test_whatever_it_hangs_on_has_it(by: str, row: str) -> None:
     assert ROWS[row](hung(by))
 
@@ -258,25 +239,24 @@ def test_whatever_it_hangs_on_has_it(by: str, row: str) -> None:
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("by", LIFTS)
 def test_a_study_file_of_its_stages_runs(by: str, tmp_path: Path) -> None:
-    hung(by).lift_file(tmp_path)
+    hung(by).lift_file(tmp_path / "lift.toml")
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
     told = run_study(tmp_path / "study.toml", tmp_path / "out")
     assert not told.failures and np.isfinite(told.dataset.peak).all()
 
 
 def test_the_document_shows_what_is_asked_for_here() -> None:
     lines = [f"| | {' | '.join(LIFTS)} |", "|---|" + "---|" * len(LIFTS)]
-    lines += [f"| {row} |" + " yes |" * len(LIFTS) for row in [*ROWS, IN_FILES]]
+    lines += [f"| {row} |" + " yes |" * len(LIFTS) for row in [*ROWS, "stages in study files"]]
     assert "\n".join(lines) in DOCUMENT.read_text(encoding="utf-8")
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(
-    ("given", "start", "rung"),
-    [({"on": "ground", "winch": {"lag": 0.2}}, None, "elastic"), ({"length": 8.0}, "rest", "quasi-static")],
-)
-def test_a_lift_off_makes_auto_elastic(given: dict[str, Any], start: Any, rung: str) -> None:
+def test_a_lift_off_makes_auto_elastic() -> None:
     """A seat that lets go makes an impact, which the quasi-static stretch does not know."""
-    scene = Scene(name="on deck")
-    scene.add_crane(base="ground", s1=1.5, s2=1.0)
-    scene.add_hoist(mass=MASS, size=SIZE, EA=1e9, rung="auto", **given)
-    assert f"hoist: {rung}" in simulate(scene, 1.0, start=start).stats["line_rungs"]
+    hanging = {"length": 8.0}, "rest", "quasi-static"
+    for given, start, rung in (({"on": "ground", "winch": {"lag": 0.2}}, None, "elastic"), hanging):
+        scene = Scene(name="on deck")
+        scene.add_crane(base="ground", s1=1.5, s2=1.0)
+        scene.add_hoist(mass=MASS, size=SIZE, EA=1e9, rung="auto", **given)
+        assert f"hoist: {rung}" in simulate(scene, 1.0, start=start).stats["line_rungs"]
