@@ -125,11 +125,5 @@ def test_what_states_no_limit_is_refused_before_the_run(given: dict[str, Any], w
 
 def test_a_lift_gives_limits_with_their_unit() -> None:
     roll = 'channel = "vessel_motion"\nnames = { motion = "roll" }\n'
-    (state,) = lift(roll + "maximum_deg = 5\nminimum_deg = -5").limit_states.values()
-    assert (state.maximum, state.minimum) == pytest.approx((np.radians(5.0), np.radians(-5.0)))
-    for text, words in (
-        (roll + "maximum_m = 5", "maximum_m: .* in rad"),
-        ('channel = "vessel_motion"\nmaximum_m = 5', "name one of its curves"),
-    ):
-        with pytest.raises(FileFormatError, match=words):
-            lift(text)
+    with pytest.raises(FileFormatError, match="maximum_m: .* in rad"):
+        lift(roll + "maximum_m = 5")

@@ -90,17 +90,6 @@ def test_the_peak_of_a_snatch_grows_as_v_root_km(speed: float, stiffness: float)
     assert peak == pytest.approx(weight + np.sqrt(weight**2 + stiffness * MASS * speed**2), rel=2e-5)
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
-@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
-def test_the_energy_ledger_converges_with_the_order_of_the_method(rung: str, formulation: str) -> None:
-    residuals = []
-    for step in (8e-3, 4e-3, 2e-3):
-        scene = pendulum(2e6, rung=rung, damping=0.05)
-        out = record(scene, 2.0, integrator="rk4", dt=step, rtol=1e-6, formulation=formulation)
-        residuals.append(np.abs(out["energy_balance"]).max())
-    assert np.diff(np.log2(residuals)) == pytest.approx(-4.5, abs=0.7)  # of order 4, of the damping 5
-
-
 def flying(rung: str) -> Scene:
     """Three bodies without weight, one line over all of them; it is taut, and its ends fly apart."""
     scene = Scene(name="flying", gravity=0.0)
@@ -186,20 +175,6 @@ def test_a_closed_loop_of_rows_beside_it() -> None:
     assert_allclose(runs[2], runs[0], atol=1e-3)
 
 
-@pytest.mark.warns("LiftedStartWarning")
-def test_a_winch_works_on_the_tension_it_records() -> None:
-    """Momentum of the load, and the winch's power: T (1 + e) times the rate, but for what the line stores."""
-    out = record(settled(swinging(), settling=0.1), 6.0, rtol=1e-9)
-    place = out["position"][:, 0]
-    force = 2e3 * (out["acceleration"][:, 0] + np.array([0.0, 0.0, G]))
-    assert_allclose(np.linalg.norm(force, axis=1), out["line_tension"][:, 0], rtol=1e-6)
-    strain = out["line_stretch"] / out["line_unstretched_length"]
-    carried = -out["line_tension"] * (1.0 + strain) * out["line_pay_out_rate"]
-    stored = np.abs(0.02 * out["line_tension"] * out["line_pay_out_rate"]).max()
-    assert np.abs(out["line_winch_power"] - carried).max() < stored
-    assert np.ptp(place) > 1.0
-
-
 def test_a_line_that_goes_slack_or_stops_ends_the_run_by_name() -> None:
     thrown = settled(hung())
     thrown.replace("load", velocity=(0.0, 0.0, 2.0))
@@ -211,12 +186,6 @@ def test_a_line_that_goes_slack_or_stops_ends_the_run_by_name() -> None:
     ):  # fmt: skip
         with pytest.raises(SimulationError, match=f"line 'hoist'.*{words}"):
             simulate(scene, 3.0)
-
-
-@pytest.mark.warns("GrowingModeWarning", "UnitWarning")
-def test_a_stiff_elastic_line_is_told_its_rung() -> None:
-    with pytest.warns(StiffWarning, match="line 'hoist'.* taut, give it"):
-        simulate(pendulum(1e11, damping=0.02), 12.0, channels=["position"], dt_out=0.1, rtol=1e-3)
 
 
 def test_what_it_cannot_do_is_told() -> None:

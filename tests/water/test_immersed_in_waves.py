@@ -7,44 +7,28 @@ from typing import Any
 import numpy as np
 import pytest
 import wet_scenes as wet
-from element_runs import goes_on
+from element_runs import both_forms, goes_on
 from marks import needs_lanes
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from wet_scenes import EXACT, FORMS, RHO, G
 
-from seacrane import Scene, SceneError, _core, simulate
+from seacrane import Scene, _core, simulate
 from seacrane.description.forces import add_load
 from seacrane.scene import Waves
 from seacrane.sea import Current
-from seacrane.water import BoxPart, CylinderPart, SpherePart
+from seacrane.water import CylinderPart, SpherePart
 
 Array = NDArray[np.float64]
 
 
-def regular(
-    scene: Scene, *, period: float, amplitude: float = 1.0, depth: float = np.inf, direction: float = 0.0
-) -> float:
-    """One wave without stretching; its wavenumber in deep water."""
-    one = np.ones(1)
+def regular(scene: Scene, *, period: float, amplitude: float = 1.0) -> float:
+    """One wave without stretching in deep water; its wavenumber."""
     scene.waves = Waves(
-        omega=2.0 * np.pi / period * one, amplitude=amplitude * one, phase=0.0 * one,
-        direction=direction * one, hulls={}, depth=depth, stretching="none",
+        omega=[2.0 * np.pi / period], amplitude=[amplitude], phase=[0.0], direction=[0.0], hulls={},
+        stretching="none",
     )  # fmt: skip
     return float((2.0 * np.pi / period) ** 2 / G)
-
-
-def fixed(scene: Scene, name: str, place: tuple[float, float, float]) -> None:
-    scene.add_body(name=name, mass=1e3, inertia=(1e3, 1e3, 1e3), position=place)
-    scene.add_joint(kind="weld", name=f"{name} holds", first="ground", second=name, point=place)
-
-
-def box(name: str, body: str, size: Any, point: Any = (0.0, 0.0, 0.0)) -> _core.ImmersedPart:
-    """Without added mass."""
-    return _core.ImmersedPart(
-        name=name, body=body, shape="box", size=size, point=point, density=RHO, depths=[0.0, 1.0],
-        added_masses=np.zeros((2, 3)),
-    )  # fmt: skip
 
 
 def amplitude(result: Any, axis: str) -> float:
@@ -60,10 +44,14 @@ def test_froude_and_krylov_on_a_box_are_those_of_the_pressure_on_its_sides(strip
     """12 x 6 x 4 m, 2 m under water, in a wave of 8 s and 1 m; strips change nothing."""
     scene = Scene(name="box", gravity=G)
     k = regular(scene, period=8.0)
-    fixed(scene, "load", (0.0, 0.0, -4.0))
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -4.0))
+    scene.add_joint(kind="weld", name="holds", first="ground", second="load", point=(0.0, 0.0, -4.0))
     for n in range(strips):
-        x = 12.0 * ((n + 0.5) / strips - 0.5)
-        add_load(scene, box(f"strip {n}", "load", (12.0 / strips, 6.0, 4.0), (x, 0.0, 0.0)))
+        add_load(scene, _core.ImmersedPart(
+            name=f"strip {n}", body="load", shape="box", size=(12.0 / strips, 6.0, 4.0), density=RHO,
+            point=(12.0 * ((n + 0.5) / strips - 0.5), 0.0, 0.0), depths=[0.0, 1.0],
+            added_masses=np.zeros((2, 3)),
+        ))  # fmt: skip
     result = simulate(scene, t_end=8.0, dt_out=0.25, channels=["load_force"], integrator="rk4", dt=0.25)
     expected = RHO * G * 6.0 * (2.0 * np.sin(6.0 * k) / k) * (np.exp(-2.0 * k) - np.exp(-6.0 * k))
     assert expected == pytest.approx(138615.297, abs=1e-3)
@@ -128,8 +116,8 @@ def hanging(seed: int, hs: float = 1.5) -> Scene:
 @pytest.mark.parametrize("seed", range(3))
 def test_both_formulations_agree_in_waves_and_the_ledger_closes(seed: int) -> None:
     """And the Jacobian is exact: that of the recursive form is in cpp/tests/test_jacobian.cpp."""
-    for result in wet.alike_in_both_forms(hanging(seed), 4.0, 1e-6):
-        assert np.all(np.diff(result["load_state"], axis=0) > -1e-6), "slam never gives back"
+    result = both_forms(hanging(seed), 4.0, wet.ALIKE, **EXACT)
+    assert np.all(np.diff(result["load_state"], axis=0) > -1e-6), "slam never gives back"
     wet.has_the_jacobian_of_differences(hanging(seed), 1.7, 5e-6)
 
 
@@ -173,18 +161,5 @@ def test_strips_in_a_row_feel_what_each_feels_by_itself() -> None:
         if isinstance(part, _core.ImmersedPart) and part.count > 1:
             apart.replace(name, row="", place=0, count=1, step=(0.0, 0.0, 0.0))
     assert any(one.count > 1 for one in together.loads.values() if isinstance(one, _core.ImmersedPart))
-    one, other = (
-        np.asarray(simulate(scene, t_end=2.0, dt_out=0.5, channels=["position"], **EXACT)["position"])
-        for scene in (together, apart)
-    )
+    one, other = (simulate(scene, t_end=2.0, dt_out=0.5, **EXACT)["position"] for scene in (together, apart))
     assert one == pytest.approx(other, abs=1e-9)  # that of the steps
-
-
-@pytest.mark.parametrize("given", [{"place": 2, "count": 2}, {"place": 0.5, "count": 2}])
-def test_a_place_outside_its_row_is_refused(given: dict[str, float]) -> None:
-    scene = Scene(name="row")
-    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3))
-    [part] = scene.add_immersed("load", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
-    with pytest.raises(SceneError, match=r"place is .* in a row of .*; give whole numbers"):
-        scene.replace(part.name, **given)
-        scene.compile()

@@ -6,11 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from element_runs import goes_on
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from test_jacobian import largest_error, moving
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, natural_modes, simulate
@@ -40,50 +38,23 @@ def wet_line(scene: Scene, **given: Any) -> None:
     scene.add_line("line", rung="with mass", medium="sea", **line | given)
 
 
-def tossed(*, waves: bool = True, segments: int = 5, u: Any = (0.0, 0.0, 0.0), **given: Any) -> Scene:
+def tossed(*, waves: bool = True) -> Scene:
     """A thick line that swings below the ground through the surface, a load at its end."""
     scene = Scene(name="tossed", gravity=G)
     if waves:
-        scene.add_sea(
-            vessel=None, hs=1.5, tp=5.0, count=20, seed=3, direction_deg=30.0, gamma=2.0,
-            current=Current(depth=[0.0, 10.0], speed=[0.8, 0.3], direction_deg=[20.0, 60.0]),
-        )  # fmt: skip
+        current = Current(depth=[0.0, 10.0], speed=[0.8, 0.3], direction_deg=[20.0, 60.0])
+        sea: dict[str, Any] = {"hs": 1.5, "tp": 5.0, "count": 20, "seed": 3, "direction_deg": 30.0}
+        scene.add_sea(vessel=None, gamma=2.0, current=current, **sea)
     scene.add_body(
         name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
-        velocity=np.array([-1.0, 2.0, 1.0]) - u, angular_velocity=(0.4, -0.3, 0.6),
+        velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
     )  # fmt: skip
-    line: dict[str, Any] = {
-        "first_point": (0.0, 0.0, 5.0), "second_point": (0.1, -0.2, 0.4), "EA": 2e5, "length": 11.5,
-        "mass_per_length": 40.0, "diameter": 0.25, "drag_coefficient_along": 0.05,
-    }  # fmt: skip
     scene.add_line(
-        "wire", "ground", "load", rung="with mass", medium="sea", segments=segments, **line | given
-    )
+        "wire", "ground", "load", rung="with mass", medium="sea", segments=3, first_point=(0.0, 0.0, 5.0),
+        second_point=(0.1, -0.2, 0.4), EA=2e5, length=11.5, mass_per_length=40.0, diameter=0.25,
+        drag_coefficient_along=0.05,
+    )  # fmt: skip
     return scene
-
-
-def run(scene: Scene, t_end: float, dt_out: float, formulation: str = "recursive") -> Any:
-    channels = ["position", "velocity", "energy_balance", "absolute_work"]
-    return simulate(scene, t_end=t_end, dt_out=dt_out, channels=channels, formulation=formulation, **EXACT)
-
-
-@pytest.mark.parametrize("waves", [False, True])
-def test_both_formulations_agree_and_the_ledger_closes(waves: bool) -> None:
-    one, other = (run(tossed(waves=waves), 2.0, 0.1, form) for form in FORMS)
-    assert np.asarray(one["position"]) == pytest.approx(np.asarray(other["position"]), abs=1e-8)
-    for result in (one, other):
-        assert np.max(np.abs(result["energy_balance"])) < 1e-8 * np.max(result["absolute_work"])
-
-
-@pytest.mark.parametrize("formulation", FORMS)
-def test_a_run_continues_bit_for_bit(formulation: str) -> None:
-    goes_on(tossed, 1.0, 0.47, integrator="dopri5", dt_out=0.1, formulation=formulation)
-
-
-@pytest.mark.parametrize("seed", [1, 2])
-def test_the_exact_jacobian_is_that_of_differences(seed: int) -> None:
-    model = tossed(segments=3).compile()
-    assert largest_error(model, 0.7, moving(model, seed), step=3e-4, kinks=True) < 1e-7
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -98,7 +69,7 @@ def test_a_line_in_a_current_moves_as_one_that_is_towed_through_still_water(form
         own = np.array([[0.5, 0.2, -2.0], [-0.4, 0.6, 1.0]]) - (0.0 if flows else u)
         with_ends(scene, [(0.0, 0.0, 1.0), (6.0, 2.0, -1.5)], mass=60.0, velocities=own)
         wet_line(scene, diameter=0.3, mass_per_length=60.0)
-        runs.append(run(scene, 1.5, 0.1, formulation))
+        runs.append(simulate(scene, 1.5, dt_out=0.1, formulation=formulation, **EXACT))
     carried, towed = runs
     moved = np.asarray(towed["position"]) + u * np.asarray(towed.time)[:, None, None]
     assert np.asarray(carried["position"]) == pytest.approx(moved, abs=1e-8)
@@ -123,7 +94,6 @@ def test_a_line_that_sinks_takes_on_its_terminal_speed_as_its_equation_says(alon
     for end in ("one", "two"):
         speed = np.asarray(result.select("velocity", body=end, axis="z"))
         assert speed == pytest.approx(expected, rel=1e-6, abs=1e-6)
-    assert speed[-1] == pytest.approx(-final, rel=0.1)
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -258,10 +228,8 @@ def test_a_wire_hangs_by_its_weight_less_the_water_that_it_displaces() -> None:
 
 
 @pytest.mark.parametrize(
-    ("mass_per_length", "top", "end"),
-    [(30.0, 3.0, -7.0), (5.1, -30.0, -40.0), (1.0, -30.0, -40.0), (2.0, 3.0, -25.0)],
-    ids=["sinks", "nearly floats", "floats", "on the surface"],
-)  # fmt: skip
+    ("mass_per_length", "top", "end"), [(30.0, 3.0, -7.0), (1.0, -30.0, -40.0), (2.0, 3.0, -25.0)]
+)
 def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: float, end: float) -> None:
     """Between two fixed points: through the surface, and below it heavier than water and lighter."""
     scene = Scene(name="slack", gravity=G)
@@ -272,11 +240,12 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
         rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12, diameter=0.08,
         medium="sea", density=RHO,
     )  # fmt: skip
-    given: dict[str, Any] = {"start": "rest"} if end == -25.0 else {}
-    place = np.asarray(simulate(scene, t_end=1.0, rtol=1e-9, channels=["position"], **given)["position"])
+    floating = end == -25.0
+    start: Any = "rest" if floating else None
+    place = np.asarray(simulate(scene, t_end=1.0, rtol=1e-9, start=start)["position"])
     assert np.ptp(place, axis=0).max() < 1e-5
     inner = place[0, 1:-1, 2]  # of its masses
-    if given:
+    if floating:
         assert (np.abs(inner) < 0.1).sum() >= 5
     else:
         assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
@@ -285,9 +254,7 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"density": 1.025}, "t/m3"),
         ({"flow": (1.0, 0.0, 0.0)}, "has a flow"),
-        ({"medium": "water"}, "'air' or 'sea'"),
         ({"medium": "air", "added_mass_coefficient": 2.0}, "added_mass_coefficient is of a line in water"),
     ],
 )

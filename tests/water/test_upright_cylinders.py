@@ -8,9 +8,10 @@ import mesh_shapes
 import numpy as np
 import pytest
 import wet_scenes as wet
+from element_runs import both_forms
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
-from wet_scenes import FORMS, RHO, G
+from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.water import CylinderPart, circle_added_mass, from_mesh
@@ -47,13 +48,12 @@ def added(scene: Scene) -> Array:
 @pytest.mark.parametrize("strips", [1, 15, 200])
 @pytest.mark.parametrize("draught", [3.3, 30.0, 59.99, 70.0, 500.0])
 def test_an_upright_pile_has_that_of_morison_and_a_disc_at_each_wet_end(strips: int, draught: float) -> None:
+    across, ends = AREA * min(draught, LENGTH), 1 + (draught > LENGTH)
     found = added(pile(draught, strips=strips))
-    wet = min(draught, LENGTH)
-    ends = 1 + (draught > LENGTH)
-    assert found == pytest.approx(np.diag([AREA * wet, AREA * wet, ends * DISC]), rel=1e-6, abs=1e-6)
+    assert found == pytest.approx(np.diag([across, across, ends * DISC]), rel=1e-6, abs=1e-6)
 
 
-@pytest.mark.parametrize("lean", [0.0, 5.0, 30.0, 60.0, 89.0, 90.0])
+@pytest.mark.parametrize("lean", [0.0, 30.0, 89.0, 90.0])
 def test_a_leaning_pile_has_that_of_each_circle_in_its_own_plane_in_all_strips(lean: float) -> None:
     angle = np.radians(lean)
     scenes = [pile(20.0, lean=angle, heading=0.7, strips=n, ends=("joined", "joined")) for n in (1, 15, 200)]
@@ -81,7 +81,6 @@ def test_ends_are_told_apart_and_the_whole_may_be_turned_over(ends: tuple[str, s
     ring = np.pi / 8.0 * 0.5**2 * np.pi * 7.5
     assert one[2, 2] == pytest.approx({"closed": DISC, "open": ring, "joined": 0.0}[ends[0]], rel=1e-6)
     for given, message in (
-        ({"ends": ("shut", "open")}, "ends is"), ({"ends": "closed"}, "ends is"),
         ({"flooded": True}, "thickness of its wall"), ({"ends": ("open", "closed")}, "its wall"),
         ({"ends": ("open", "closed"), "wall": 0.1}, "flooded=True"), ({"wall": 5.0}, "wall is 5 m"),
     ):  # fmt: skip
@@ -147,12 +146,11 @@ TUBE: dict[str, Any] = {"ends": ("open", "closed"), "wall": 0.05, "flooded": Tru
 
 
 @pytest.mark.parametrize(
-    ("lean", "part"),
-    [(0.0, {}), (0.5, {}), (np.pi / 2.0, {}), (0.3, TUBE), (2.5, TUBE), (0.4, {"strips": 1})],
+    ("lean", "part"), [(0.0, {}), (np.pi / 2.0, {}), (0.3, TUBE), (2.5, TUBE), (0.4, {"strips": 1})]
 )
 def test_the_ledger_closes_and_both_formulations_agree(lean: float, part: dict[str, Any]) -> None:
-    for run in wet.alike_in_both_forms(thrown(lean=lean, **part), 3.0, 1e-7, rtol=1e-10):
-        assert np.all(np.diff(run["load_state"], axis=0) > -1e-6), "slam never gives back"
+    run = both_forms(thrown(lean=lean, **part), 3.0, wet.ALIKE, ledger=1e-7, **EXACT | {"rtol": 1e-10})
+    assert np.all(np.diff(run["load_state"], axis=0) > -1e-6), "slam never gives back"
 
 
 @pytest.mark.parametrize("formulation", FORMS)
@@ -172,6 +170,3 @@ def test_the_inertia_load_is_morisons_sum(period: float, strips: int, formulatio
     at = water.acceleration.values[:, :, 0].reshape(-1, len(nodes), len(level))
     hand = 2.0 * RHO * AREA * np.trapezoid(at, level, axis=2) @ (weights / 2.0)
     assert np.abs(force - hand).max() < 0.02 * np.abs(hand).max()
-
-
-# --- what is refused ------------------------------------------------------------------------------------

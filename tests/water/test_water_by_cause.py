@@ -26,12 +26,9 @@ BUOYANCY, WAVES, ADDED, DRAG, SLAM = range(5)
 assert FIXED["cause"] == ("buoyancy", "waves", "added mass", "drag", "slam")
 
 
-def in_waves(scene: Scene) -> None:
-    one = np.ones(2)
-    scene.waves = Waves(
-        omega=[0.9, 1.6], amplitude=[0.5, 0.2], phase=[0.3, 2.0], direction=[0.4, -1.0], hulls={},
-        depth=30.0 * one[0],
-    )  # fmt: skip
+TWO_WAVES = Waves(
+    omega=[0.9, 1.6], amplitude=[0.5, 0.2], phase=[0.3, 2.0], direction=[0.4, -1.0], hulls={}, depth=30.0
+)
 
 
 def tumbling(part: Any, *, waves: bool) -> Scene:
@@ -43,7 +40,7 @@ def tumbling(part: Any, *, waves: bool) -> Scene:
         quaternion=quaternion(Rotation.random(random_state=3)),
     )  # fmt: skip
     if waves:
-        in_waves(scene)
+        scene.waves = TWO_WAVES
     scene.add_immersed("load", parts=[part], density=RHO)
     return scene
 
@@ -75,10 +72,8 @@ def test_all_forces_are_mass_times_acceleration_less_weight(part: Any, waves: bo
 
 
 def test_in_still_water_waves_bring_no_power_and_drag_and_slam_take_some() -> None:
-    result = simulate(
-        hanging(1), t_end=3.0, dt_out=0.01, channels=["water_power", "load_state"], formulation="redundant",
-        **EXACT,
-    )  # fmt: skip
+    how = EXACT | {"channels": ["water_power", "load_state"], "formulation": "redundant"}
+    result = simulate(hanging(1), t_end=3.0, dt_out=0.01, **how)
     power = np.asarray(result["water_power"])
     scale = np.abs(power).max()
     assert np.abs(power[..., WAVES]).max() < 1e-12 * scale
@@ -91,9 +86,8 @@ def test_in_still_water_waves_bring_no_power_and_drag_and_slam_take_some() -> No
 
 @pytest.mark.parametrize("waves", [True, False])
 def test_the_power_of_a_line_is_told_by_cause_and_waves_bring_none_in_still_water(waves: bool) -> None:
-    result = simulate(tossed(waves=waves, segments=3), t_end=2.0, dt_out=0.01, channels=["water_power"])
+    result = simulate(tossed(waves=waves), t_end=2.0, dt_out=0.01, channels=["water_power"])
     power = np.asarray(result["water_power"])
-    assert result.dims["water_power"] == ("time", "wet", "cause")
     scale = np.abs(power).max()
     assert (np.abs(power[..., WAVES]).max() > 1e-3 * scale) == waves
     assert np.all(power[..., SLAM] <= 0.0)
@@ -109,24 +103,19 @@ def test_the_work_by_cause_is_the_change_of_energy_deep_in_waves() -> None:
     volume = np.pi / 6.0 * size**3
     mass = 1.2 * RHO * volume
     scene.add_body(name="load", mass=mass, inertia=(mass,) * 3, position=(0.0, 0.0, -9.0))
-    in_waves(scene)
+    scene.waves = TWO_WAVES
     scene.add_immersed("load", parts=[SpherePart(diameter=size)], density=RHO)
     (element,) = scene.loads.values()
     result = simulate(
-        scene, t_end=4.0, dt_out=0.005, channels=["water_power", "immersed_momentum", "velocity",
-        "position", "energy_balance", "absolute_work"], **EXACT,
-    )  # fmt: skip
+        scene, t_end=4.0, dt_out=0.005, channels=["water_power", "velocity", "position"], **EXACT
+    )
     power = np.asarray(result.select("water_power", wet="load.1"))
-    assert np.abs(power[:, WAVES]).max() > 10.0 * np.abs(power[:, SLAM]).max()
     z, speed = (np.asarray(result.select(name, body="load")) for name in ("position", "velocity"))
     work = simpson(power.sum(axis=1), x=result.time)
-    surface = [
-        scene.sea_at(points=z[i][None, :], times=[t]).elevation[0, 0] for i, t in ((0, 0.0), (-1, 4.0))
-    ]
+    ends = ((0, 0.0), (-1, 4.0))
+    surface = [scene.sea_at(points=z[i][None, :], times=[t]).elevation[0, 0] for i, t in ends]
     sunk = np.array(surface) - z[[0, -1], 2]
-    added = np.array(
-        [np.interp(d + 0.5 * size, element.depths, np.asarray(element.added_masses)[:, 2]) for d in sunk]
-    )
+    added = np.interp(sunk + 0.5 * size, element.depths, np.asarray(element.added_masses)[:, 2])
     energy = 0.5 * (mass + added) * np.sum(speed[[0, -1]] ** 2, axis=1) + mass * G * z[[0, -1], 2]
     energy += RHO * G * volume * sunk
     assert energy[1] - energy[0] == pytest.approx(work, rel=2e-5)
@@ -171,8 +160,7 @@ def stretches(scene: Scene, t_end: float, count: int, formulation: str) -> list[
 @pytest.mark.parametrize("formulation", FORMS)
 def test_momentum_closes_through_entry_exit_and_entry_with_weight(formulation: str) -> None:
     """m v + A v, what stays behind in the water, and the impulse of weight and buoyancy."""
-    mass, balance, shed, largest = 150.0, [], 0.0, 0.0
-    impulse = 0.0
+    mass, balance, shed, largest, impulse = 150.0, [], 0.0, 0.0, 0.0
     for piece in stretches(sunk_and_risen(), 1.5, 32, formulation):
         time = np.asarray(piece.time)
         momentum = mass * np.asarray(piece.select("velocity", body="load", axis="z"))
@@ -191,9 +179,7 @@ def test_momentum_closes_through_entry_exit_and_entry_with_weight(formulation: s
 @pytest.mark.parametrize("formulation", FORMS)
 def test_slam_takes_by_its_power_what_its_state_says(formulation: str) -> None:
     scene = dropped(CylinderPart(**SLICE), mass=np.pi / 8.0 * 1000.0)
-    result = simulate(
-        scene, t_end=0.3, dt_out=1e-4, channels=["water_power", "load_state"], formulation=formulation,
-        **EXACT,
-    )  # fmt: skip
+    how = EXACT | {"channels": ["water_power"], "formulation": formulation}
+    result = simulate(scene, t_end=0.3, dt_out=1e-4, **how)
     power = np.asarray(result.select("water_power", wet="load.1", cause="slam"))
     assert -integral(power, np.asarray(result.time)) == pytest.approx(1270.2809, rel=3e-6)
