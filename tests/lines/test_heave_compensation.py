@@ -11,7 +11,7 @@ from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from seacrane import SampledController, Scene, SceneError, linear_model, simulate
+from seacrane import Scene, SceneError, linear_model, simulate
 from seacrane.crane import KnuckleBoomCrane
 
 OMEGA = 0.7
@@ -109,28 +109,21 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
     assert_allclose([event.time for event in told], fine[entered], atol=3e-3)
 
 
-def cylinder(*, gains: tuple[float, float] = (4e5, 4e4), **settings: Any) -> Scene:
-    """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide."""
+def test_a_cylinder_leaves_the_load_the_residual() -> None:
+    """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide. The
+    loop of stiffness and damping follows its reference by (k + c p) / (m p^2 + c p + k)."""
+    settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
+    k, c = 4e4, 8e3  # a loop as soft as to be seen
     scene, top = heaving(omega=OMEGA), (0, 0, TIP)
     scene.add_body(name="slide", mass=MASS, inertia=(1e3, 1e3, 1e3), position=top)
     scene.add_joint(
         kind="prismatic", name="cylinder", first="ship", second="slide", point=top, axis=(0, 0, 1)
     )
-    stiffness, damping = gains
-    scene.add_actuator(joint="cylinder", stiffness=stiffness, damping=damping, feed_forward=MASS * 9.80665)
-    if settings:
-        scene.add_heave_compensation("ahc", body="ship", point=top, actuator="cylinder", **settings)
-    return scene
-
-
-def test_a_cylinder_leaves_the_load_the_residual() -> None:
-    """The loop of stiffness and damping follows its reference by (k + c p) / (m p^2 + c p + k)."""
-    settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
-    gains = (4e4, 8e3)  # a loop as soft as to be seen
-    scene = cylinder(gains=gains, ratio=-1.0, **settings)
+    scene.add_actuator(joint="cylinder", stiffness=k, damping=c, feed_forward=MASS * G)
+    scene.add_heave_compensation("ahc", body="ship", point=top, actuator="cylinder", ratio=-1.0, **settings)
     out = record(scene, 40.0, dt_out=0.1, rtol=1e-8)
     found = amplitude_of(out["time"], out["position"][:, 1, 2], OMEGA, 20.0)
-    p, (k, c) = 1j * OMEGA, gains
+    p = 1j * OMEGA
     loop = k + c * p  # m x'' = (k + c p)(z - H z - x)
     expected = -1j * loop * (1.0 - transfer(OMEGA, **settings)) / (MASS * p**2 + loop)
     assert found == pytest.approx(expected, abs=1e-5)
@@ -149,30 +142,6 @@ def test_the_ratio_of_a_cylinder_is_that_of_the_tip() -> None:
     assert scene.loads["ahc"].ratio == pytest.approx(-2.0 * step / (high - low)[2], rel=1e-6)
     with pytest.raises(SceneError, match=r"'A' does not move the load along the direction in the described"):
         scene.add_heave_compensation(name="slew", body="boom", actuator="A")
-
-
-def python_controller(lag: float, period: float) -> SampledController:
-    """The same compensation by the speeds that are measured now: stroke and rate of the cylinder."""
-    kept = {"lagged": 0.0}
-
-    def control(_: float, measured: Any) -> dict[str, float]:
-        held = kept["lagged"]
-        rate = (float(measured["position"][0, 2]) - held) / lag
-        kept["lagged"] += rate * period * (1.0 - 0.5 * period / lag)
-        return {"cylinder.reference": -held, "cylinder.reference_rate": -rate}
-
-    return SampledController(period=period, function=control)
-
-
-def test_a_python_controller_takes_the_place_of_the_compiled_one() -> None:
-    """Within what sampling loses, which is of the first order in the period."""
-    how: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-8}
-    compiled, errors = simulate(cylinder(lag=0.3, high_pass=0.0, ratio=-1.0), 6.0, **how), []
-    for period in (0.04, 0.02, 0.01):
-        by_hand = simulate(cylinder(), 6.0, controllers=[python_controller(0.3, period)], **how)
-        errors.append(np.max(np.abs(by_hand["position"][:, 1, 2] - compiled["position"][:, 1, 2])))
-    assert errors[2] < 0.01
-    assert 1.5 < errors[0] / errors[1] < 3.0 and 1.5 < errors[1] / errors[2] < 3.0
 
 
 @pytest.mark.parametrize(

@@ -125,5 +125,5 @@ def test_what_states_no_limit_is_refused_before_the_run(given: dict[str, Any], w
 
 def test_a_lift_gives_limits_with_their_unit() -> None:
     roll = 'channel = "vessel_motion"\nnames = { motion = "roll" }\n'
-    with pytest.raises(FileFormatError, match="maximum_m: .* in rad"):
+    with pytest.raises(FileFormatError, match=r"maximum_m: .* in rad"):
         lift(roll + "maximum_m = 5")

@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, below, hung, settled, swinging, taut
+from line_scenes import MASS, STIFFNESS, G, below, hung, settled, taut
 from multibody_runs import momentum, record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, SimulationError, cases, simulate
-from seacrane.warnings import StiffWarning
 
 Array = NDArray[np.float64]
 FORMULATIONS = ["redundant", "recursive"]

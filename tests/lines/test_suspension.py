@@ -13,12 +13,11 @@ import pytest
 from line_scenes import below
 from numpy.testing import assert_allclose
 
-from seacrane import Frame, Lift, Result, Scene, SceneError, shipped_database, simulate, summary
+from seacrane import Frame, Result, Scene, SceneError, shipped_database, simulate, summary
 from seacrane.answers import load_chart, statics
 from seacrane.crane import Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import Slings
-from seacrane.warnings import OverloadWarning
 
 G = 9.80665
 MASS, SIZE, LENGTH = 40e3, (3.0, 3.0, 2.0), 12.0

@@ -228,13 +228,10 @@ def test_stages_command_the_brake_and_the_tension() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"maximum_acceleration": 0.5}, "maximum_acceleration needs a lag"),
         ({"tension": 1e4}, "without a tension_gain"), ({"tension_gain": 1e-5}, "dead_band 0 N: a slack line"),
         ({"maximum_tension": 1e5}, "maximum_tension needs a drum"), ({"brake": 1.0}, "brake needs a drum"),
-        ({"drum_inertia": 1e3, "lag": 0.1}, "no drum_radius"),
         ({"drum_inertia": 1e3, "drum_radius": 0.5}, "needs a lag"),
         ({"drum_inertia": 1e3, "winch": False}, "holds a tension or has a drum, and no winch"),
-        ({"lag": 0.1, "winch": False}, "has a rate or a lag, and no winch"),
     ],
 )  # fmt: skip
 def test_winches_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:

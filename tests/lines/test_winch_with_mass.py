@@ -20,7 +20,6 @@ from seacrane import (
     Stage,
     Until,
     equilibrium,
-    natural_modes,
     simulate,
     simulate_stages,
 )
