@@ -68,14 +68,18 @@ def test_the_default_of_a_crane_s_payload_is_a_mode_of_that_ratio() -> None:
     assert natural_modes(scene).damping_ratio[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
 
 
-def test_swing_damping_makes_no_momentum_and_no_force_along_the_wire() -> None:
-    scene = Scene(name="free", gravity=9.0)
-    rng = np.random.default_rng(3)
-    for name in ("tip", "load"):
+def thrown(scene: Scene, rng: np.random.Generator, *names: str) -> None:
+    for name in names:
         scene.add_body(
             name=name, mass=2.0, inertia=(1.0, 2.0, 2.5), position=rng.normal(size=3),
             velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3), gravity=False,
         )  # fmt: skip
+
+
+def test_swing_damping_makes_no_momentum_and_no_force_along_the_wire() -> None:
+    scene = Scene(name="free", gravity=9.0)
+    rng = np.random.default_rng(3)
+    thrown(scene, rng, "tip", "load")
     points = rng.normal(size=(2, 3))
     scene.add_pendulum_damping(
         name="swing", first="tip", second="load", first_point=points[0], second_point=points[1], ratio=0.4
@@ -137,11 +141,7 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
 def test_the_jacobian_is_exact_and_both_formulations_agree_to_the_bits_of_a_restart(kind: str) -> None:
     def make() -> Scene:
         scene, rng = Scene(name="two"), np.random.default_rng(5)
-        for name in ("first", "second"):
-            scene.add_body(
-                name=name, mass=2.0, inertia=(1.0, 2.0, 2.5), position=rng.normal(size=3),
-                velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3), gravity=False,
-            )  # fmt: skip
+        thrown(scene, rng, "first", "second")
         scene.add_load(_core.LOAD_KINDS[kind].example())
         return scene
 

@@ -165,20 +165,12 @@ def test_rest_modes_and_the_linear_model_hold_the_states() -> None:
         ({"bodies": ["ground"]}, "1 bodies and 2 points"),
         ({"bodies": ["load", "load"], "points": [(0, 0, 0), (1, 0, 0)]}, "all its points on 'load'"),
         ({"bodies": ["ground", "ground", "load"], "points": np.zeros((3, 3))}, "point 1 twice in a row"),
+        ({"winch": True, "length": Curve.quintic(start_time=0.0, end_time=1.0, start=10.0, end=9.0)},
+         "length changes over time, and the winch does that"),
     ],
-)
+)  # fmt: skip
 def test_lines_that_cannot_be_are_told(change: dict[str, Any], message: str) -> None:
     scene = hung()
     scene.replace("hoist", **change)
     with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
-        scene.compile()
-
-
-def test_a_winch_needs_a_line_of_its_own() -> None:
-    scene = hung()
-    scene.add_winch(line="hoist")
-    with pytest.raises(SceneError, match="has a winch already"):
-        scene.add_winch(line="hoist")
-    scene.replace("hoist", length=Curve.quintic(start_time=0.0, end_time=1.0, start=10.0, end=9.0))
-    with pytest.raises(SceneError, match="length changes over time, and the winch does that"):
         scene.compile()

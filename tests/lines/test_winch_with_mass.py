@@ -11,18 +11,7 @@ from line_scenes import add_led
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from seacrane import (
-    Curve,
-    Move,
-    Scene,
-    SceneError,
-    SimulationError,
-    Stage,
-    Until,
-    equilibrium,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Curve, Move, Scene, SceneError, SimulationError, Stage, Until, simulate, simulate_stages
 from seacrane.result import heavy_line_tension
 
 Array = NDArray[np.float64]
@@ -88,17 +77,6 @@ def test_stages_command_it_and_wait_for_it() -> None:
     length = runs[1].select("load_state", state_name="wire.length")[-1]
     upper = heavy_line_tension(runs[1], line="wire")[-1, 0]
     assert length > 100.0 and upper == pytest.approx((MASS + MU * length) * G, rel=0.02)
-
-
-def test_a_hoist_hangs_its_load_on_such_a_line_and_winch() -> None:
-    scene = Scene(name="hoist", gravity=G)
-    scene.add_crane(base="ground", slew=0.0, s1=1.0, s2=2.0, held=True)
-    scene.add_hoist(
-        "wire", mass=50e3, size=(4, 4, 4), rung="with mass", length=20.0, EA=1.5e8, mass_per_length=20.0,
-        winch={"lag": 0.1}, wire={"segments": 5, "medium": "sea", "diameter": 0.06},
-    )  # fmt: skip
-    assert equilibrium(scene).load_states["wire.length"] == pytest.approx(20.0, rel=1e-2)
-    assert [one for one in scene.loads if one.endswith("water")] == [f"wire.{i} water" for i in range(1, 6)]
 
 
 def test_what_does_not_fit_is_refused_by_name() -> None:
@@ -172,8 +150,8 @@ def material(count: int, times: Array) -> Array:
 
         full.terminal, full.direction = True, 1.0  # type: ignore[attr-defined]
         y = np.concatenate([place.ravel(), speed.ravel()])
-        part = solve_ivp(rate, (t, times[-1]), y, dense_output=True, events=full, rtol=1e-8, atol=1e-9,
-                         method="DOP853")  # fmt: skip
+        how: dict[str, Any] = {"rtol": 1e-8, "atol": 1e-9, "method": "DOP853", "dense_output": True}
+        part = solve_ivp(rate, (t, times[-1]), y, events=full, **how)
         t = part.t[-1]
         while len(out) < len(times) and times[len(out)] <= t:
             out.append(part.sol(times[len(out)])[2 * n - 2 : 2 * n])
