@@ -33,26 +33,20 @@ def bucket(lean: float, mouth: float, curve: Curve, *openings: dict[str, Any], *
     at = np.array([0.0, 0.0, mouth])
     turned = (np.cos(0.5 * lean), 0.0, np.sin(0.5 * lean), 0.0)
     scene.add_body("anchor", mass=MASS, inertia=(2e6, 2e6, 5e5), position=at, quaternion=turned)
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="anchor", point=at, axis=tuple(axis)
-    )
+    scene.add_joint("guide", kind="prismatic", first="ground", second="anchor", point=at, axis=axis)
     scene.add_driver(joint="guide", curve=curve, name="led")
-    scene.add_immersed(
-        "anchor", parts=[CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, point=(0, 0, H / 2))]
-    )
+    shell = CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, point=(0, 0, H / 2))
+    scene.add_immersed("anchor", parts=[shell])
     if openings:
-        scene.add_entrapped_water(
-            "anchor", area=A, height=H, openings=list(openings), name="water", **{"density": RHO} | more
-        )
+        inside: dict[str, Any] = {"area": A, "height": H, "name": "water", "density": RHO}
+        scene.add_entrapped_water("anchor", openings=list(openings), **inside | more)
     return scene
 
 
 def pushes(form: str, t_end: float, *given: Any, **more: Any) -> tuple[Array, Array, Array]:
     """Times, what the compartment pushes the body by along its axis, N, and its volume."""
     run: dict[str, Any] = {"t_end": t_end, "dt_out": 0.1, "formulation": form, "rtol": 1e-8}
-    lean, mouth, curve, *openings = given
-    filled = simulate(bucket(lean, mouth, curve, *openings, **more), **run)
-    shell = simulate(bucket(lean, mouth, curve), **run)
+    filled, shell = simulate(bucket(*given, **more), **run), simulate(bucket(*given[:3]), **run)
     assert np.max(np.abs(filled["energy_balance"])) < 1e-5 * np.max(filled["absolute_work"])
     force = shell["driver_force"][:, 0] - filled["driver_force"][:, 0]
     return filled.time, force, filled.select("load_state", state_name="water.volume")
@@ -180,15 +174,12 @@ def test_what_geometry_does_not_tell_is_asked_for(openings: Any, given: dict[str
         bucket(0.0, 0.0, heaving(), *openings, **given).compile()
 
 
-@pytest.mark.parametrize(
-    "parts", [[], [{"fill": MASS / 7850.0 / 128.0, "point": (0, 0, 4)}], [{"point": (6, 0, 4)}]]
-)
-def test_a_compartment_outside_its_parts_is_refused(parts: list[Any]) -> None:
-    """Of none, of steel alone, and beside them."""
+@pytest.mark.parametrize("part", [{"fill": MASS / 7850.0 / 128.0, "point": (0, 0, 4)}, {"point": (6, 0, 4)}])
+def test_a_compartment_outside_its_parts_is_refused(part: dict[str, Any]) -> None:
+    """Of steel alone, and beside them."""
     scene = Scene(name="outside", gravity=G)
     scene.add_body("anchor", mass=MASS, size=(4, 4, 8))
-    if parts:
-        scene.add_immersed("anchor", parts=[BoxPart(size=(4, 4, 8), **one) for one in parts])
+    scene.add_immersed("anchor", parts=[BoxPart(size=(4, 4, 8), **part)])
     scene.add_entrapped_water("anchor", area=12.0, height=8.0, openings=[{"point": (0, 0, 8), "area": 1.0}])
     with pytest.raises(SceneError, match="'water in anchor' is outside the parts of 'anchor'"):
         scene.compile()

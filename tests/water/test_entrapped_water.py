@@ -131,17 +131,6 @@ def test_an_opening_above_the_water_inside_fills_it_under_constant_head() -> Non
     assert loss == pytest.approx(fallen, rel=1e-6), "its fall to the level inside is lost too"
 
 
-def test_what_is_full_gives_where_it_takes_and_no_more() -> None:
-    """A crest at one opening and a trough at the other: while it is full, only what leaves comes in."""
-    holes = [((x, 0.0, 0.7), 0.2) for x in (-20.0, 20.0)]
-    scene = standing(-3.7, *holes, initial=9.0 * HEIGHT, area=9.0)
-    scene.waves = wave(1.5)
-    volume, loss = states(run(scene, 60.0, 0.05, rtol=1e-8))
-    assert volume.max() <= 9.0 * HEIGHT * (1.0 + 1e-9)
-    assert np.all(np.diff(loss) >= 0.0)
-    assert loss[-1] > 1e5, "water flows through"
-
-
 def wave(amplitude: float) -> Waves:
     return Waves(omega=[np.pi / 4.0], amplitude=[amplitude], phase=[0.0], direction=[0.0], hulls={})
 

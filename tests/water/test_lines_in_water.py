@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from wet_scenes import EXACT, FORMS, RHO, G
 
-from seacrane import Scene, SceneError, _core, natural_modes, simulate
+from seacrane import Scene, _core, natural_modes, simulate
 from seacrane.description.forces import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.sea import Current
@@ -249,24 +249,6 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
         assert (np.abs(inner) < 0.1).sum() >= 5
     else:
         assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"flow": (1.0, 0.0, 0.0)}, "has a flow"),
-        ({"medium": "air", "added_mass_coefficient": 2.0}, "added_mass_coefficient is of a line in water"),
-    ],
-)
-def test_what_makes_no_line_in_water_is_refused_by_name(given: dict[str, Any], message: str) -> None:
-    scene = Scene(name="refused")
-    with_ends(scene, [(0.0, 0.0, -1.0), (0.0, 0.0, -6.0)], mass=1e3)
-    with pytest.raises(SceneError, match=message):
-        scene.add_line("line", rung="with mass", **{
-            "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3,
-            "diameter": 0.1, "medium": "sea",
-        } | given)  # fmt: skip
-        scene.compile()
 
 
 @pytest.mark.parametrize("formulation", FORMS)

@@ -117,18 +117,6 @@ def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_o
     assert found == pytest.approx(double_wedge(np.radians(deadrise)) * (0.5 * half) ** 2, rel=0.06)
 
 
-def test_added_mass_grows_with_depth_and_panels_hardly_need_mending() -> None:
-    rng = np.random.default_rng(5)
-    part = from_mesh(mesh_shapes.hull_of(rng.normal(size=(12, 3)) * (1.5, 1.0, 1.0)), panels=150)
-    assert np.all(np.diff(part.added_masses, axis=0) >= 0.0)
-    assert np.all(np.diff(part.volumes) >= 0.0)
-    assert part.mended < 0.02
-    assert np.all(part.added_masses[part.depths > part.height] <= part.added_masses[-1])
-    assert part.added_masses[-2] == pytest.approx(part.added_masses[-1], rel=0.1), "it is far below"
-    half = int(np.argmin(np.abs(part.depths - 0.5 * part.height)))
-    assert np.all(part.low_frequency_added_masses[half] > part.added_masses[half])
-
-
 def test_a_flat_bottom_gains_half_of_a_plates_added_mass_over_the_depth_of_its_slam() -> None:
     side = 2.0
     mesh = mesh_shapes.box((side, side, 1.0))

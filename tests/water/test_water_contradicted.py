@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,11 +47,9 @@ def test_a_seabed_has_the_depth_of_the_sea(bed: float, depth: float, tp: float, 
 
 
 def frame(height: float = 1.0) -> TablePart:
+    given: dict[str, Any] = {"depths": [0, 1, 2], "volumes": [0, 0, 0], "drag_area": (1, 1, 1)}
     rows = [[0.0] * 3, [1e3] * 3, [1e3] * 3]
-    return TablePart(
-        height=height, depths=[0, 1, 2], volumes=[0, 0, 0], added_masses=rows, drag_area=(1, 1, 1),
-        source="mine",
-    )  # fmt: skip
+    return TablePart(height=height, added_masses=rows, source="mine", **given)
 
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
@@ -78,16 +77,14 @@ def test_its_drag_is_that_of_the_height_that_is_wet() -> None:
 
 
 def lowered(start: float, *, side: float = 9.0) -> Scene:
-    mass = 30e3
-    scene = Scene(name="mudmat", gravity=G)
+    scene, mass = Scene(name="mudmat", gravity=G), 30e3
     scene.add_body("load", mass=mass, size=(6, 4, 2), position=(0, 0, start))
     lifted = 1025.0 * side**2 * 0.1 if start < 0.0 else 0.0
     scene.add_line(
         "w", first="ground", first_point=(0, 0, start + 31.0), second="load", EA=4e8, rung="auto",
         tension_at_start=(mass - lifted) * G,
     )  # fmt: skip
-    curve = Curve.quintic(start_time=1.0, end_time=4.0, start=0.0, end=0.5)
-    scene.add_winch("w", rate=curve, lag=0.3)
+    scene.add_winch("w", rate=Curve.quintic(start_time=1.0, end_time=4.0, start=0.0, end=0.5), lag=0.3)
     scene.add_immersed("load", parts=[PlatePart(size=(side, side), thickness=0.1)])
     return scene
 
@@ -112,12 +109,10 @@ def test_what_came_out_and_was_struck_again_is_run_again_with_elastic_lines() ->
 def test_the_seabed_of_a_chain_counts_too() -> None:
     scene = Scene(name="chain", gravity=G)
     scene.add_body("buoy", mass=1e4, inertia=(1e4,) * 3)
-    scene.add_line(
-        "chain", first="ground", first_point=(40.0, 0.0, -14.0), second="buoy", rung="with mass", EA=1e7,
-        length=45.0, mass_per_length=40.0, segments=4,
-        seabed={"depth": 14.0, "stiffness": 1e5, "friction": 0.0},
-    )  # fmt: skip
-    scene.compile()
+    line: dict[str, Any] = {"EA": 1e7, "length": 45.0, "mass_per_length": 40.0, "segments": 4}
+    line["seabed"] = {"depth": 14.0, "stiffness": 1e5, "friction": 0.0}
+    ends: dict[str, Any] = {"first": "ground", "first_point": (40.0, 0.0, -14.0), "second": "buoy"}
+    scene.add_line("chain", rung="with mass", **ends, **line)
     scene.add_sea(vessel=None, hs=1.5, tp=8.0)
     with pytest.raises(SceneError, match=r"seabed of 'chain.*14 m"):
         scene.compile()

@@ -211,18 +211,6 @@ def test_drag_of_a_box_becomes_the_damping_of_its_sea() -> None:
     assert found == pytest.approx(linear.drag_damping["load.1"], rel=0.03, abs=1.0)
 
 
-def test_the_response_to_a_realised_sea_is_that_of_a_run_in_small_waves() -> None:
-    scene = hung(2.0, sea={"hs": 0.01, "tp": 6.0, "direction_deg": 20.0, "seed": 2, "stretching": "none"})
-    linear = linear_model(scene)
-    summed = response_summed(linear, body="load")
-    start = linear.full_state(summed.state_at(0.0))
-    result = simulate(scene, t_end=20.0, dt_out=0.5, start=start)
-    rest = np.array(linear.state.values)[:3]
-    expected = rest + summed.at(result.time)[:, :3]
-    moved = float(np.abs(expected - rest).max())
-    assert result.select("position", body="load") == pytest.approx(expected, abs=0.03 * moved)
-
-
 def with_wire(depth: float, sea: dict[str, Any] | None = None, *, drag: float = 1.2) -> Scene:
     """A small weight below a wire with mass whose lower part is in water."""
     scene = Scene(name="wire", gravity=G)

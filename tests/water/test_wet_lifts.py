@@ -100,18 +100,12 @@ def test_parts_in_water_are_drawn_where_they_are() -> None:
     assert np.ptp(np.concatenate([one.points for one in strips]), axis=0) == pytest.approx([3.0, 1.0, 0.01])
 
 
-MESHED = """
-format = "seacrane lift"
+MESHED = """format = "seacrane lift"
 version = 2
-
-[[body]]
-name = "load"
-mass_kg = 4000
-size_m = [2, 1, 1.5]
-
+run = { t_end_s = 1 }
+body = [{ name = "load", mass_kg = 4000, size_m = [2, 1, 1.5] }]
 [[immersed]]
 body = "load"
-
 [[immersed.parts]]
 kind = "mesh"
 mesh = "shapes/load.stl"
@@ -123,9 +117,6 @@ perforation = 0.1
 drag_area_m2 = [1, 2, 3]
 point_m = [0, 0, 0.1]
 source = "drawn"
-
-[run]
-t_end_s = 1
 """
 
 

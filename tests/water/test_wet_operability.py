@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from operability_scenes import vessel
 
-from seacrane import Criterion, Scene, equilibrium, simulate
+from seacrane import Criterion, equilibrium, simulate
 from seacrane.analysis.rest_state import held
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.water import SpherePart
@@ -14,29 +14,20 @@ MASS, DIAMETER, RHO, G = 30e3, 2.5, 1025.0, 9.80665  # kg, m, kg/m3, m/s2
 TOP = (-50.0, 0.0, 20.0)
 
 
-def towed(depth: float, **sea: float) -> Scene:
-    """A sphere below the stern, its centre at a depth (m)."""
-    scene = vessel(**sea)
-    scene.add_body("load", mass=MASS, size=(2.0, 2.0, 2.0), position=(TOP[0], TOP[1], -depth))
-    volume = np.pi / 6.0 * DIAMETER**3 if depth > 0.5 * DIAMETER else 0.0
-    scene.add_line(
-        "wire", bodies=["vessel", "load"], points=[TOP, (0.0, 0.0, 0.0)], EA=2e7,
-        tension_at_start=(MASS - RHO * volume) * G, damping_ratio=0.05,
-    )  # fmt: skip
+def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
+    """A sphere 6 m deep below the stern: waves load it and the ship, and go straight into its acceleration."""
+    scene, weight = vessel(hs=0.002), (MASS - RHO * np.pi / 6.0 * DIAMETER**3) * G
+    scene.add_body("load", mass=MASS, size=(2.0, 2.0, 2.0), position=(TOP[0], TOP[1], -6.0))
+    path = {"bodies": ["vessel", "load"], "points": [TOP, (0.0, 0.0, 0.0)]}
+    scene.add_line("wire", **path, EA=2e7, tension_at_start=weight, damping_ratio=0.05)
     scene.add_point("ball", body="load")
     scene.add_pendulum_damping("swing", first="vessel", second="load", first_point=TOP, ratio=0.05)
     scene.add_immersed("load", parts=[SpherePart(diameter=DIAMETER, drag=0.0)], density=RHO)
-    return scene
-
-
-def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
-    """Waves load ship and sphere, and go straight into the sphere's acceleration."""
     criteria = (
         Criterion(channel="line_tension", names={"line": "wire"}, maximum=1e6),
         Criterion(channel="position", names={"body": "load", "axis": "x"}, maximum=1.0),
         Criterion(channel="point_acceleration", names={"point": "ball", "axis": "x"}, maximum=1.0),
     )
-    scene = towed(6.0, hs=0.002)
     rest = equilibrium(scene)
     still = held(scene).copy(waves=scene.waves)
     linear = LinearSeas(still, rest, criteria)
