@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import mesh_shapes
 import numpy as np
 import pytest
 import wet_scenes as wet
@@ -14,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, simulate
-from seacrane.water import CylinderPart, circle_added_mass, from_mesh
+from seacrane.water import CylinderPart, circle_added_mass
 
 Array = NDArray[np.float64]
 D, LENGTH = 8.0, 60.0
@@ -109,25 +108,6 @@ def test_a_disc_is_struck_over_the_depth_of_its_slam_and_gains_the_rest_as_it_go
     assert np.diff(down) == pytest.approx([0.4, 0.35], abs=0.1)
     up = [added(pile(LENGTH + x * layer, strips=1))[2, 2] / DISC - 1.0 for x in (0.0, 0.2, 0.7, 1.2)]
     assert up == pytest.approx([0.0, 0.1, 0.6, 1.0], abs=1e-5)
-
-
-@pytest.mark.slow("panels of three cylinders")
-@pytest.mark.parametrize(
-    ("length", "ends", "circles"),
-    [(0.2, (1.05, 1.25), (0.12, 0.2)), (1.0, (1.3, 1.5), (0.4, 0.5)), (4.0, (1.5, 1.75), (0.7, 0.8))],
-)
-def test_discs_beside_the_panels_of_a_cylinder_far_below_the_surface(
-    length: float, ends: tuple[float, float], circles: tuple[float, float]
-) -> None:
-    """Sides that are long against the radius add to the water that a face moves: 8/3 is that of a thin disc.
-    Across, ends take from that of each circle."""
-    pytest.importorskip("capytaine")
-    part = from_mesh(mesh_shapes.prism(mesh_shapes.circle(1.0, 24), length), draughts=(20.0,), panels=300)
-    own = sum(piece.added_masses[-1] for piece in CylinderPart(length=length, diameter=2.0).pieces(1.0))
-    assert own[0] == pytest.approx(8.0 / 3.0)
-    axial = part.added_masses[-1][0] / RHO  # a prism lies along x
-    assert ends[0] < axial / own[0] < ends[1]
-    assert circles[0] < part.added_masses[-1][1] / RHO / own[1] < circles[1]
 
 
 def thrown(*, lean: float, **part: Any) -> Scene:

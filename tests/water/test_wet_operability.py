@@ -15,7 +15,7 @@ TOP = (-50.0, 0.0, 20.0)
 
 
 def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
-    """A sphere 6 m deep below the stern: waves load it and the ship, and go straight into its acceleration."""
+    """A sphere 6 m deep below the stern: waves load it and the ship, and go into its acceleration."""
     scene, weight = vessel(hs=0.002), (MASS - RHO * np.pi / 6.0 * DIAMETER**3) * G
     scene.add_body("load", mass=MASS, size=(2.0, 2.0, 2.0), position=(TOP[0], TOP[1], -6.0))
     path = {"bodies": ["vessel", "load"], "points": [TOP, (0.0, 0.0, 0.0)]}
