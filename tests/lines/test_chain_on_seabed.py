@@ -56,10 +56,8 @@ def block(
 def shape(n: int, span: float, up: float, length: float, *, stiffness: float) -> tuple[float, float, Array]:
     """H and V (N) at the upper end, V with half a segment's weight, and heights of the masses (m)."""
     step = length / n
-    chain = Chain(
-        span=np.array([span, 0.0, up]), segment=step, stiffness=EA, weights=np.full(n - 1, WEIGHT * step),
-        bed=0.0, bed_stiffness=stiffness * step,
-    )  # fmt: skip
+    chain = Chain(span=np.array([span, 0.0, up]), segment=step, stiffness=EA,
+                  weights=np.full(n - 1, WEIGHT * step), bed=0.0, bed_stiffness=stiffness * step)  # fmt: skip
     forces = chain.forces()
     assert forces is not None
     return forces[-1, 0], forces[-1, 2] + 0.5 * WEIGHT * step, chain.points(forces)[:, 2]

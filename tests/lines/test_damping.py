@@ -180,10 +180,8 @@ def below_a_ship(order: int) -> Scene:
     scene = Scene(name="order")
     scene.add_vessel(shipped_database())
     scene.add_body(name="load", mass=LOAD, inertia=(LOAD, LOAD, LOAD), position=(0, 40, 5))
-    scene.add_line(
-        name="hoist", bodies=["vessel", "load"][::order], points=[(0, 40, 25), (0, 0, 0)][::order],
-        EA=2e7, tension_at_start=0.8 * LOAD * G,
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["vessel", "load"][::order], points=[(0, 40, 25), (0, 0, 0)][::order],
+                   EA=2e7, tension_at_start=0.8 * LOAD * G)  # fmt: skip
     return scene
 
 

@@ -69,10 +69,8 @@ def test_block_and_load_swing_as_a_double_pendulum() -> None:
     scene = Scene()
     scene.add_crane(base="ground", s1=3.5, s2=2.0, held=True)
     points = [(x, y, 2.5) for x in (5.0, -5.0) for y in (2.0, -2.0)]
-    scene.add_hoist(
-        mass=m2, size=size, length=l1, stiffness=4e9, block_mass=m1, damping=False,
-        slings={"length": np.sqrt(65.0), "EA": 1e10, "points": points},
-    )  # fmt: skip
+    scene.add_hoist(mass=m2, size=size, length=l1, stiffness=4e9, block_mass=m1, damping=False,
+                    slings={"length": np.sqrt(65.0), "EA": 1e10, "points": points})  # fmt: skip
     found = natural_modes(scene, state=equilibrium(scene)).natural_period
     for inertia in m2 / 12 * (size @ size - size**2)[:2]:
         stiffness = G * np.diag([(m1 + m2) * l1, m2 * drop])

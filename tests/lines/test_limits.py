@@ -72,10 +72,8 @@ def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> 
     scene = Scene(name="two wires")
     scene.add_body(name="ball", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.0))
     for name, x in (("left", -1.0), ("right", 1.2)):
-        scene.add_joint(
-            kind="distance", name=name, first="ground", second="ball", point=(x, 0.3 * x, 0.0),
-            second_point=(0.0, 0.0, -1.0), length=2.5,
-        )  # fmt: skip
+        ends: dict[str, Any] = {"point": (x, 0.3 * x, 0.0), "second_point": (0.0, 0.0, -1.0)}
+        scene.add_joint(name, kind="distance", first="ground", second="ball", length=2.5, **ends)
         scene.add_line(joint=name, rung="rigid")
     result = simulate(scene, t_end=3.0, dt_out=0.1, integrator="cvode-adams", rtol=1e-8)
     reference = simulate(scene, t_end=3.0, dt_out=0.1, rtol=1e-10)
@@ -101,14 +99,11 @@ def hooks(top: float) -> Array:
 def payload(top: float, yaw_rate: float) -> Scene:
     """On four rigid wires, to hooks `top` times as far apart as its own corners."""
     scene = Scene(name="payload", gravity=GRAVITY)
-    scene.add_body(
-        name="load", mass=MASS, inertia=INERTIA, position=START, velocity=VELOCITY,
-        angular_velocity=(0.0, 0.0, yaw_rate),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=MASS, inertia=INERTIA, position=START, velocity=VELOCITY,
+                   angular_velocity=(0.0, 0.0, yaw_rate))  # fmt: skip
     for i, (corner, hook) in enumerate(zip(CORNERS, hooks(top), strict=True)):
-        scene.add_joint(
-            kind="distance", name=f"wire {i}", first="ground", second="load", point=hook, second_point=corner
-        )
+        ends: dict[str, Any] = {"first": "ground", "second": "load", "point": hook, "second_point": corner}
+        scene.add_joint(f"wire {i}", kind="distance", **ends)
         scene.add_line(joint=f"wire {i}", rung="rigid")
     return scene
 
@@ -150,8 +145,7 @@ def test_four_rigid_wires_follow_four_stiff_springs_that_only_pull() -> None:
     lengths = np.linalg.norm(CORNERS - hooks(top), axis=1)
 
     def slopes(_: float, y: Array) -> Array:
-        turned = Rotation.from_quat(y[3:7]).as_matrix()
-        velocity, spin = y[7:10], y[10:13]
+        turned, velocity, spin = Rotation.from_quat(y[3:7]).as_matrix(), y[7:10], y[10:13]
         levers = arms @ turned.T
         ways = hooks(top) - y[:3] - levers
         now = np.linalg.norm(ways, axis=1)

@@ -94,10 +94,8 @@ def flying(rung: str) -> Scene:
     scene = Scene(name="flying", gravity=0.0)
     places = {"first": (0.0, 0.0, 0.0), "block": (4.0, 0.0, 1.0), "last": (8.0, 1.0, 0.0)}
     for i, (name, place) in enumerate(places.items()):
-        scene.add_body(
-            name=name, mass=1e3 * (i + 1), inertia=(400.0, 500.0, 600.0), position=place,
-            velocity=(0.0, 0.3 * i, -0.2), angular_velocity=(0.1, -0.2 * i, 0.05),
-        )  # fmt: skip
+        scene.add_body(name=name, mass=1e3 * (i + 1), inertia=(400.0, 500.0, 600.0), position=place,
+                       velocity=(0.0, 0.3 * i, -0.2), angular_velocity=(0.1, -0.2 * i, 0.05))  # fmt: skip
     length = 2.0 * np.sqrt(17.0) + (np.sqrt(18.0) - np.sqrt(17.0))
     scene.add_line(
         name="rope", bodies=["first", "block", "last"], points=[(0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.1)],
@@ -161,10 +159,8 @@ def test_a_driven_load_follows_the_closed_form(omega: float, settling: float) ->
 def test_a_closed_loop_of_rows_beside_it() -> None:
     """Jacobians and steps where joints close a loop in the recursive form as well: three methods agree."""
     scene = taut()
-    scene.add_joint(
-        kind="distance", name="stay", first="ground", second="load", point=(4.2, 3.0, -5.0),
-        second_point=(4.2, 0.1, -5.0),
-    )  # fmt: skip
+    scene.add_joint(kind="distance", name="stay", first="ground", second="load", point=(4.2, 3.0, -5.0),
+                    second_point=(4.2, 0.1, -5.0))  # fmt: skip
     ways = (("dopri5", "redundant", 1e-9), ("dopri5", "recursive", 1e-9), ("rosenbrock", "recursive", 1e-6))
     runs = [
         record(scene, 2.0, rtol=rtol, integrator=method, formulation=form)["position"]

@@ -40,10 +40,8 @@ def heaved(*, stiffness: float = STIFF) -> Scene:
     """20 t below a block that moves up and down from rest, on 10 m of line that carries the weight."""
     scene = below((0.0, 0.0, -10.0))
     add_led(scene, "block", Curve.quintic(start_time=0.0, end_time=7.5, start=0.0, end=1.0))
-    scene.add_line(
-        name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), EA=stiffness,
-        length=10.0 / (1.0 + MASS * G / stiffness), rung="auto",
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), EA=stiffness,
+                   length=10.0 / (1.0 + MASS * G / stiffness), rung="auto")  # fmt: skip
     return scene
 
 
@@ -95,26 +93,20 @@ def several(rng: np.random.Generator, rung: str) -> Scene:
     ringing = rng.choice([0.0, 0.01, 0.3])
     kind = rng.choice(["below", "tugger", "both"])
     carried = mass + (below if kind != "tugger" else 0.0)
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), damping_ratio=0.01,
-        EA=10.0 ** rng.uniform(7, 10), rung=rung,
-        tension_at_start=carried * G * (np.cos(angle) + (rng.random() < 0.3) * upper),
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), damping_ratio=0.01,
+                   EA=10.0 ** rng.uniform(7, 10), rung=rung,
+                   tension_at_start=carried * G * (np.cos(angle) + (rng.random() < 0.3) * upper))  # fmt: skip
     if kind != "tugger":
         under = place - [0, 0, rng.uniform(1.0, 8.0)]
         scene.add_body(name="box", mass=below, inertia=below * np.eye(3), position=under)
-        scene.add_line(
-            name="lower", bodies=["load", "box"], points=np.zeros((2, 3)), damping_ratio=0.01,
-            EA=10.0 ** rng.uniform(6, 10), rung=rung,
-            tension_at_start=below * G * (1.0 + ringing),
-        )  # fmt: skip
+        scene.add_line(name="lower", bodies=["load", "box"], points=np.zeros((2, 3)), damping_ratio=0.01,
+                       EA=10.0 ** rng.uniform(6, 10), rung=rung,
+                       tension_at_start=below * G * (1.0 + ringing))  # fmt: skip
     if kind != "below":
         beside = place + np.array([rng.uniform(5.0, 20.0), 0.0, 0.0])
-        scene.add_line(
-            name="tugger", bodies=["ground", "load"], points=[beside, np.zeros(3)],
-            EA=10.0 ** rng.uniform(5, 8), rung=rng.choice([rung, "elastic"]), damping_ratio=0.01,
-            tension_at_start=rng.uniform(0.0, 0.1) * mass * G,
-        )  # fmt: skip
+        scene.add_line(name="tugger", bodies=["ground", "load"], points=[beside, np.zeros(3)],
+                       EA=10.0 ** rng.uniform(5, 8), rung=rng.choice([rung, "elastic"]), damping_ratio=0.01,
+                       tension_at_start=rng.uniform(0.0, 0.1) * mass * G)  # fmt: skip
     return scene
 
 
@@ -143,10 +135,8 @@ def in_resonance(rung: str, omega: float) -> Scene:
     """180 t on 2,000 m of wire below a tip that heaves; its own frequency is 1.05 rad/s."""
     scene = below((0.0, 0.0, -2000.0), mass=180e3)
     add_led(scene, "tip", Curve.harmonic(amplitude=0.2, omega=omega, phase=np.pi / 2))
-    scene.add_line(
-        name="hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, damping_ratio=0.02,
-        tension_at_start=180e3 * G, rung=rung, settling=0.02,
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, damping_ratio=0.02,
+                   tension_at_start=180e3 * G, rung=rung, settling=0.02)  # fmt: skip
     return scene
 
 
@@ -190,10 +180,8 @@ def test_the_frequency_of_a_line_is_that_of_its_mode() -> None:
     series.add_body(name="block", mass=10.0, inertia=(1, 1, 1), position=(0, 0, -5.0))
     series.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     for name, bodies, at in (("upper", ["ground", "block"], 0.0), ("lower", ["block", "load"], 0.0)):
-        series.add_line(
-            name=name, bodies=bodies, points=[(0, 0, at), (0, 0, 0)], EA=1e8, damping_ratio=0.0,
-            length=5.0 / (1.0 + MASS * G / 1e8),
-        )  # fmt: skip
+        series.add_line(name=name, bodies=bodies, points=[(0, 0, at), (0, 0, 0)], EA=1e8, damping_ratio=0.0,
+                        length=5.0 / (1.0 + MASS * G / 1e8))  # fmt: skip
     model = series.compile(merge=False)
     rates = np.abs(np.linalg.eigvals(jacobian(model)))
     found = line_dynamics(series, model, np.array(model.initial_state), 0.0)

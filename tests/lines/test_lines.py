@@ -48,14 +48,6 @@ def test_falls_divide_the_tension_and_stiffen_by_their_square(falls: int) -> Non
     assert_allclose(out["line_length"][:, 0], -falls * out["position"][:, 0, 2], rtol=1e-12)
 
 
-def test_a_step_of_the_hoisting_rate_peaks_at_weight_and_v_root_k_m() -> None:
-    """On a line so long that its stiffness stays."""
-    scene = hung(length=2000.0)
-    scene.add_winch(line="hoist", rate=-1.0)
-    out = record(scene, 1.0, dt_out=1e-3, rtol=1e-9)
-    assert np.max(out["line_tension"]) == pytest.approx(MASS * G + np.sqrt(STIFFNESS * MASS), rel=2e-4)
-
-
 @pytest.mark.warns("LiftedStartWarning")
 def test_the_order_is_kept_where_a_line_goes_slack_and_taut() -> None:
     """The crossings are located: errors fall with the tolerance, not with the step that met the kink."""

@@ -11,7 +11,6 @@ from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 from seacrane import FileFormatError, Result, Scene, SceneError, simulate, summary
-from seacrane.description.clearances import distance_from_box
 from seacrane.description.file import scene_digest
 
 Array = NDArray[np.float64]
@@ -21,10 +20,8 @@ CORNER, EDGE, COM = (1.0, -2.0, -3.0), (4.0, 5.0, 1.5), (0.3, -0.2, 0.6)
 def tumbling() -> Scene:
     """A load that tumbles over a hull that turns about all its axes."""
     scene = Scene(name="tumbling")
-    scene.add_body(
-        name="load", mass=1e3, inertia=(1e3, 2e3, 2.5e3), position=(3.0, 2.0, 12.0), velocity=(0.5, 0.2, 1.0),
-        angular_velocity=(0.2, -0.7, 0.4), gravity=False,
-    )  # fmt: skip
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 2e3, 2.5e3), position=(3.0, 2.0, 12.0),
+                   velocity=(0.5, 0.2, 1.0), angular_velocity=(0.2, -0.7, 0.4), gravity=False)  # fmt: skip
     scene.add_body(
         name="hull", mass=1e6, inertia=(1e7, 3e7, 3.5e7), center_of_mass=COM, position=(1.0, 0.0, 0.0),
         angular_velocity=(0.3, 0.1, -0.2), velocity=(0.1, 0.0, -0.2), gravity=False,
@@ -129,13 +126,6 @@ def falling(*, turned: float = 0.0) -> Scene:
     about_z = (np.cos(0.5 * turned), 0.0, 0.0, np.sin(0.5 * turned))
     scene.add_body(name="house", mass=1e3, inertia=(1e3, 1e3, 1e3), quaternion=about_z, gravity=False)
     return scene
-
-
-def test_distances_from_a_box() -> None:
-    points = np.array([(0, 0, 0), (0, 0, 0.9), (3, 0, 0), (4, 6, 0), (2, 3, 5), (1, 0, 0)], dtype=float)
-    expected = [-1.0, -0.1, 2.0, 5.0, np.sqrt(1 + 1 + 16), 0.0]
-    assert_allclose(distance_from_box(points, (2.0, 4.0, 2.0)), expected, atol=1e-15)
-    assert_allclose(distance_from_box(points[3], (0.0, 0.0, 0.0)), np.hypot(4.0, 6.0))
 
 
 @pytest.mark.parametrize("turned", [0.0, np.pi / 2.0])

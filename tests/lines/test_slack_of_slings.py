@@ -33,10 +33,8 @@ def rigged(depth: float, *, at: Any = (0.0, 0.0, 0.0), points: Array = CORNERS, 
     held: dict[str, Any] = {"hook": "ground", "hook_point": (0.0, 0.0, top)}
     if block:
         scene.add_body("block", mass=BLOCK, size=(0.5, 0.5, 0.5), position=(0.0, 0.0, top))
-        scene.add_line(
-            "wire", first="ground", second="block", first_point=(0.0, 0.0, top + 10.0), EA=1e8,
-            tension_at_start=DRY + BLOCK * G,
-        )  # fmt: skip
+        scene.add_line("wire", first="ground", second="block", first_point=(0.0, 0.0, top + 10.0), EA=1e8,
+                       tension_at_start=DRY + BLOCK * G)  # fmt: skip
         held = {"hook": "block"}
     scene.add_bridle("sling", load="load", points=points, EA=EA, **held)
     scene.add_immersed("load", parts=[BoxPart(size=VOLUME, point=at)], density=RHO)

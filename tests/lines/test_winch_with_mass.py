@@ -51,10 +51,8 @@ def hung(heave: Curve, *, deep: float = DEEP, segments: int = HEAVY, **winch: An
     add_led(scene, "tip", heave)
     stretch = deep * (MASS + 0.5 * MU * deep) * G / STIFF
     scene.add_body(name="load", mass=MASS, inertia=(1e6, 1e6, 1e6), position=(0.0, 0.0, -deep - stretch))
-    scene.add_line(
-        "wire", "tip", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=STIFF,
-        length=deep, mass_per_length=MU, rung="with mass", segments=segments,
-    )  # fmt: skip
+    scene.add_line("wire", "tip", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=STIFF,
+                   length=deep, mass_per_length=MU, rung="with mass", segments=segments)  # fmt: skip
     scene.add_winch("wire", **{"lag": LAG} | winch)
     return scene
 

@@ -32,11 +32,9 @@ def hung(falls: int = 1, lag: float = 0.0, rung: str = "elastic", **heave: Any) 
     scene = heaving(**heave)
     depth = TIP - ROPE - MASS * G * ROPE / STIFFNESS / falls
     scene.add_body(name="load", mass=MASS, inertia=(500.0, 500.0, 500.0), position=(0.0, 0.0, depth))
-    scene.add_line(
-        name="hoist", bodies=(["ship", "load"] * falls)[: falls + 1],
-        points=([(0, 0, TIP), (0, 0, 0)] * falls)[: falls + 1],
-        EA=STIFFNESS, length=falls * ROPE, damping_ratio=0.05, rung=rung,
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=(["ship", "load"] * falls)[: falls + 1],
+                   points=([(0, 0, TIP), (0, 0, 0)] * falls)[: falls + 1], EA=STIFFNESS, length=falls * ROPE,
+                   damping_ratio=0.05, rung=rung)  # fmt: skip
     scene.add_winch(line="hoist", lag=lag)
     return scene
 
@@ -79,10 +77,8 @@ def moving_crane() -> Scene:
     scene.add_joint(kind="free", name="sea", first="ground", second="ship", point=(0, 0, 0))
     for motion, k, held in (("x", 4e5, 0.0), ("y", 4e5, 0.0), ("z", 4e5, 9.80665 * 5.4e5),
                             ("roll", 4e7, 0.0), ("pitch", 4e8, 8e6), ("yaw", 4e7, 0.0)):  # fmt: skip
-        scene.add_actuator(
-            joint="sea", coordinate=motion, name=f"sea {motion}", stiffness=k, damping=0.05 * k,
-            feed_forward=held,
-        )  # fmt: skip
+        scene.add_actuator(joint="sea", coordinate=motion, name=f"sea {motion}", stiffness=k,
+                           damping=0.05 * k, feed_forward=held)  # fmt: skip
     scene.add_body(
         name="boom", mass=2e4, inertia=(1e4, 7e5, 7e5), position=(10.0, 0.0, 12.0), velocity=(0.0, 0.0, 0.3)
     )
@@ -91,15 +87,11 @@ def moving_crane() -> Scene:
     )
     scene.add_actuator(joint="pin", name="luff", stiffness=4e8, damping=8e7, feed_forward=-6e6)
     scene.add_body(name="load", mass=2e4, inertia=(1e4, 1e4, 1e4), position=(20.0, 0.0, -8.0))
-    scene.add_line(
-        name="hoist", bodies=["boom", "load"], points=[(10.0, 0.0, 0.0), (0, 0, 0)], EA=2e8,
-        length=20.0,
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["boom", "load"], points=[(10.0, 0.0, 0.0), (0, 0, 0)], EA=2e8,
+                   length=20.0)  # fmt: skip
     scene.add_winch(line="hoist", lag=0.1)
-    scene.add_heave_compensation(
-        name="by winch", body="boom", point=(10, 0, 0), winch="hoist", lag=0.2, high_pass=0.05, gain=0.4,
-        maximum_rate=0.15,
-    )  # fmt: skip
+    scene.add_heave_compensation(name="by winch", body="boom", point=(10, 0, 0), winch="hoist", lag=0.2,
+                                 high_pass=0.05, gain=0.4, maximum_rate=0.15)  # fmt: skip
     scene.add_heave_compensation(
         name="by luffing", body="ship", point=(20.0, 0.0, 12.0), actuator="luff", ratio=0.05, gain=0.5,
         lag=0.1, lag_order=2, high_pass=0.05, actuator_frequency=1.0, maximum_stroke=0.2,

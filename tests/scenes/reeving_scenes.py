@@ -103,10 +103,8 @@ def slewing(**change: Any) -> Scene:
         name="hoist", bodies=["ground", "arm", "cleat", "load", "cleat"],
         points=[(0.0, 0.0, 0.0), (-0.5, 0.0, 0.8), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.9, 0.2, 0.1)], **line,
     )  # fmt: skip
-    scene.add_winch(
-        line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
-        maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15,
-    )  # fmt: skip
+    scene.add_winch(line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
+                    maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15)  # fmt: skip
     scene.add_line(
         name="cord", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], length=5.0,
         strains=[0.0, 0.1, 0.3, 0.8], tensions=[0.0, 300.0, 700.0, 3000.0],

@@ -172,10 +172,8 @@ def height_of(state: Any) -> float:
 def test_its_inertia_is_that_of_a_rod_from_the_bottom_to_the_surface() -> None:
     turn, center = Rotation.from_rotvec([0.2, -0.3, 0.5]), np.array([0.1, 0.2, -0.3])
     scene = Scene(name="mass", gravity=G)
-    scene.add_body(
-        name="load", mass=700.0, inertia=(100.0, 200.0, 300.0), position=(0.0, 0.0, 20.0),
-        center_of_mass=center, quaternion=wet.quaternion(turn),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=700.0, inertia=(100.0, 200.0, 300.0), position=(0.0, 0.0, 20.0),
+                   center_of_mass=center, quaternion=wet.quaternion(turn))  # fmt: skip
     bottom = np.array([0.4, -0.2, -1.0])
     filled(scene, ((0.5, 0.0, -0.9), 0.01), point=bottom, initial=7.5)
     found, expected = wet.masses(scene, 700.0, (100.0, 200.0, 300.0), turn)
@@ -305,17 +303,6 @@ def test_lanes_hold_water_each_its_own(air: str) -> None:
     for lane, scene in enumerate(scenes):
         scene.replace("load", mass=3000.0 + 500.0 * lane)
     wet.lanes_are_as_alone(scenes, 2.3)
-
-
-def test_leaning_over_is_told() -> None:
-    scene = Scene(name="leans", gravity=G)
-    scene.add_body(
-        name="load", mass=4e3, inertia=(4e3, 4e3, 4e3), position=(0.0, 0.0, 30.0),
-        angular_velocity=(0.0, 0.5, 0.0), gravity=False,
-    )  # fmt: skip
-    filled(scene, BOTTOM)
-    result = run(scene, 2.0, 0.5)
-    assert times(result, "leans") == pytest.approx([np.radians(30.0) / 0.5], abs=1e-9)
 
 
 HOLE = {"point": (0.0, 0.0, 0.0), "area": 0.1}

@@ -147,10 +147,8 @@ def test_a_slender_body_turns_broadside_by_the_moment_of_munk() -> None:
     turning = mass * np.mean([((i + 0.5) - 3.0) ** 2 for i in range(6)])
     inertia = mass * length**2 / 12.0
     scene = Scene(name="munk", gravity=G)
-    scene.add_body(
-        name="load", mass=mass, inertia=(100.0, inertia, inertia), position=(0.0, 0.0, -200.0),
-        velocity=(2.0, 0.3, 0.0),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=mass, inertia=(100.0, inertia, inertia), position=(0.0, 0.0, -200.0),
+                   velocity=(2.0, 0.3, 0.0))  # fmt: skip
     slices = CylinderPart(length=length, diameter=1.0, drag=0.0, strips=6, ends=("joined", "joined"))
     scene.add_immersed("load", parts=[slices])
     result = run(scene, 6.0, 0.5)
@@ -198,10 +196,8 @@ def test_buoyancy_is_that_of_the_volume_below_the_surface_at_any_attitude(kind: 
         inside = lambda p: p[:, 1] ** 2 + p[:, 2] ** 2 < 0.25 * diameter**2  # noqa: E731
     center = float(rng.uniform(-0.5, 0.5))
     scene = Scene(name="float", gravity=G)
-    scene.add_body(
-        name="load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=(0.0, 0.0, center), gravity=False,
-        quaternion=wet.quaternion(turn),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=(0.0, 0.0, center), gravity=False,
+                   quaternion=wet.quaternion(turn))  # fmt: skip
     scene.add_immersed("load", parts=[part], density=RHO)
     result = simulate(scene, t_end=0.1, dt_out=0.1, channels=["load_force", "load_moment"])
     volume, moment = clipped(size, turn.as_matrix(), center, inside)
@@ -228,10 +224,8 @@ def test_both_formulations_move_random_parts_alike_and_the_ledger_closes(seed: i
 def test_the_mass_of_a_body_holds_that_of_its_parts() -> None:
     """About its centre of mass: A of each strip, moved there by its lever."""
     scene, turn = Scene(name="mass", gravity=G), Rotation.from_rotvec([0.3, -0.2, 0.5])
-    scene.add_body(
-        name="load", mass=700.0, inertia=(100.0, 200.0, 300.0), position=(0.0, 0.0, -100.0),
-        center_of_mass=(0.1, 0.2, -0.3), quaternion=wet.quaternion(turn),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=700.0, inertia=(100.0, 200.0, 300.0), position=(0.0, 0.0, -100.0),
+                   center_of_mass=(0.1, 0.2, -0.3), quaternion=wet.quaternion(turn))  # fmt: skip
     box = BoxPart(size=(2.0, 1.0, 0.5), point=(1.0, 0.0, 0.4), strips=(2, 1))
     parts = scene.add_immersed("load", parts=[box])
     found, expected = wet.masses(scene, 700.0, (100.0, 200.0, 300.0), turn)
@@ -287,10 +281,8 @@ def test_bad_parts_are_refused(part: dict[str, Any], given: dict[str, Any], mess
 
 def regular(scene: Scene, *, period: float, amplitude: float = 1.0) -> float:
     """One wave without stretching in deep water; its wavenumber."""
-    scene.waves = Waves(
-        omega=[2.0 * np.pi / period], amplitude=[amplitude], phase=[0.0], direction=[0.0], hulls={},
-        stretching="none",
-    )  # fmt: skip
+    scene.waves = Waves(omega=[2.0 * np.pi / period], amplitude=[amplitude], phase=[0.0], direction=[0.0],
+                        hulls={}, stretching="none")  # fmt: skip
     return float((2.0 * np.pi / period) ** 2 / G)
 
 
@@ -326,10 +318,8 @@ def test_a_small_neutral_sphere_moves_as_the_water() -> None:
     scene = Scene(name="particle", gravity=G)
     k, omega = regular(scene, period=6.0), 2.0 * np.pi / 6.0
     mass, flow = RHO * np.pi / 6.0 * 0.01**3, omega * np.exp(-5.0 * k)
-    scene.add_body(
-        name="load", mass=mass, inertia=mass * 1e-5 * np.ones(3), position=(0.0, 0.0, -5.0),
-        velocity=(flow, 0.0, 0.0),
-    )  # fmt: skip
+    scene.add_body(name="load", mass=mass, inertia=mass * 1e-5 * np.ones(3), position=(0.0, 0.0, -5.0),
+                   velocity=(flow, 0.0, 0.0))  # fmt: skip
     scene.add_immersed("load", parts=[SpherePart(diameter=0.01, drag=0.0)], density=RHO)
 
     def rate(t: float, y: Array) -> Array:

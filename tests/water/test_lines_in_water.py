@@ -45,15 +45,11 @@ def tossed(*, waves: bool = True) -> Scene:
         current = Current(depth=[0.0, 10.0], speed=[0.8, 0.3], direction_deg=[20.0, 60.0])
         sea: dict[str, Any] = {"hs": 1.5, "tp": 5.0, "count": 20, "seed": 3, "direction_deg": 30.0}
         scene.add_sea(vessel=None, gamma=2.0, current=current, **sea)
-    scene.add_body(
-        name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
-        velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
-    )  # fmt: skip
-    scene.add_line(
-        "wire", "ground", "load", rung="with mass", medium="sea", segments=3, first_point=(0.0, 0.0, 5.0),
-        second_point=(0.1, -0.2, 0.4), EA=2e5, length=11.5, mass_per_length=40.0, diameter=0.25,
-        drag_coefficient_along=0.05,
-    )  # fmt: skip
+    scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
+                   velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
+    scene.add_line("wire", "ground", "load", rung="with mass", medium="sea", segments=3,
+                   first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5, length=11.5,
+                   mass_per_length=40.0, diameter=0.25, drag_coefficient_along=0.05)  # fmt: skip
     return scene
 
 
@@ -80,10 +76,8 @@ def test_a_line_that_sinks_takes_on_its_terminal_speed_as_its_equation_says(alon
     """M' v' = W - k v^2 has v = V tanh(k V t / M'), V^2 = W / k; across M' holds the added mass."""
     scene = Scene(name="sinking", gravity=G)
     with_ends(scene, [(0.0, 0.0, -100.0), np.add((0.0, 0.0, -100.0), along)], mass=100.0)
-    wet_line(
-        scene, length=50.0, segments=1, drag_coefficient=1.1, drag_coefficient_along=0.02,
-        added_mass_coefficient=0.9,
-    )  # fmt: skip
+    wet_line(scene, length=50.0, segments=1, drag_coefficient=1.1, drag_coefficient_along=0.02,
+             added_mass_coefficient=0.9)  # fmt: skip
     result = simulate(scene, t_end=4.0, rtol=1e-9, channels=["velocity", "position"])
     water, upright = RHO * area(0.1) * 50.0, along[2] > 0.0
     mass = 200.0 + 20.0 * 50.0 + (0.0 if upright else 0.9 * water)
@@ -139,11 +133,9 @@ def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
         scene = Scene(name="taut", gravity=0.0)
         scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(length, 0.0, -20.0))
         scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-        scene.add_line(
-            "line", "ground", "end", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-            rung="with mass", EA=pull / strain, length=short, mass_per_length=2.0, segments=n,
-            diameter=diameter, medium="sea", density=RHO, added_mass_coefficient=0.8,
-        )  # fmt: skip
+        scene.add_line("line", "ground", "end", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+                       rung="with mass", EA=pull / strain, length=short, mass_per_length=2.0, segments=n,
+                       diameter=diameter, medium="sea", density=RHO, added_mass_coefficient=0.8)  # fmt: skip
         mass = (2.0 + 0.8 * RHO * area(diameter)) / (1.0 + strain)
         whole = np.pi / length * np.sqrt(pull / mass)
         chain = whole * 2.0 * n / np.pi * np.sin(0.5 * np.pi / n)
@@ -165,11 +157,9 @@ def test_a_load_on_a_long_wire_bounces_with_the_wire_s_own_mass(length: float, p
     for segments in (5, 10, 20):
         scene = Scene(name="long wire", gravity=G)
         scene.add_body(name="load", mass=60e3, inertia=(1e5,) * 3, position=(0.0, 0.0, low))
-        scene.add_line(
-            "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-            rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments, diameter=0.06,
-            medium="sea",
-        )  # fmt: skip
+        scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+                       rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments,
+                       diameter=0.06, medium="sea")  # fmt: skip
         add_load(scene, _core.ImmersedPart(
             name="water", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
             depths=[0.0, 2.0], added_masses=[(0.0, 0.0, 0.0), (0.0, 0.0, 50e3)],
@@ -235,11 +225,9 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
     scene = Scene(name="slack", gravity=G)
     scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, end))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(
-        "line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12, diameter=0.08,
-        medium="sea", density=RHO,
-    )  # fmt: skip
+    scene.add_line("line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0),
+                   rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12,
+                   diameter=0.08, medium="sea", density=RHO)  # fmt: skip
     floating = end == -25.0
     start: Any = "rest" if floating else None
     place = np.asarray(simulate(scene, t_end=1.0, rtol=1e-9, start=start)["position"])

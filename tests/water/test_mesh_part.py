@@ -97,13 +97,10 @@ def double_wedge(deadrise: float) -> float:
 
 @pytest.mark.slow("panels")
 def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_one_piled_up() -> None:
-    assert double_wedge(1e-6) == pytest.approx(np.pi / 2.0, rel=1e-5)
-    assert double_wedge(np.pi / 4.0) / (np.pi / 2.0) == pytest.approx(0.7566, rel=1e-4)
-    deadrise, height, lengths = 30.0, 1.0, (8.0, 14.0)
+    deadrise, lengths, tables = 30.0, (8.0, 14.0), []
     half = 1.0 / np.tan(np.radians(deadrise))
-    tables = []
     for length in lengths:
-        mesh = mesh_shapes.prism(mesh_shapes.wedge(deadrise, height), length)
+        mesh = mesh_shapes.prism(mesh_shapes.wedge(deadrise, 1.0), length)
         plain, wetted = (
             from_mesh(mesh, panels=int(50 * length), draughts=(0.5, 1.0), wetting=w)
             for w in (1.0, np.pi / 2.0)
@@ -139,7 +136,6 @@ def test_a_ladder_is_found_on_disk_again_to_the_bit(tmp_path: Path, monkeypatch:
     first = from_mesh(BOX, **ROUGH)
     (file,) = (tmp_path / "added_mass").iterdir()
     real = panel_added_mass._Panels.solved
-
     monkeypatch.setattr(panel_added_mass._Panels, "solved", Mock(side_effect=AssertionError("solved again")))
     with monkeypatch.context() as without:
         without.setitem(sys.modules, "capytaine", None)

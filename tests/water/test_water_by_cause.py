@@ -57,10 +57,8 @@ def tumbling(part: Any, *, waves: bool) -> Scene:
     ids=lambda part: part.kind,
 )
 def test_all_forces_are_mass_times_acceleration_less_weight(part: Any, waves: bool, formulation: str) -> None:
-    result = simulate(
-        tumbling(part, waves=waves), t_end=2.0, dt_out=0.02, formulation=formulation,
-        channels=["acceleration", "immersed_force"],
-    )  # fmt: skip
+    result = simulate(tumbling(part, waves=waves), t_end=2.0, dt_out=0.02, formulation=formulation,
+                      channels=["acceleration", "immersed_force"])  # fmt: skip
     force = np.asarray(result["immersed_force"]).sum(axis=1)  # of a cylinder and its ends
     expected = 3000.0 * (np.asarray(result.select("acceleration", body="load")) + np.array([0.0, 0.0, G]))
     scale = np.abs(force).max()
@@ -148,10 +146,8 @@ def stretches(scene: Scene, t_end: float, count: int, formulation: str) -> list[
     channels = ["velocity", "immersed_force", "immersed_momentum", "immersed_shed"]
     for begin, end in pairwise([0.0, *np.sort(np.concatenate(stops)), t_end]):
         run.advance(begin)
-        piece = Run(
-            scene, end, start=run.state, outputs_from=begin, dt_out=(end - begin) / count, channels=channels,
-            **given,
-        )  # fmt: skip
+        piece = Run(scene, end, start=run.state, outputs_from=begin, dt_out=(end - begin) / count,
+                    channels=channels, **given)  # fmt: skip
         piece.advance(end)
         out.append(piece.result())
     return out

@@ -132,10 +132,8 @@ def test_a_mesh_in_a_lift_file_is_that_of_a_script(tmp_path: Path) -> None:
     path.write_text(MESHED, encoding="utf-8")
     lifted, scene = Lift.load(path), Scene(name="lift")
     scene.add_body("load", mass=4000.0, size=(2.0, 1.0, 1.5))
-    part = from_mesh(
-        mesh, scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2,
-        perforation=0.1, drag_area=(1.0, 2.0, 3.0), point=(0.0, 0.0, 0.1), source="drawn",
-    )  # fmt: skip
+    part = from_mesh(mesh, scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2, perforation=0.1,
+                     drag_area=(1.0, 2.0, 3.0), point=(0.0, 0.0, 0.1), source="drawn")  # fmt: skip
     (expected,) = scene.add_immersed("load", parts=[part])
     assert lifted.scene().loads["load.1"] == expected
     lifted.save(again)
@@ -209,10 +207,8 @@ def lowered(start: float, *, side: float = 9.0) -> Scene:
     scene, mass = Scene(name="mudmat", gravity=G), 30e3
     scene.add_body("load", mass=mass, size=(6, 4, 2), position=(0, 0, start))
     lifted = 1025.0 * side**2 * 0.1 if start < 0.0 else 0.0
-    scene.add_line(
-        "w", first="ground", first_point=(0, 0, start + 31.0), second="load", EA=4e8, rung="auto",
-        tension_at_start=(mass - lifted) * G,
-    )  # fmt: skip
+    scene.add_line("w", first="ground", first_point=(0, 0, start + 31.0), second="load", EA=4e8, rung="auto",
+                   tension_at_start=(mass - lifted) * G)  # fmt: skip
     scene.add_winch("w", rate=Curve.quintic(start_time=1.0, end_time=4.0, start=0.0, end=0.5), lag=0.3)
     scene.add_immersed("load", parts=[PlatePart(size=(side, side), thickness=0.1)])
     return scene
