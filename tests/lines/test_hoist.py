@@ -8,17 +8,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from seacrane import (
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    equilibrium,
-    natural_modes,
-    shipped_database,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Scene, SceneError, Stage, Until, shipped_database, simulate, simulate_stages
+from seacrane.analysis import equilibrium, natural_modes
 from seacrane.scene import Slings
 
 G = 9.80665

@@ -12,23 +12,12 @@ from line_scenes import MASS, STIFFNESS, G, add_led, below, hung, swinging
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
-from seacrane import (
-    Curve,
-    Result,
-    Run,
-    SampledController,
-    Scene,
-    SceneError,
-    cases,
-    ensemble,
-    equilibrium,
-    natural_modes,
-    simulate,
-    simulate_to_file,
-)
+from seacrane import Curve, Result, Run, SampledController, Scene, SceneError, cases, ensemble, simulate
+from seacrane.analysis import equilibrium, natural_modes
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
 from seacrane.errors import LineSlackError
+from seacrane.run import simulate_to_file
 from seacrane.run.line_rungs import curve_frequency, excitations, tension_error
 from seacrane.warnings import LineRungWarning, PushingLineWarning, QuasiStaticLineWarning
 

@@ -20,18 +20,8 @@ from reeving_scenes import slewing, stiff
 from scipy.integrate import solve_ivp
 from test_jacobian import largest_error, moving
 
-from seacrane import (
-    Curve,
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    equilibrium,
-    integrator_names,
-    linear_model,
-    natural_modes,
-    simulate,
-)
+from seacrane import Curve, Result, Run, Scene, SceneError, integrator_names, simulate
+from seacrane.analysis import equilibrium, linear_model, natural_modes
 
 Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)

@@ -22,16 +22,12 @@ from seacrane.warnings import BallastWarning, LoadInHullWarning, MassUnitWarning
 DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "lines.md"
 G, MASS, SIZE, LENGTH = 9.80665, 40e3, (6.0, 6.0, 4.0), 8.0  # of the rod's usual load
 ROPE = {"EA": 4e7}
+SLUNG = {"falls": 4, "block_mass": 2e3, "slings": {"angle_deg": 60.0, "EA": 8e7}}
 LIFTS: dict[str, dict[str, Any]] = {
-    "rod": {},
-    "rigid": {"rung": "rigid"},
-    "quasi-static": {"rung": "quasi-static", **ROPE},
-    "elastic": {"rung": "elastic", **ROPE},
-    "auto": {"rung": "auto", **ROPE},
+    "rod": {}, "rigid": {"rung": "rigid"}, "quasi-static": {"rung": "quasi-static", **ROPE},
+    "elastic": {"rung": "elastic", **ROPE}, "auto": {"rung": "auto", **ROPE},
     "with mass": {"rung": "with mass", "mass_per_length": 20.0, **ROPE},
-    "four falls, block, slings": {
-        "falls": 4, "block_mass": 2e3, "slings": {"angle_deg": 60.0, "EA": 8e7}, **ROPE,
-    },
+    "four falls, block, slings": SLUNG | ROPE,
 }  # fmt: skip
 SWINGS = ("payload swing", "offlead", "sidelead", "payload offset x", "payload offset y")
 STAGES = [Stage(name="hang", duration=0.04), Stage(name="up", duration=0.04)]

@@ -85,11 +85,8 @@ def _drop(rng: np.random.Generator, shape: str) -> Drop | None:
         return None
     # What rosenbrock and bs32 cannot hold but by thousands of steps, and how far the rough ones err.
     finest, coarsest = FINEST.get(method, -8.0), -4.0 if method in ROUGH else -2.0
-    how = {
-        "integrator": method,
-        "rtol": float(10.0 ** rng.uniform(finest, coarsest)),
-        "formulation": "redundant" if method == "ida" else ("recursive", "redundant")[rng.integers(2)],
-    }
+    how = {"integrator": method, "rtol": float(10.0 ** rng.uniform(finest, coarsest))}
+    how["formulation"] = "redundant" if method == "ida" else ("recursive", "redundant")[rng.integers(2)]
     least = {"box": float(min(contact.size)), "post": float(min(contact.size[1:])), "pipe": thick}
     return Drop(scene, how, met[0] + rng.uniform(0.1, 1.0), least.get(shape, np.inf), met)
 
@@ -102,11 +99,10 @@ def _surface(
     if shape == "seabed":
         return scene.add_contact("ball", on="ground", place=(0.0, 0.0, -5.0), **common)
     sizes = {
-        "plane": None,
-        "box": thick * rng.uniform(1.0, 20.0, 3),
+        "plane": None, "box": thick * rng.uniform(1.0, 20.0, 3),
         "post": thick * np.array([1.0, rng.uniform(1.0, 20.0)]),
         "pipe": thick * np.array([rng.uniform(1.0, 5.0), 0.0, rng.uniform(1.0, 10.0)]),
-    }
+    }  # fmt: skip
     size = sizes[shape]
     if shape == "pipe" and size is not None:
         size[1] = size[0] + 2.0 * thick

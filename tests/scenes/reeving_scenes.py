@@ -112,15 +112,6 @@ def slewing(**change: Any) -> Scene:
     return scene
 
 
-def four_legs(*, stiffnesses: tuple[float, ...], height: float = 4.0, arm: float = 2.0) -> Scene:
-    """A load below four slings to its corners."""
-    scene = Scene(name="slung")
-    scene.add_body(name="load", mass=8e3, inertia=(2e4, 2e4, 3e4), position=(0.0, 0.0, -height))
-    corners = [(arm, arm, 0.0), (-arm, arm, 0.0), (-arm, -arm, 0.0), (arm, -arm, 0.0)]
-    scene.add_bridle(name="sling", hook="ground", load="load", points=corners, EA=stiffnesses)
-    return scene
-
-
 def stiff(stiffness: float, rung: str, **change: Any) -> Scene:
     """`slewing` with a taut line of that EA, which starts with 8 kN."""
     scene = slewing(EA=stiffness, rung=rung, **change)

@@ -13,30 +13,14 @@ from line_scenes import add_led
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from seacrane import (
-    Curve,
-    Lift,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    _core,
-    equilibrium,
-    linear_model,
-    motion_rao,
-    natural_modes,
-    response_statistics,
-    simulate,
-    simulate_stages,
-    statics,
-    summary,
-)
-from seacrane.analysis import drag_in_sea, response_summed
+from seacrane import Curve, Lift, Result, Scene, SceneError, _core, motion_rao, response_statistics, simulate
+from seacrane.analysis import drag_in_sea, equilibrium, linear_model, natural_modes, response_summed
 from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.answers import statics, summary
 from seacrane.ensembles import coefficient_scatter
 from seacrane.ensembles.coefficient_scatter import SHARES
+from seacrane.run import Stage, Until, simulate_stages
 from seacrane.sea import Current, jonswap
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.water.added_mass import sphere_table
