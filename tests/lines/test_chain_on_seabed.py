@@ -27,21 +27,6 @@ CATENARIES = (
 )
 
 
-def moored(
-    segments: int, *, span: float = 400.0, depth: float = 50.0, length: float = 410.0, **bed: Any
-) -> Scene:
-    """A chain from an anchor to a point at the surface that stays."""
-    scene = Scene(name="moored", gravity=9.81)
-    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(span, 0.0, 0.0))
-    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(
-        "chain", "ground", "end", first_point=(0.0, 0.0, -depth), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=EA, length=length, mass_per_length=390.0, segments=segments, diameter=0.252,
-        medium="sea", density=1025.0, seabed={"depth": depth, "stiffness": 1e6, "friction": 0.0} | bed,
-    )  # fmt: skip
-    return scene
-
-
 def block(
     *, gravity: float = 10.0, velocity: Any = (0.0, 0.0, 0.0), place: Any = (0.0, 0.0, -10.1), **bed: Any
 ) -> Scene:
@@ -80,7 +65,20 @@ def test_a_chain_at_rest_tends_to_the_catenary_on_a_seabed_with_second_order(
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_chain_stays_where_it_is_described(formulation: str) -> None:
-    scene = moored(41, friction=0.6)
+    """From an anchor to a point at the surface."""
+    scene = Scene(name="moored", gravity=9.81)
+    scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(400.0, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    bed = {"depth": 50.0, "stiffness": 1e6, "friction": 0.6}
+    line: dict[str, Any] = {
+        "EA": EA,
+        "length": 410.0,
+        "mass_per_length": 390.0,
+        "segments": 41,
+        "seabed": bed,
+    }
+    scene.add_line("chain", "ground", "end", first_point=(0.0, 0.0, -50.0), second_point=(0.0, 0.0, 0.0),
+                   rung="with mass", medium="sea", density=1025.0, diameter=0.252, **line)  # fmt: skip
     result = simulate(scene, t_end=2.0, dt_out=0.5, rtol=1e-8, formulation=formulation)
     assert np.ptp(np.asarray(result["position"]), axis=0).max() < 1e-6
     anchor, top = heavy_line_tension(result, line="chain")[-1]

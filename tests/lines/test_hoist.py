@@ -117,12 +117,8 @@ def test_an_existing_body_stays_a_ship_turns_the_load_and_slings_take_a_rung() -
     turned.add_hoist(**BOX, EA=3e7)
     w, _, _, z = turned.bodies["load"].quaternion
     assert 2.0 * np.degrees(np.arctan2(z, w)) == pytest.approx(90.0)
-    pulls = {}
-    for rung in ("elastic", "quasi-static"):
-        scene = hoisted(**BOX, EA=3e7, block_mass=1e3, winch={"lag": 0.1}, slings=SLUNG | {"rung": rung})
-        assert {one.rung for name, one in scene.loads.items() if "sling" in name} == {rung}
-        pulls[rung] = simulate(scene, 0.5, dt_out=0.1)["line_tension"][-1]
-    assert pulls["quasi-static"] == pytest.approx(pulls["elastic"], rel=1e-3)
+    slung = hoisted(**BOX, EA=3e7, block_mass=1e3, slings=SLUNG | {"rung": "quasi-static"})
+    assert {one.rung for name, one in slung.loads.items() if "sling" in name} == {"quasi-static"}
 
 
 def test_a_load_described_inside_or_below_its_deck_is_named() -> None:

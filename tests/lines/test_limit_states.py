@@ -85,12 +85,8 @@ def test_files_keep_them_and_the_worst_of_a_name_left_open_counts(swinging: Resu
     assert "1.48 exceeded" in str(summary(loaded))
     told = simulate_to_file(limited(), tmp_path / "long.nc", t_end=20.0, dt_out=0.02)
     assert told.load().utilisation == swinging.utilisation
-    scene = limited()
-    scene.save(tmp_path / "scene.json")
-    again = Scene.load(tmp_path / "scene.json")
-    assert again == scene == scene.copy() and again.limit_states == scene.limit_states
-    scene.remove("swing")
-    assert list(scene.limit_states) == ["link tension"]
+    limited().save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json").limit_states == limited().copy().limit_states
     scene = pendulum()
     scene.add_limit_state(channel="position", names={"body": "load"}, maximum=1.0, minimum=-10.0)
     (used,) = simulate(scene, t_end=5.0).utilisation

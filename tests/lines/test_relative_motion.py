@@ -105,8 +105,10 @@ def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> 
     assert np.array_equal(Result.load(result.save(tmp_path / "run.nc")).place_of("hull", EDGE), edge)
     scene.add_relative(name="over deck", point="corner", to="edge", axes="hull")
     assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
+    scene.add_clearance(name="gap", points="corner", body="hull", size=(3.0, 2.0, 1.0))
     scene.save(tmp_path / "scene.json")
-    assert Scene.load(tmp_path / "scene.json").relatives == scene.relatives
+    again = Scene.load(tmp_path / "scene.json")
+    assert (again.relatives, again.clearances) == (scene.relatives, scene.clearances)
     text = (tmp_path / "scene.json").read_text().replace('"to": "edge"', '"to": "brink"')
     (tmp_path / "scene.json").write_text(text)
     with pytest.raises(FileFormatError, match="no point 'brink'"):

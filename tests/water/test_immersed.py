@@ -357,9 +357,7 @@ def test_a_body_in_a_current_moves_as_one_that_is_towed_through_still_water(form
 
 def in_a_sea(seed: int) -> Scene:
     """A load with parts of all kinds that swings on two links through a sea with a current."""
-    scene = wet.hung_on_links()
-    scene.add_immersed("load", parts=list(wet.random_parts(np.random.default_rng(7))), density=RHO)
-    current = Current(speed=0.7, direction_deg=100.0)
+    scene, current = hanging(7), Current(speed=0.7, direction_deg=100.0)
     scene.add_sea(vessel=None, hs=1.5, tp=6.0, seed=seed, direction_deg=30.0, current=current)
     return scene
 
