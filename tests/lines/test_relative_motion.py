@@ -114,7 +114,7 @@ def test_files_keep_it_and_any_point_has_a_place_after_a_run(tmp_path: Path) -> 
     with pytest.raises(FileFormatError, match="no point 'brink'"):
         Scene.load(tmp_path / "scene.json")
     with pytest.raises(SceneError, match="relative 'over deck' refer to it"):
-        scene.remove("hull")
+        scene.remove("edge")
     with pytest.raises(SceneError, match="no point 'hull'"):
         scene.add_relative("a", point="corner", to="hull")
 
