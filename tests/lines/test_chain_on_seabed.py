@@ -166,14 +166,12 @@ def test_friction_takes_up_the_pull_along_a_line_that_is_laid() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"seabed": BED | {"soil": "clay"}}, "it takes depth, stiffness, friction"),
-        ({"seabed": BED | {"depth": 5.0}}, "'load' is 3.4 m in the seabed"),
-        ({"length": Curve.table([0.0, 9.0], [16.0, 17.0])}, "length that changes and a seabed"),
-        ({"medium": "sea", "diameter": 0.4}, "would not lie on its seabed"),
-        ({"rung": "elastic", "mass_per_length": None, "segments": None}, "'elastic' takes no seabed"),
-    ],
-)
+    [({"seabed": BED | {"soil": "clay"}}, "it takes depth, stiffness, friction"),
+     ({"seabed": BED | {"depth": 5.0}}, "'load' is 3.4 m in the seabed"),
+     ({"length": Curve.table([0.0, 9.0], [16.0, 17.0])}, "length that changes and a seabed"),
+     ({"medium": "sea", "diameter": 0.4}, "would not lie on its seabed"),
+     ({"rung": "elastic", "mass_per_length": None, "segments": None}, "'elastic' takes no seabed")],
+)  # fmt: skip
 def test_what_is_no_line_on_a_seabed_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=300.0, inertia=(90.0,) * 3, position=(14.0, 2.0, -8.4))

@@ -146,13 +146,11 @@ def test_the_ratio_of_a_cylinder_is_that_of_the_tip() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
-        ({"actuator": "boom"}, "moves winch 'hoist' and actuator 'boom'"),
-        ({"direction": (1, 0, 0)}, "'hoist' does not move the load"),
-        ({"direction": (0, 0, 0), "ratio": 1.0}, "direction is zero"),
-        ({"name": "second"}, "winch 'hoist' follows 'ahc' already"),
-    ],
+    [({"winch": None, "actuator": "boom"}, "no actuator 'boom'"),
+     ({"actuator": "boom"}, "moves winch 'hoist' and actuator 'boom'"),
+     ({"direction": (1, 0, 0)}, "'hoist' does not move the load"),
+     ({"direction": (0, 0, 0), "ratio": 1.0}, "direction is zero"),
+     ({"name": "second"}, "winch 'hoist' follows 'ahc' already")],
 )  # fmt: skip
 def test_compensators_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
     scene = compensated() if "name" in given else hung()

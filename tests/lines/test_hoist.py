@@ -25,11 +25,9 @@ def hoisted(**given: Any) -> Scene:
 
 @pytest.mark.parametrize(
     "given",
-    [
-        {"EA": 3e7, "falls": 4}, {"stiffness": 2e6, "falls": 3, "rung": "quasi-static"}, {"rung": "rigid"},
-        {"EA": 3e7, "falls": 2, "block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}},
-        {"EA": 3e7, "block_mass": 1e3, "slings": Slings(length=5.0, EA=5e7), "winch": True},
-    ],
+    [{"EA": 3e7, "falls": 4}, {"stiffness": 2e6, "falls": 3, "rung": "quasi-static"}, {"rung": "rigid"},
+     {"EA": 3e7, "falls": 2, "block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}},
+     {"EA": 3e7, "block_mass": 1e3, "slings": Slings(length=5.0, EA=5e7), "winch": True}],
 )  # fmt: skip
 def test_it_starts_at_rest(given: dict[str, Any]) -> None:
     scene = hoisted(**BOX, **given)
@@ -141,15 +139,13 @@ SLUNG = {"angle_deg": 60, "EA": 5e7}
 
 @pytest.mark.parametrize(
     ("given", "words"),
-    [
-        ({"falls": 2, "rung": "with mass"}, "has one fall"), ({"slings": SLUNG}, "block_mass is 0"),
-        ({"block_mass": 1e3, "slings": {"length": 2.0, "EA": 1e7}}, r"give more than 2\.828"),
-        ({"block_mass": 1e3, "slings": SLUNG | {"angle_deg": 95}}, "between 0 and 90"),
-        ({"height": 500.0}, "above the tip"), ({"height": 1.0, "length": 3.0}, "a length and a height"),
-        ({"stiffness": 1e6}, "one of them"), ({"crane": "aft "}, "prefixes of the scene's cranes"),
-        ({"slack": 0.2}, "its load stands on a deck"),
-        ({"on": "ground", "slack": 0.2, "block_mass": 1e3}, "has no block"),
-    ],
+    [({"falls": 2, "rung": "with mass"}, "has one fall"), ({"slings": SLUNG}, "block_mass is 0"),
+     ({"block_mass": 1e3, "slings": {"length": 2.0, "EA": 1e7}}, r"give more than 2\.828"),
+     ({"block_mass": 1e3, "slings": SLUNG | {"angle_deg": 95}}, "between 0 and 90"),
+     ({"height": 500.0}, "above the tip"), ({"height": 1.0, "length": 3.0}, "a length and a height"),
+     ({"stiffness": 1e6}, "one of them"), ({"crane": "aft "}, "prefixes of the scene's cranes"),
+     ({"slack": 0.2}, "its load stands on a deck"),
+     ({"on": "ground", "slack": 0.2, "block_mass": 1e3}, "has no block")],
 )  # fmt: skip
 def test_what_does_not_fit_is_named_and_leaves_the_scene_as_it_was(given: dict[str, Any], words: str) -> None:
     scene = Scene()

@@ -53,12 +53,9 @@ def states_of(low: float | None, high: float | None, values: list[float]) -> flo
 
 @pytest.mark.parametrize(
     ("low", "high", "values", "used"),
-    [
-        (None, 100.0, [20.0, 80.0], 0.8), (-50.0, None, [-60.0, 80.0], 1.2),
-        (-50.0, 100.0, [-40.0, 90.0], 0.9), (10.0, None, [5.0, 80.0], 2.0),
-        (10.0, None, [-1.0, 80.0], np.inf), (None, -10.0, [-40.0, -20.0], 0.5),
-        (None, 100.0, [-20.0, -80.0], 0.0),
-    ],
+    [(None, 100.0, [20.0, 80.0], 0.8), (-50.0, None, [-60.0, 80.0], 1.2), (-50.0, 100.0, [-40.0, 90.0], 0.9),
+     (10.0, None, [5.0, 80.0], 2.0), (10.0, None, [-1.0, 80.0], np.inf), (None, -10.0, [-40.0, -20.0], 0.5),
+     (None, 100.0, [-20.0, -80.0], 0.0)],
 )  # fmt: skip
 def test_every_kind_of_bound(low: float | None, high: float | None, values: Any, used: float) -> None:
     assert states_of(low, high, values) == pytest.approx(used)
@@ -103,13 +100,11 @@ def test_a_channel_that_is_not_usual_is_recorded_and_one_left_out_is_told() -> N
 
 @pytest.mark.parametrize(
     ("given", "words"),
-    [
-        ({"channel": "link_tension"}, "neither maximum nor minimum"),
-        ({"channel": "link_tension", "maximum": 1.0, "minimum": 2.0}, "minimum is 2 and maximum 1"),
-        ({"channel": "stroke", "maximum": 1.0}, "limit state 'stroke': channel 'stroke'"),
-        ({"channel": "position", "maximum": 1.0, "names": {"body": "lode"}}, "no body 'lode'"),
-    ],
-)
+    [({"channel": "link_tension"}, "neither maximum nor minimum"),
+     ({"channel": "link_tension", "maximum": 1.0, "minimum": 2.0}, "minimum is 2 and maximum 1"),
+     ({"channel": "stroke", "maximum": 1.0}, "limit state 'stroke': channel 'stroke'"),
+     ({"channel": "position", "maximum": 1.0, "names": {"body": "lode"}}, "no body 'lode'")],
+)  # fmt: skip
 def test_what_states_no_limit_is_refused_before_the_run(given: dict[str, Any], words: str) -> None:
     scene = limited()
     with pytest.raises(SceneError, match=words):

@@ -59,16 +59,14 @@ def on_drum(**winch: Any) -> Scene:
 
 @pytest.mark.parametrize(
     ("winch", "words"),
-    [
-        ({"maximum_tension": 300.0}, "its motor and brake hold 300 N at the start, less than the 1.961e+05"),
-        ({"brake": 1.0, "brake_capacity": 300.0}, "its motor and brake hold 300 N at the start"),
-        ({"brake_capacity": 300.0}, "its brake holds 300 N, less than"),
-        ({"brake": 1.0, "brake_capacity": 4e5, "maximum_tension": 300.0}, "its motor holds 300 N, less than"),
-        ({"rate": -0.5, "maximum_power": 1e3}, "its winch reached its maximum_power, 1000 W, at t = "),
-        ({"brake": 1.0, "brake_capacity": 1.05 * MASS * G, "length": 9.99}, "reached its brake_capacity, "),
-        ({"maximum_tension": 3e5, "brake_capacity": 4e5}, ""),
-    ],
-)
+    [({"maximum_tension": 300.0}, "its motor and brake hold 300 N at the start, less than the 1.961e+05"),
+     ({"brake": 1.0, "brake_capacity": 300.0}, "its motor and brake hold 300 N at the start"),
+     ({"brake_capacity": 300.0}, "its brake holds 300 N, less than"),
+     ({"brake": 1.0, "brake_capacity": 4e5, "maximum_tension": 300.0}, "its motor holds 300 N, less than"),
+     ({"rate": -0.5, "maximum_power": 1e3}, "its winch reached its maximum_power, 1000 W, at t = "),
+     ({"brake": 1.0, "brake_capacity": 1.05 * MASS * G, "length": 9.99}, "reached its brake_capacity, "),
+     ({"maximum_tension": 3e5, "brake_capacity": 4e5}, "")],
+)  # fmt: skip
 def test_a_winch_that_holds_too_little_or_reached_its_bound_is_told(winch: Any, words: str) -> None:
     found = [one for one in told(on_drum(**winch), 0.5) if one.startswith("WinchLimitWarning")]
     assert any(f"line 'hoist': {words}" in one or f"its winch {words}" in one for one in found) == bool(words)

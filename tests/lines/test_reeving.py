@@ -162,17 +162,15 @@ def test_arcs_are_drawn() -> None:
 
 @pytest.mark.parametrize(
     ("change", "message"),
-    [
-        ({"radii": [0.0, 0.3]}, "3 points and 2 radii"), ({"axes": []}, "sheaves and no axes"),
-        ({"axes": np.zeros((3, 3))}, "axes are zero at point 1"),
-        ({"turns": [0, 0.5, 0]}, "turns are 0.5 at point 1"),
-        ({"radii": [], "frictions": [0, 0.1, 0]}, "friction or turns at point 1"),
-        ({"efficiencies": [0.9, 1, 1]}, "sheave at point 0, where it ends"),
-        ({"points": [(0.1, 0, 0), (0, 0, 0), (0, 0, 0)]}, "points 0 and 1 of body 'ground' within a rim"),
-        ({"rung": "quasi-static", "strains": [0, 1], "tensions": [0, 1]}, "takes EA, no table"),
-        ({"strains": [0.1, 1.0], "tensions": [0.0, 5.0]}, "starts with strain 0.1"),
-        ({"strains": [0, 0.1, 0.2], "tensions": [0, 5, 4]}, "not increase at strain 0.2"),
-    ],
+    [({"radii": [0.0, 0.3]}, "3 points and 2 radii"), ({"axes": []}, "sheaves and no axes"),
+     ({"axes": np.zeros((3, 3))}, "axes are zero at point 1"),
+     ({"turns": [0, 0.5, 0]}, "turns are 0.5 at point 1"),
+     ({"radii": [], "frictions": [0, 0.1, 0]}, "friction or turns at point 1"),
+     ({"efficiencies": [0.9, 1, 1]}, "sheave at point 0, where it ends"),
+     ({"points": [(0.1, 0, 0), (0, 0, 0), (0, 0, 0)]}, "points 0 and 1 of body 'ground' within a rim"),
+     ({"rung": "quasi-static", "strains": [0, 1], "tensions": [0, 1]}, "takes EA, no table"),
+     ({"strains": [0.1, 1.0], "tensions": [0.0, 5.0]}, "starts with strain 0.1"),
+     ({"strains": [0, 0.1, 0.2], "tensions": [0, 5, 4]}, "not increase at strain 0.2")],
 )  # fmt: skip
 def test_what_makes_no_path_is_told(change: dict[str, Any], message: str) -> None:
     scene = capstan()

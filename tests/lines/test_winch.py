@@ -209,12 +209,10 @@ def test_stages_command_the_brake_and_the_tension() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"tension": 1e4}, "without a tension_gain"), ({"tension_gain": 1e-5}, "dead_band 0 N: a slack line"),
-        ({"maximum_tension": 1e5}, "maximum_tension needs a drum"), ({"brake": 1.0}, "brake needs a drum"),
-        ({"drum_inertia": 1e3, "drum_radius": 0.5}, "needs a lag"),
-        ({"drum_inertia": 1e3, "winch": False}, "holds a tension or has a drum, and no winch"),
-    ],
+    [({"tension": 1e4}, "without a tension_gain"), ({"tension_gain": 1e-5}, "dead_band 0 N: a slack line"),
+     ({"maximum_tension": 1e5}, "maximum_tension needs a drum"), ({"brake": 1.0}, "brake needs a drum"),
+     ({"drum_inertia": 1e3, "drum_radius": 0.5}, "needs a lag"),
+     ({"drum_inertia": 1e3, "winch": False}, "holds a tension or has a drum, and no winch")],
 )  # fmt: skip
 def test_winches_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
     scene = hung()

@@ -163,11 +163,9 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
 
 @pytest.mark.parametrize(
     ("openings", "given", "message"),
-    [
-        ([MOUTH], {}, "no opening is in its lid"), ([MOUTH], {"air": "shut"}, "give exponent"),
-        ([MOUTH], {"air": "free", "exponent": 1.2}, "leave exponent out"),
-        ([MOUTH, MOUTH], {"air": "free"}, "openings in its bottom take 2"),
-    ],
+    [([MOUTH], {}, "no opening is in its lid"), ([MOUTH], {"air": "shut"}, "give exponent"),
+     ([MOUTH], {"air": "free", "exponent": 1.2}, "leave exponent out"),
+     ([MOUTH, MOUTH], {"air": "free"}, "openings in its bottom take 2")],
 )  # fmt: skip
 def test_what_geometry_does_not_tell_is_asked_for(openings: Any, given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):

@@ -310,12 +310,10 @@ HOLE = {"point": (0.0, 0.0, 0.0), "area": 0.1}
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [
-        ({"initial": 6.5}, "it holds 6 m3"), ({"openings": []}, "openings"),
-        ({"openings": [HOLE | {"point": (0.0, 0.0, -0.1)}]}, "opening 1 is at -0.1 m"),
-        ({"openings": [HOLE | {"point": (500.0, 0.0, 1.0)}]}, "opening 1 is 500 m beside"),
-        ({"openings": [HOLE | {"area": 300.0}]}, "section of 2 m2"), ({"openings": [HOLE] * 13}, "1 to 12"),
-    ],
+    [({"initial": 6.5}, "it holds 6 m3"), ({"openings": []}, "openings"),
+     ({"openings": [HOLE | {"point": (0.0, 0.0, -0.1)}]}, "opening 1 is at -0.1 m"),
+     ({"openings": [HOLE | {"point": (500.0, 0.0, 1.0)}]}, "opening 1 is 500 m beside"),
+     ({"openings": [HOLE | {"area": 300.0}]}, "section of 2 m2"), ({"openings": [HOLE] * 13}, "1 to 12")],
 )  # fmt: skip
 def test_bad_calls_are_refused(given: dict[str, Any], message: str) -> None:
     scene, told = Scene(name="refused", gravity=G), {"openings": [HOLE], "air": "free"} | given

@@ -79,13 +79,11 @@ def test_the_ramp_of_a_flat_bottom_follows_from_its_slam_coefficient() -> None:
 
 @pytest.mark.parametrize(
     "part",
-    [
-        BoxPart(size=(3.0, 2.0, 1.5), strips=(3, 2)),
-        PlatePart(size=(4.0, 2.5), thickness=0.05, perforation=0.2, strips=(2, 2)),
-        CylinderPart(length=7.0, diameter=1.2, ends=("joined", "joined")),
-    ],
+    [BoxPart(size=(3.0, 2.0, 1.5), strips=(3, 2)),
+     PlatePart(size=(4.0, 2.5), thickness=0.05, perforation=0.2, strips=(2, 2)),
+     CylinderPart(length=7.0, diameter=1.2, ends=("joined", "joined"))],
     ids=lambda part: part.kind,
-)
+)  # fmt: skip
 def test_strips_share_all_that_a_part_has(part: Part) -> None:
     """And their points are those whose mean is the part's."""
     strips = list(part.pieces(RHO))

@@ -49,13 +49,10 @@ def tumbling(part: Any, *, waves: bool) -> Scene:
 @pytest.mark.parametrize("waves", [True, False])
 @pytest.mark.parametrize(
     "part",
-    [
-        BoxPart(size=(2.0, 1.5, 1.0), point=(0.3, 0.1, -0.2)),
-        CylinderPart(length=2.0, diameter=1.1, strips=1),
-        SpherePart(diameter=1.6, point=(0.2, 0.0, 0.1)),
-    ],
+    [BoxPart(size=(2.0, 1.5, 1.0), point=(0.3, 0.1, -0.2)), CylinderPart(length=2.0, diameter=1.1, strips=1),
+     SpherePart(diameter=1.6, point=(0.2, 0.0, 0.1))],
     ids=lambda part: part.kind,
-)
+)  # fmt: skip
 def test_all_forces_are_mass_times_acceleration_less_weight(part: Any, waves: bool, formulation: str) -> None:
     result = simulate(tumbling(part, waves=waves), t_end=2.0, dt_out=0.02, formulation=formulation,
                       channels=["acceleration", "immersed_force"])  # fmt: skip

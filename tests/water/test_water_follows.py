@@ -119,13 +119,11 @@ TILTED = TILTED * np.sign(np.linalg.det(TILTED))
 @pytest.mark.parametrize("depth", [np.inf, 25.0])
 @pytest.mark.parametrize(
     "part",
-    [
-        BoxPart(size=(5.0, 2.0, 1.0), point=(0.3, 0.2, -0.1), axes=TILTED, strips=(2, 1)),
-        CylinderPart(length=5.0, diameter=1.0, axes=TILTED, strips=2),
-        SpherePart(diameter=2.0, point=(1.0, -0.5, 0.0)),
-    ],
+    [BoxPart(size=(5.0, 2.0, 1.0), point=(0.3, 0.2, -0.1), axes=TILTED, strips=(2, 1)),
+     CylinderPart(length=5.0, diameter=1.0, axes=TILTED, strips=2),
+     SpherePart(diameter=2.0, point=(1.0, -0.5, 0.0))],
     ids=lambda part: part.kind,
-)
+)  # fmt: skip
 def test_waves_on_parts_are_those_of_the_engine(part: Part, depth: float) -> None:
     """Accelerations at rest in small waves, by the linear model and by the engine itself."""
     scene = hung(1.5, part, sea={"hs": 1e-3, "tp": 5.0, "direction_deg": 30.0, "seed": 3})

@@ -158,10 +158,8 @@ def test_what_a_hull_that_floats_displaces_is_not_counted_twice() -> None:
 
 @pytest.mark.parametrize(
     ("bed", "depth", "tp", "told"),
-    [
-        (14.0, np.inf, 8.0, "'bed': lies 14 m.*infinite depth"), (80.0, 14.0, 8.0, "lies 80 m.*14 m deep"),
-        (40.0, np.inf, 16.0, "wavenumbers differ by"), (14.0, 14.0, 8.0, ""), (14.0, np.inf, 5.0, ""),
-    ],
+    [(14.0, np.inf, 8.0, "'bed': lies 14 m.*infinite depth"), (80.0, 14.0, 8.0, "lies 80 m.*14 m deep"),
+     (40.0, np.inf, 16.0, "wavenumbers differ by"), (14.0, 14.0, 8.0, ""), (14.0, np.inf, 5.0, "")],
 )  # fmt: skip
 def test_a_seabed_has_the_depth_of_the_sea(bed: float, depth: float, tp: float, told: str) -> None:
     scene = Scene(name="landed", gravity=G)
