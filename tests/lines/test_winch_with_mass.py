@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Move, Scene, SceneError, SimulationError, Stage, Until, simulate, simulate_stages
+from seacrane.analysis import equilibrium, natural_modes
 from seacrane.result import heavy_line_tension
 
 Array = NDArray[np.float64]
@@ -55,6 +56,29 @@ def hung(heave: Curve, *, deep: float = DEEP, segments: int = HEAVY, **winch: An
                    length=deep, mass_per_length=MU, rung="with mass", segments=segments)  # fmt: skip
     scene.add_winch("wire", **{"lag": LAG} | winch)
     return scene
+
+
+def test_what_heave_compensation_leaves_runs_down_a_long_wire_as_in_a_bar() -> None:
+    """Its upper end is driven by the heave less what the winch pays out, and the load rings on the bar."""
+    period, lag, corner = 4.5, 0.1, 0.01  # s, s, Hz
+    omega = 2.0 * np.pi / period
+    scene = hung(Curve.harmonic(offset=0.1, amplitude=-0.1, omega=omega))
+    scene.add_heave_compensation("active", body="tip", winch="wire", lag=lag, high_pass=corner)
+    result = simulate(scene, t_end=220.0, dt_out=0.1, start=equilibrium(scene), rtol=1e-7)
+    modes = natural_modes(scene)
+    own = 2.0 * np.pi / float(modes.natural_period[modes.find("load heave")])
+    bar = np.sqrt(STIFF / MU)  # m/s
+    p, strain = 1j * omega, (MASS + MU * DEEP) * G / STIFF  # the strain of what leaves the drum
+    left = 1.0 - (1.0 + strain) * p / (p + 2.0 * np.pi * corner) / (1.0 + lag * p) / (1.0 + LAG * p)
+    phase, impedance = omega * DEEP / bar, np.sqrt(STIFF * MU)
+    gain = left / (np.cos(phase) - omega * MASS / impedance * np.sin(phase))
+    late = result.time > 80.0
+    time, z = result.time[late], result.select("position", body="load", axis="z")[late]
+    columns = [np.ones_like(time), np.exp(-2.0 * np.pi * corner * time)]
+    for one in (omega, own):
+        columns += [np.cos(one * time), np.sin(one * time)]
+    found = np.linalg.lstsq(np.stack(columns, axis=1), z, rcond=None)[0]
+    assert np.hypot(*found[2:4]) == pytest.approx(0.1 * abs(gain), rel=0.003)
 
 
 def test_stages_command_it_and_wait_for_it() -> None:
