@@ -43,14 +43,6 @@ def test_utilisation_by_hand(swinging: Result) -> None:
     assert swinging.time[swinging.select("position", body="load", axis="x").argmax()] == swing.at
 
 
-def states_of(low: float | None, high: float | None, values: list[float]) -> float:
-    run = crane_run(t_end=1.0)
-    tension = np.resize(np.array(values), run["time"].size)
-    about = About(limit_states=(LimitState(name="t", channel="link_tension", maximum=high, minimum=low),))
-    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "about": about})
-    return result.utilisation[0].utilisation
-
-
 @pytest.mark.parametrize(
     ("low", "high", "values", "used"),
     [(None, 100.0, [20.0, 80.0], 0.8), (-50.0, None, [-60.0, 80.0], 1.2), (-50.0, 100.0, [-40.0, 90.0], 0.9),
@@ -58,7 +50,11 @@ def states_of(low: float | None, high: float | None, values: list[float]) -> flo
      (None, 100.0, [-20.0, -80.0], 0.0)],
 )  # fmt: skip
 def test_every_kind_of_bound(low: float | None, high: float | None, values: Any, used: float) -> None:
-    assert states_of(low, high, values) == pytest.approx(used)
+    run = crane_run(t_end=1.0)
+    tension = np.resize(np.array(values), run["time"].size)
+    about = About(limit_states=(LimitState(name="t", channel="link_tension", maximum=high, minimum=low),))
+    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "about": about})
+    assert result.utilisation[0].utilisation == pytest.approx(used)
 
 
 def test_one_word_asks_for_a_slack_margin_of_a_tenth() -> None:

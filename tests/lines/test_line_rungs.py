@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from line_scenes import MASS, STIFFNESS, G, add_led, below, hung, swinging
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 
 from seacrane import Curve, Result, Run, SampledController, Scene, SceneError, cases, ensemble, simulate
 from seacrane.analysis import equilibrium, natural_modes
@@ -21,7 +20,6 @@ from seacrane.run import simulate_to_file
 from seacrane.run.line_rungs import curve_frequency, excitations, tension_error
 from seacrane.warnings import LineRungWarning, PushingLineWarning, QuasiStaticLineWarning
 
-Array = NDArray[np.float64]
 STIFF = 1e4 * STIFFNESS  # N, EA of 10 m
 
 
@@ -99,25 +97,20 @@ def several(rng: np.random.Generator, rung: str) -> Scene:
     return scene
 
 
-def apart(seed: int) -> tuple[float, bool]:
-    """Tensions of chosen lines less elastic ones, over all weight; and whether one is quasi-static."""
-    scenes = [several(np.random.default_rng(seed), rung) for rung in ("auto", "elastic")]
-    runs = [simulate(scene, 10.0, dt_out=0.02, rtol=1e-7) for scene in scenes]
-    weight = sum(body.mass for body in scenes[0].bodies.values()) * G
-    error = np.abs(runs[0]["line_tension"] - runs[1]["line_tension"]).max()
-    return float(error / weight), ": quasi-static: " in runs[0].stats["line_rungs"]
-
-
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize(
     ("seeds", "quasi"),
     [(range(20), 3), pytest.param(range(20, 120), 0, marks=pytest.mark.slow("many random scenes"))],
 )
 def test_several_lines_are_near_the_elastic_ones(seeds: range, quasi: int) -> None:
-    """Ringing of 2 % from the start is let through, and 1 % of the weight beside it."""
-    found = [apart(seed) for seed in seeds]
-    assert max(error for error, _ in found) < 0.03
-    assert sum(is_quasi for _, is_quasi in found) >= quasi
+    """To 3 % of all weight: ringing of 2 % from the start is let through, and 1 % beside it."""
+    for seed in seeds:
+        scenes = [several(np.random.default_rng(seed), rung) for rung in ("auto", "elastic")]
+        chosen, elastic = (simulate(scene, 10.0, dt_out=0.02, rtol=1e-7) for scene in scenes)
+        weight = sum(body.mass for body in scenes[0].bodies.values()) * G
+        assert np.abs(chosen["line_tension"] - elastic["line_tension"]).max() < 0.03 * weight
+        quasi -= ": quasi-static: " in chosen.stats["line_rungs"]
+    assert quasi <= 0
 
 
 def in_resonance(rung: str, omega: float) -> Scene:

@@ -168,6 +168,7 @@ EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-9, "dt_out": 0.1}
 WITH_MASS = {"position": 1e-7, "load_state": 1e-6}
 USUAL = {"position": 1e-7, "load_state": 1e-7}
 TENSE = USUAL | {"line_tension": 0.2}
+WOUND = Curve.quintic(start_time=-1.0, end_time=4.0, start=10.5, end=14.0)
 LYING, ROUGH = ({"position": bound, "load_state": bound} for bound in (1e-6, 1e-5))
 
 
@@ -188,10 +189,6 @@ class Case:
         self.taut = taut  # else its quasi-static line goes slack: no runs
 
 
-def wound() -> Scene:
-    return in_waves(Curve.quintic(start_time=-1.0, end_time=4.0, start=10.5, end=14.0))
-
-
 CASES: dict[str, Case] = {
     "on a winch": Case(swinging, 4.0, TENSE, at=0.9),
     "over blocks": Case(reeved, 4.0, TENSE, methods=({"rtol": 1e-7}, FIXED, IMPLICIT), at=0.9),
@@ -204,7 +201,7 @@ CASES: dict[str, Case] = {
                                at=0.9),
     "on a seabed": Case(lambda: dropped(segments=3), 3.0, LYING, EXACT),
     "on a seabed in water": Case(lambda: dropped(medium="sea", diameter=0.1), 3.0, LYING, EXACT),
-    "paid out by a curve": Case(wound, 2.0, {"position": 1e-8}, EXACT),
+    "paid out by a curve": Case(lambda: in_waves(WOUND), 2.0, {"position": 1e-8}, EXACT),
     "with mass, quasi-static": Case(lambda: wet(rung="quasi-static", compensated=True), 2.0, WITH_MASS, EXACT,
                                     taut=False),
 } | {

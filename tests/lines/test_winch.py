@@ -9,12 +9,10 @@ import pytest
 from line_scenes import MASS, STIFFNESS, G, add_led, busy, hung, swinging
 from multibody_runs import ramp, record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 
 from seacrane import Curve, Move, Run, Scene, SceneError, Stage, State, equilibrium, simulate, simulate_stages
 from seacrane.warnings import WinchLimitWarning
 
-Array = NDArray[np.float64]
 RADIUS, DRUM = 0.5, 5e3  # m; kg, inertia over radius^2
 INERTIA = DRUM * RADIUS**2
 CAPACITY = 1.5 * MASS * G  # N

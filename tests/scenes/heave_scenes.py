@@ -39,10 +39,10 @@ def hung(falls: int = 1, lag: float = 0.0, rung: str = "elastic", **heave: Any) 
     return scene
 
 
-def compensated(*, falls: int = 1, winch_lag: float = 0.0, heave: Any = None, **settings: Any) -> Scene:
-    scene = hung(falls, winch_lag, **(heave or {}))
+def compensated(**settings: Any) -> Scene:
+    scene = hung()
     scene.add_heave_compensation(
-        name="ahc", body="ship", point=(0, 0, TIP), **{"winch": "hoist", "high_pass": 0.0} | settings
+        "ahc", body="ship", point=(0, 0, TIP), winch="hoist", high_pass=0.0, **settings
     )
     return scene
 

@@ -18,15 +18,13 @@ DOWN = (0.0, -1.0, 0.0)  # axis of a sheave that a line passes below, towards x
 OVER = (0.0, 1.0, 0.0)
 
 
-def tackle(*, falls: int = 6, guided: bool = True, strain: float | None = None, **line: Any) -> Scene:
+def tackle(*, falls: int = 6, **line: Any) -> Scene:
     """A hook on an even number of vertical falls, all in one plane, at rest in its own weight."""
-    taut = MASS * G / (falls * STIFFNESS) if strain is None else strain
+    taut = MASS * G / (falls * STIFFNESS)
     scene = Scene(name="tackle")
     scene.add_body(name="hook", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -HEIGHT))
-    if guided:
-        scene.add_joint(
-            kind="prismatic", name="guide", first="ground", second="hook", point=(0, 0, 0), axis=(0, 0, 1)
-        )
+    way = {"point": (0, 0, 0), "axis": (0, 0, 1)}
+    scene.add_joint("guide", kind="prismatic", first="ground", second="hook", **way)
     centers = RADIUS * np.arange(-falls + 2, falls, 2.0)
     at_hook = np.arange(centers.size) % 2 == 0
     bodies = ["ground", *np.where(at_hook, "hook", "ground").tolist(), "ground"]
