@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from seacrane import Result, Scene, SceneError, natural_modes, simulate
 from seacrane.analysis import fastest_mode
 from seacrane.result import heavy_line_tension
-from seacrane.warnings import LineLengthWarning, StiffWarning
+from seacrane.warnings import LineLengthWarning
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
@@ -58,17 +58,6 @@ def test_a_plucked_string_moves_as_its_mode_and_turns_no_node(formulation: str) 
     middle = result.select("position", body="line.4")[:, 2]
     assert middle == pytest.approx(0.01 / omega * np.sin(omega * result.time), abs=2e-6)
     assert np.abs(result["angular_velocity"]).max() < 1e-12
-
-
-def test_a_stiff_line_warns_of_its_mode_and_a_quasi_static_one_is_cheap() -> None:
-    stiff = {"EA": 1e10, "mass_per_length": 20.0, "velocity": 1.0}
-    with pytest.warns(StiffWarning, match=r"'rosenbrock' or 'cvode-bdf'.* stretch of line 'wire' and"):
-        slow = simulate(hanging(10, **stiff), t_end=15.0, integrator="dopri5", channels=["position"])
-    cheap = hanging(10, **stiff, segment_rung="quasi-static")
-    quick = simulate(cheap, t_end=15.0, integrator="dopri5", rtol=1e-4)
-    assert quick.stats["evaluations"] < 0.02 * slow.stats["evaluations"]
-    ends = [one.select("position", body="load")[-1] for one in (quick, slow)]
-    assert ends[0] == pytest.approx(ends[1], abs=1e-3)
 
 
 def test_drag_slows_a_line_across_and_not_along() -> None:
