@@ -35,8 +35,8 @@ KINDS = tuple(joint_examples.KINDS)
 def scene_of_two(**settings: Any) -> Scene:
     """Two bodies 1 m apart, not joined."""
     scene = Scene(**settings)
-    scene.add_body(name="a", mass=1.0, inertia=[1.0, 1.0, 1.0])
-    scene.add_body(name="b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1.0, 0.0, 0.0))
+    scene.add_body("a", mass=1.0, inertia=[1.0, 1.0, 1.0])
+    scene.add_body("b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1.0, 0.0, 0.0))
     return scene
 
 
@@ -104,9 +104,7 @@ ROD = {"kind": "distance", "point": (0, 0, 0), "second_point": (0, 0, 0)}
 )  # fmt: skip
 def test_joints(what: dict[str, Any], told: str) -> None:
     scene = scene_of_two()
-    scene.add_joint(
-        kind="distance", name="rod", first="a", second="b", point=(0, 0, 0), second_point=(1, 0, 0)
-    )
+    scene.add_joint("rod", kind="distance", first="a", second="b", point=(0, 0, 0), second_point=(1, 0, 0))
     usual = {"kind": "revolute", "name": "j", "first": "a", "second": "b"}
     own = "" if "name" in what else "joint 'j'.*"
     refused(lambda: (scene.add_joint(**usual | what), scene.compile()), own + told)
@@ -146,7 +144,7 @@ def test_vessels(what: dict[str, Any], told: str) -> None:
 
 
 def hang(**more: Any) -> Callable[[Scene], Any]:
-    return lambda scene: scene.add_spring(name="s", first="ground", second="bob", **more)
+    return lambda scene: scene.add_spring("s", first="ground", second="bob", **more)
 
 
 def gust(times: Any, loads: Any) -> Callable[[Scene], Any]:
@@ -155,29 +153,29 @@ def gust(times: Any, loads: Any) -> Callable[[Scene], Any]:
 
 def twice_driven(scene: Scene) -> None:
     for name in ("one", "two"):
-        scene.add_driver(joint="pin", curve=0.0, name=name)
+        scene.add_driver("pin", curve=0.0, name=name)
 
 
 def a_ball_driven(scene: Scene) -> None:
-    scene.add_joint(kind="spherical", name="ball", first="ground", second="bob")
-    scene.add_driver(joint="ball", coordinate="angle", curve=0.0)
+    scene.add_joint("ball", kind="spherical", first="ground", second="bob")
+    scene.add_driver("ball", coordinate="angle", curve=0.0)
 
 
 def one_name_for_two_coordinates(scene: Scene) -> None:
-    scene.add_joint(kind="cylindrical", name="sleeve", first="ground", second="bob")
+    scene.add_joint("sleeve", kind="cylindrical", first="ground", second="bob")
     for _ in range(2):  # the same again: nothing is lost
         scene.record_coordinate(joint="sleeve")
     scene.record_coordinate(joint="sleeve", coordinate="angle")
 
 
 @rows(
-    (lambda s: s.add_driver(joint="pin", coordinate="x", curve=0.0), "driver 'pin.x'.*no coord.*angle"),
+    (lambda s: s.add_driver("pin", coordinate="x", curve=0.0), "driver 'pin.x'.*no coord.*angle"),
     (twice_driven, "driver 'two'.*pin.angle.*driver 'one'"),
     (a_ball_driven, "'ball' is spherical.*no coordinate"),
     (lambda s: s.add_actuator(name="motor", joint="pin"), "'motor'.*twice"),
-    (lambda s: s.add_point_force(name="f", body="ground", force=(0, 0, 1)), "point force 'f'.*'ground'"),
-    (lambda s: s.add_point_force(name="motor", body="bob", force=(0, 0, 1)), "actuator.*motor.force"),
-    (lambda s: s.add_spring(name="s", first="bob", second="bob"), "spring 's'.*itself"),
+    (lambda s: s.add_point_force("f", body="ground", force=(0, 0, 1)), "point force 'f'.*'ground'"),
+    (lambda s: s.add_point_force("motor", body="bob", force=(0, 0, 1)), "actuator.*motor.force"),
+    (lambda s: s.add_spring("s", first="bob", second="bob"), "spring 's'.*itself"),
     (hang(lengths=[1, 2], forces=[1]), "spring 's'.*2 lengths and 1 forces"),
     (hang(lengths=[2, 1], forces=[1, 2]), "spring 's'.*lengths must increase"),
     (hang(lengths=[[1, 2]], forces=[1]), r"spring 's'.*lengths has shape \(1, 2\)"),
@@ -204,31 +202,31 @@ def frames(first: Any, second: Any, **of_first: Any) -> dict[str, Any]:
 def a_strut_too_short() -> Scene:
     """The bob turns on a circle of 1 m about the pin: the strut's end stays 4 m or more from (5, 0, 0)."""
     scene = pendulum()
-    scene.add_joint(kind="distance", name="strut", first="ground", second="bob", point=(5, 0, 0),
+    scene.add_joint("strut", kind="distance", first="ground", second="bob", point=(5, 0, 0),
                     second_point=(1, 0, 0), length=1.0)  # fmt: skip
     return scene
 
 
 def an_impossible_four_bar() -> Scene:
     scene, ends, far = scene_of_two(), frames((1, 0, 0), (-1, 0, 0)), frames((9, 0, 0), (1, 0, 0))
-    scene.add_joint(kind="revolute", name="o", first="ground", second="a", point=(0, 0, 0), axis=(0, 1, 0))
-    scene.add_joint(kind="revolute", name="p", first="a", second="b", **ends)
-    scene.add_joint(kind="spherical", name="q", first="ground", second="b", **far)
+    scene.add_joint("o", kind="revolute", first="ground", second="a", point=(0, 0, 0), axis=(0, 1, 0))
+    scene.add_joint("p", kind="revolute", first="a", second="b", **ends)
+    scene.add_joint("q", kind="spherical", first="ground", second="b", **far)
     return scene
 
 
 def a_joint_that_closes_upside_down() -> Scene:
     scene, turned = scene_of_two(), frames((0, 0, 0), (0, 0, 0), axes=np.diag([1.0, -1.0, -1.0]))
-    scene.add_joint(kind="weld", name="w", first="ground", second="a")
-    scene.add_joint(kind="revolute", name="r", first="ground", second="a", **turned)
+    scene.add_joint("w", kind="weld", first="ground", second="a")
+    scene.add_joint("r", kind="revolute", first="ground", second="a", **turned)
     return scene
 
 
 def a_drive_of_what_is_welded() -> Scene:
     """From 0 at t = 0, at 1 rad/s."""
     scene = pendulum()
-    scene.add_joint(kind="weld", name="fixed", first="ground", second="bob")
-    scene.add_driver(joint="pin", curve=Curve.pieces(starts=[-1.0], coefficients=[[-1.0, 1.0, 0, 0, 0, 0]]))
+    scene.add_joint("fixed", kind="weld", first="ground", second="bob")
+    scene.add_driver("pin", curve=Curve.pieces(starts=[-1.0], coefficients=[[-1.0, 1.0, 0, 0, 0, 0]]))
     return scene
 
 
@@ -311,12 +309,10 @@ def test_settings_of_a_run(what: dict[str, Any], told: str) -> None:
     refused(lambda: simulate(pendulum(), **{"t_end": 1.0} | what), told)
 
 
-@rows(
-    ({"values": [1.0, 2.0]}, "state.*2 values.*15"), ({"values": np.full(15, NAN)}, "state.*not finite"),
-    ({"values": np.zeros(15)}, "state.*give a state of this scene"),
-    ({"inputs": []}, "inputs.*0 values.*3 slots"), ({"inputs": [NAN, 0.0, 0.0]}, "inputs.*not finite"),
-    ({"time": NAN}, "start time is nan"), ({"time": 7.0}, "t_end is 1.0 s.*7.0"),
-)  # fmt: skip
+@rows(({"values": [1.0, 2.0]}, "state.*2 values.*15"), ({"values": np.full(15, NAN)}, "state.*not finite"),
+      ({"values": np.zeros(15)}, "state.*give a state of this scene"),
+      ({"inputs": []}, "inputs.*0 values.*3 slots"), ({"inputs": [NAN, 0.0, 0.0]}, "inputs.*not finite"),
+      ({"time": NAN}, "start time is nan"), ({"time": 7.0}, "t_end is 1.0 s.*7.0"))  # fmt: skip
 def test_start_state(what: dict[str, Any], told: str) -> None:
     scene = pendulum()
     good = _core.initial_state(scene.compile())
@@ -336,14 +332,13 @@ def test_start_state(what: dict[str, Any], told: str) -> None:
 )  # fmt: skip
 def test_controllers(what: Any, told: str) -> None:
     tick = SampledController(period=0.1, function=what)
-    refused(
-        lambda: simulate(pendulum(), t_end=1.0, controllers=[tick]), told, error=(SceneError, SimulationError)
-    )
+    refused(lambda: simulate(pendulum(), t_end=1.0, controllers=[tick]), told,
+            error=(SceneError, SimulationError))  # fmt: skip
 
 
 def test_euler_angles_at_their_singularity() -> None:
     scene = Scene(orientation="euler_xyz")
-    scene.add_body(name="mast", mass=1.0, inertia=[1, 1, 1], quaternion=(np.sqrt(0.5), 0, np.sqrt(0.5), 0))
+    scene.add_body("mast", mass=1.0, inertia=[1, 1, 1], quaternion=(np.sqrt(0.5), 0, np.sqrt(0.5), 0))
     refused(lambda: simulate(scene, t_end=1.0), "body 'mast'.*phi_y is 90.*quaternion", SimulationError)
 
 
@@ -366,9 +361,9 @@ def test_step_of_a_fixed_step_method_beyond_stability_is_not_silent() -> None:
 def test_joints_too_close_together_to_hold_stop_the_run_by_name() -> None:
     """Two ball joints 0.01 mm apart are a hinge in name only: the run may not go on with open joints."""
     scene = scene_of_two()
-    scene.add_joint(kind="weld", name="base", first="ground", second="a")
+    scene.add_joint("base", kind="weld", first="ground", second="a")
     for name, height in (("lower", 0.0), ("upper", 1e-5)):
-        scene.add_joint(kind="spherical", name=name, first="a", second="b", point=(0.0, 0.0, height))
+        scene.add_joint(name, kind="spherical", first="a", second="b", point=(0.0, 0.0, height))
     with pytest.warns(UserWarning, match="redundant"):
         refused(lambda: simulate(scene, t_end=5.0), "(?=.*nearly depend).*er'.*open by", SimulationError)
 
@@ -385,7 +380,7 @@ def period(value: Any) -> Any:
 
 
 def force(value: Any) -> Any:
-    return lambda: pendulum().add_point_force(name="f", body="bob", force=value)
+    return lambda: pendulum().add_point_force("f", body="bob", force=value)
 
 
 MODEL = pendulum().compile()
@@ -405,8 +400,8 @@ DATES = np.array(["2026-01-01"] * 3, dtype="M8[D]")
     (lambda: SampledController(period=1.0, function=3), "function is 3"),
     (lambda: simulate(pendulum(), t_end=2.0, **at_one_second()), "period is 1e-20 s"),
     (force(np.array([1, b"2", 3], dtype=object)), "force.*give .*number"),
-    (lambda: Scene().add_body(name="x", mass=1, inertia=DATES), "inertia.*give .*number"),
-    (lambda: Scene().add_body(name="x", mass=1), "body 'x'.*neither inertia nor size"),
+    (lambda: Scene().add_body("x", mass=1, inertia=DATES), "inertia.*give .*number"),
+    (lambda: Scene().add_body("x", mass=1), "body 'x'.*neither inertia nor size"),
     (lambda: Scene().add_crane(foot=("33", "10", "10")), "foot.*give .*number"),
     (lambda: Payload(mass="20e3"), "mass.*give .*number"),
     (lambda: inverse_dynamics(pendulum(), times=["0", "1"]), "times.*give .*number"),
@@ -447,15 +442,14 @@ def plausible_joint(draw: st.DrawFn) -> dict[str, Any]:
 
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(plausible_joint(), min_size=1, max_size=4), st.sampled_from(["quaternion", "euler_xyz"]))
-def test_any_set_of_joints_compiles_and_runs_or_is_refused(
-    joints: list[dict[str, Any]], orientation: str
-) -> None:
+def test_any_set_of_joints_compiles_and_runs_or_is_refused(joints: list[dict[str, Any]],
+                                                           orientation: str) -> None:  # fmt: skip
     """Redundant, contradictory or singular: a run starts and stays on its constraints, or ends by name."""
 
     def build() -> Scene:
         scene = scene_of_two(orientation=orientation)
         for i, joint in enumerate(joints):
-            scene.add_joint(name=f"j{i}", **joint)
+            scene.add_joint(f"j{i}", **joint)
         return scene
 
     with warnings.catch_warnings():

@@ -41,10 +41,9 @@ def three_bodies(joint: str = "revolute", seed: int = 5) -> Scene:
     """Bodies "first" and "second" at one pose on a joint of a kind, and "third" beside them."""
     scene = Scene(name=joint)
     for i, name in enumerate(("first", "second", "third")):
-        scene.add_body(
-            name=name, mass=1.0 + i, inertia=(0.5, 0.6, 0.7), position=(3.0 * (i == 2), 0.3 * (i == 2), 0.0),
-            angular_velocity=(0.3, -0.2 * i, 0.1),
-        )  # fmt: skip
+        scene.add_body(name, mass=1.0 + i, inertia=(0.5, 0.6, 0.7),
+                       position=(3.0 * (i == 2), 0.3 * (i == 2), 0.0),
+                       angular_velocity=(0.3, -0.2 * i, 0.1))  # fmt: skip
     scene.joints["joint"] = KINDS[joint].example(seed)
     return scene
 
@@ -95,7 +94,7 @@ def test_a_joints_own_numbers_are_checked(kind: str) -> None:
         with pytest.raises(SceneError, match=f"joint 'joint': {field.name} is nan"):
             scene.compile()
         with pytest.raises(SceneError, match=f"{field.name} belongs to a .*{kind}.* joint, this one is free"):
-            scene.add_joint(kind="free", name="j", first="first", second="third", **{field.name: 1.0})
+            scene.add_joint("j", kind="free", first="first", second="third", **{field.name: 1.0})
     scene.joints["joint"] = _core.Joint(**entries(joint) | joint.parameters | {"colour": 1.0})
     with pytest.raises(SceneError, match="has no parameter 'colour'"):
         scene.compile()
@@ -132,12 +131,11 @@ def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
 def described(kind: str) -> tuple[Scene, Any]:
     """A scene with an element of a kind, and the element."""
     scene = loaded_scene(kind) if kind in LOADS else three_bodies()
-    make = {
-        "vessel": lambda: scene.add_vessel(body="third", name="load"),
-        "point": lambda: scene.add_point(name="load", body="third"),
-        "driver": lambda: scene.add_driver(joint="joint", curve=0.0, name="load"),
-        "body": lambda: scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), size=(1, 1, 1)),
-    }
+    make = {"vessel": lambda: scene.add_vessel(body="third", name="load"),
+            "point": lambda: scene.add_point(name="load", body="third"),
+            "driver": lambda: scene.add_driver("joint", curve=0.0, name="load"),
+            "body": lambda: scene.add_body("load", mass=1e3, inertia=(1e3, 1e3, 1e3),
+                                           size=(1, 1, 1))}  # fmt: skip
     return scene, make[kind]() if kind in make else scene.all_loads()[0]
 
 

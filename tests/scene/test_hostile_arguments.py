@@ -19,10 +19,8 @@ from seacrane.scene import HullLoads, Waves, spline_curve
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 NAN, INF = float("nan"), float("inf")
-SETTINGS = settings(
-    max_examples=80, deadline=None, phases=(Phase.explicit, Phase.generate), database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)  # fmt: skip
+SETTINGS = settings(max_examples=80, deadline=None, phases=(Phase.explicit, Phase.generate), database=None,
+                    suppress_health_check=[HealthCheck.too_slow])  # fmt: skip
 LONGEST_MESSAGE = 2000
 
 
@@ -30,31 +28,25 @@ class Strange:
     """An object that no argument expects."""
 
 
-NUMBERS: tuple[Any, ...] = (
-    NAN, INF, -INF, 0.0, -0.0, -1.0, 1e-320, 1e-200, 1e200, 1.7e308, -1e308, 10**400, 2**63, True, 1.5, 1e12,
-)  # fmt: skip
-OTHERS: tuple[Any, ...] = (
-    None, "", "nan", "1", "\x00", "\ud800", "Ladekran 🏗", "é" * 400, b"bytes", 1j, Strange(), Strange, len,
-    {}, set(), [], [[]], [NAN], [1.0, 2.0], [1.0] * 3, [INF] * 3, [1e308] * 3, [0.0] * 3, [0.0] * 4,
-    [[1.0, 0.0], [0.0]], np.eye(3), np.full((3, 3), NAN), np.zeros((6, 6)), -np.eye(6),
-    np.eye(3, dtype=complex), np.zeros((0, 3)), np.array(["a", "b", "c"]), np.array(None),
-    np.zeros((3, 3, 3, 3)), np.datetime64("now"), range(3),
-)  # fmt: skip
-HOSTILE = st.one_of(
-    st.sampled_from(range(len(NUMBERS))).map(lambda i: NUMBERS[i]),
-    st.sampled_from(range(len(OTHERS))).map(lambda i: OTHERS[i]),
-    st.floats(),
-    st.lists(st.floats(), max_size=7),
-    st.text(max_size=5),
-)
+NUMBERS: tuple[Any, ...] = (NAN, INF, -INF, 0.0, -0.0, -1.0, 1e-320, 1e-200, 1e200, 1.7e308, -1e308, 10**400,
+                            2**63, True, 1.5, 1e12)  # fmt: skip
+OTHERS: tuple[Any, ...] = (None, "", "nan", "1", "\x00", "\ud800", "Ladekran 🏗", "é" * 400, b"bytes", 1j,
+                           Strange(), Strange, len, {}, set(), [], [[]], [NAN], [1.0, 2.0], [1.0] * 3,
+                           [INF] * 3, [1e308] * 3, [0.0] * 3, [0.0] * 4, [[1.0, 0.0], [0.0]], np.eye(3),
+                           np.full((3, 3), NAN), np.zeros((6, 6)), -np.eye(6), np.eye(3, dtype=complex),
+                           np.zeros((0, 3)), np.array(["a", "b", "c"]), np.array(None),
+                           np.zeros((3, 3, 3, 3)), np.datetime64("now"), range(3))  # fmt: skip
+HOSTILE = st.one_of(st.sampled_from(range(len(NUMBERS))).map(lambda i: NUMBERS[i]),
+                    st.sampled_from(range(len(OTHERS))).map(lambda i: OTHERS[i]), st.floats(),
+                    st.lists(st.floats(), max_size=7), st.text(max_size=5))  # fmt: skip
 
 
 def base() -> Scene:
     """A pendulum on a hull, both free of constraints that could be singular."""
     scene = Scene(name="base")
-    scene.add_body(name="hull", mass=1e6, inertia=[1e7, 2e7, 2e7])
-    scene.add_body(name="bob", mass=1e3, inertia=[1e3, 1e3, 1e3], position=(0.0, 0.0, -10.0))
-    scene.add_joint(kind="revolute", name="pin", first="hull", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    scene.add_body("hull", mass=1e6, inertia=[1e7, 2e7, 2e7])
+    scene.add_body("bob", mass=1e3, inertia=[1e3, 1e3, 1e3], position=(0.0, 0.0, -10.0))
+    scene.add_joint("pin", kind="revolute", first="hull", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     return scene
 
 
@@ -178,8 +170,8 @@ def test_given_motions(kind: str, data: st.DataObject) -> None:
 def test_names_of_any_script(name: str) -> None:
     """Names that can be printed work all the way into results and messages."""
     scene = Scene(name=name)
-    scene.add_body(name=name, mass=1.0, inertia=[1, 1, 1])
-    refused(lambda: scene.add_body(name=name, mass=1.0, inertia=[1, 1, 1]))
+    scene.add_body(name, mass=1.0, inertia=[1, 1, 1])
+    refused(lambda: scene.add_body(name, mass=1.0, inertia=[1, 1, 1]))
     assert simulate(scene, t_end=0.1, dt_out=0.1).coords["body"] == (name,)
 
 
@@ -227,19 +219,16 @@ def test_curves(kind: str, data: st.DataObject) -> None:
     arguments, scene = replaced(data, usual, most=1), base()
     curve = refused(lambda: make(**arguments), ValueError, TypeError)
     if curve is not None:
-        refused(lambda: scene.add_actuator(joint="pin", name="x", reference=curve, stiffness=1.0))
+        refused(lambda: scene.add_actuator("pin", name="x", reference=curve, stiffness=1.0))
         run_for_some_steps(scene)
 
 
-HULL: dict[str, Any] = {
-    "transfer": np.ones((2, 6), dtype=complex), "position": (0.0, 0.0), "heading": 0.0,
-    "force_by_heading": None, "drift": None, "drift_by_heading": None,
-}  # fmt: skip
-WAVES: dict[str, Any] = {
-    "omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": [0.0, 1.0], "direction": [0.0, 0.5],
-    "hulls": {"hull": HullLoads(**HULL)}, "relative_bound": 1e-9, "depth": INF,
-    "evaluation": "exact", "negligible": 1e-9,
-}  # fmt: skip
+HULL: dict[str, Any] = {"transfer": np.ones((2, 6), dtype=complex), "position": (0.0, 0.0), "heading": 0.0,
+                        "force_by_heading": None, "drift": None, "drift_by_heading": None}  # fmt: skip
+WAVES: dict[str, Any] = {"omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": [0.0, 1.0],
+                         "direction": [0.0, 0.5], "hulls": {"hull": HullLoads(**HULL)},
+                         "relative_bound": 1e-9, "depth": INF, "evaluation": "exact",
+                         "negligible": 1e-9}  # fmt: skip
 
 
 @seed(23)
@@ -261,10 +250,9 @@ def test_waves(key: str, value: Any) -> None:
         run_for_some_steps(scene)
 
 
-RECORD: dict[str, Any] = {
-    "time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)), "direction_deg": 0.0,
-    "position": (0.0, 0.0), "minimum_omega": None, "maximum_omega": None, "taper": 0.1, "name": "record",
-}  # fmt: skip
+RECORD: dict[str, Any] = {"time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)),
+                          "direction_deg": 0.0, "position": (0.0, 0.0), "minimum_omega": None,
+                          "maximum_omega": None, "taper": 0.1, "name": "record"}  # fmt: skip
 
 
 @seed(24)

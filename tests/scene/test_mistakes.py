@@ -42,9 +42,8 @@ def answers() -> dict[str, list[str]]:
 ROWS = answers()
 
 
-def lift(
-    *, slew: float = 0.0, ballast: bool = True, sea: float | None = None, mass: float = MASS, **load: float
-) -> Scene:
+def lift(*, slew: float = 0.0, ballast: bool = True, sea: float | None = None, mass: float = MASS,
+         **load: float) -> Scene:  # fmt: skip
     """A lift on the shipped hull, its drives without gains."""
     scene = Scene(name="lift")
     scene.add_vessel(shipped_database())
@@ -57,7 +56,7 @@ def lift(
     if ballast:
         held = balance(scene)
         x, y, _ = held.weight_center
-        scene.add_point_force(name="ballast", body="vessel", point=(x, y, 0.0), force=(0, 0, held.weight))
+        scene.add_point_force("ballast", body="vessel", point=(x, y, 0.0), force=(0, 0, held.weight))
     return scene
 
 
@@ -90,13 +89,13 @@ def follow(drive: str, curve: Curve, t_end: float = 5.0) -> None:
 def hung(line: dict[str, Any] | None = None, **winch: Any) -> None:
     scene = on_wire(depth=15.0, **(line or {}))
     if winch:
-        scene.add_winch(line="hoist", **winch)
+        scene.add_winch("hoist", **winch)
     simulate(scene, t_end=0.2)
 
 
 def on_gas(pressure: float, volume: float) -> None:
     scene, gas = with_load((0, 0, -10)), {"area": 0.05, "pressure": pressure, "volume": volume}
-    scene.add_gas_spring(name="gas", first="ground", second="load", **gas)
+    scene.add_gas_spring("gas", first="ground", second="load", **gas)
     simulate(scene, t_end=0.2)
 
 
@@ -128,7 +127,7 @@ def on_a_ship(*, slew: float = -np.pi / 2, parts: Any = (), **hoist: Any) -> Non
 def lowered(depth: float, *, stages: bool) -> None:
     """Down a shaft of water: by a stage that waits for it, or by time."""
     scene = on_wire(tension_at_start=None, length=10.0)
-    scene.add_winch(line="hoist", lag=0.1)
+    scene.add_winch("hoist", lag=0.1)
     scene.add_sea(vessel=None, sea=SeaState(systems=[waves(hs=0.5, tp=6.0)], depth=depth))
     scene.add_immersed("load", parts=[BoxPart(size=(2.0, 2.0, 2.0), fill=0.5)])
     down: dict[str, Any] = {"commands": {"hoist.rate": 5.0}}
@@ -143,10 +142,9 @@ def waves(hs: float = 2.0, tp: float = 8.0) -> WaveSystem:
 def pair(distance: float) -> HydroGroup:
     """The shipped hull twice; it is 25 m broad."""
     ship = shipped_database()
-    return HydroGroup.from_databases(
-        databases={"crane": ship, "feeder": ship},
-        positions={"crane": (0.0, 0.0, 0.0), "feeder": (0.0, distance, 0.0)},
-    )
+    return HydroGroup.from_databases(databases={"crane": ship, "feeder": ship},
+                                     positions={"crane": (0.0, 0.0, 0.0),
+                                                "feeder": (0.0, distance, 0.0)})  # fmt: skip
 
 
 MOORING = np.diag([2e5, 3e5, 0.0, 0.0, 0.0, 1e9])
@@ -186,15 +184,15 @@ def wind_where_it_comes_from() -> None:
 def body_in_tonnes() -> None:
     scene = lift()
     load = scene.bodies.pop("payload")
-    scene.add_body(name="payload", mass=20.0, inertia=[70.0, 70.0, 80.0], position=load.position)
+    scene.add_body("payload", mass=20.0, inertia=[70.0, 70.0, 80.0], position=load.position)
     simulate(driven(scene), t_end=1.0)
 
 
 def a_tower_too_heavy() -> None:
     scene = Scene(name="top-heavy")
     scene.add_vessel(shipped_database(), memory="none")
-    scene.add_body(name="tower", mass=1e6, inertia=[1e7] * 3, position=(0, 0, 60))
-    scene.add_joint(kind="weld", name="bolts", first="vessel", second="tower", point=(0, 0, 10))
+    scene.add_body("tower", mass=1e6, inertia=[1e7] * 3, position=(0, 0, 60))
+    scene.add_joint("bolts", kind="weld", first="vessel", second="tower", point=(0, 0, 10))
     scene.compile()
 
 
@@ -223,7 +221,7 @@ def held_by_drivers(scene: Scene, *names: str) -> Scene:
 
 def a_stop_of_steel() -> None:
     scene = on_joint("box", velocity=(0.1, 0, 0), gravity=False)
-    scene.add_actuator(joint="rail", stiffness=1e8, damping=2e4)
+    scene.add_actuator("rail", stiffness=1e8, damping=2e4)
     simulate(scene, t_end=10.0, integrator="dopri5", channels=["position"])
 
 
@@ -248,7 +246,7 @@ def let_go(t_end: float, **crane: Any) -> None:
 def hours_at_a_loose_tolerance() -> None:
     """A box on a spring in place of the load, with the steps that waves would give."""
     scene = on_joint("box", velocity=(1e-6, 0, 0))
-    scene.add_spring(name="spring", first="ground", second="box", first_point=(-9, 0, 0), stiffness=5.0,
+    scene.add_spring("spring", first="ground", second="box", first_point=(-9, 0, 0), stiffness=5.0,
                      natural_length=9.0)  # fmt: skip
     simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, maximum_step=0.5)
 
@@ -268,17 +266,16 @@ def a_guide_ten_centimetres_off() -> None:
 def a_tagline_connected_short() -> None:
     scene, points = on_wire(), [(6.5, 0, -10), (0, 0, 0)]
     scene.add_line(name="tag", bodies=["ground", "load"], points=points, EA=1e6, length=5.0)
-    simulate_stages(
-        scene, [Stage(name="wait", duration=0.1), Stage(name="on", duration=0.1, connect=["tag"])]
-    )
+    simulate_stages(scene, [Stage(name="wait", duration=0.1),
+                            Stage(name="on", duration=0.1, connect=["tag"])])  # fmt: skip
 
 
 def a_resonant_wire_as_quasi_static() -> None:
     scene = Scene(name="deep")
-    scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
-    scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=UP)
-    scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
-    scene.add_body(name="load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000))
+    scene.add_body("tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
+    scene.add_joint("up", kind="prismatic", first="ground", second="tip", axis=UP)
+    scene.add_driver("up", curve=Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
+    scene.add_body("load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000))
     scene.add_line(name="wire", bodies=["tip", "load"], points=ENDS, EA=4e8,
                    tension_at_start=180e3 * scene.gravity, rung="quasi-static")  # fmt: skip
     simulate(scene, t_end=1.0)
@@ -292,16 +289,16 @@ def drag_of_the_world() -> None:
 def lift_off_too_slowly() -> None:
     """A load lifted by a slow winch off a barge that heaves."""
     scene = Scene(name="deck")
-    scene.add_body(name="barge", mass=1e6, inertia=(1e8,) * 3)
-    scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge", axis=UP)
+    scene.add_body("barge", mass=1e6, inertia=(1e8,) * 3)
+    scene.add_joint("heave", kind="prismatic", first="ground", second="barge", axis=UP)
     wave = Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.8, omega=0.8, phase=-np.pi / 2)
-    scene.add_driver(joint="heave", curve=wave)
-    scene.add_body(name="load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 2.0))
-    scene.add_joint(kind="weld", name="on deck", first="barge", second="load")
+    scene.add_driver("heave", curve=wave)
+    scene.add_body("load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 2.0))
+    scene.add_joint("on deck", kind="weld", first="barge", second="load")
     scene.add_seat(joint="on deck")
     scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], EA=1e8,
                    length=38.5)  # fmt: skip
-    scene.add_winch(line="hoist", lag=0.2)
+    scene.add_winch("hoist", lag=0.2)
     up = {"until": Until.release("on deck"), "commands": {"hoist.rate": -0.05}}
     lift = Stage(name="lift", maximum_duration=60.0, **up)
     simulate_stages(scene, [lift, Stage(name="raised", duration=10.0)], dt_out=0.1)
@@ -369,7 +366,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
         lambda: on_its_side(BoxPart(size=(600, 400, 300)))],
     "a part far from its body": [lambda: on_its_side(BoxPart(size=(6, 4, 3), point=(0, 0, 1500)))],
     "texts for numbers": [
-        lambda: lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])],
+        lambda: lift(ballast=False).add_point_force("pull", body="payload", force=["1e3", "0", "0"])],
     "EA in kilonewtons": [lambda: hung({"EA": 5e4})],
     "times in milliseconds": [lambda: hung(rate=-0.3, lag=200.0)],
     "lengths and speeds in millimetres": [lambda: hung(lag=0.2, drum_inertia=1e3, drum_radius=500.0),
@@ -435,8 +432,8 @@ def test_the_heel_that_missing_ballast_is_said_to_give_is_that_of_the_rest_state
     scene, cosine, sine = Scene(name="deck load"), np.cos(heading), np.sin(heading)
     scene.add_vessel(shipped_database(), heading_deg=np.degrees(heading))
     place = (20.0 * cosine - 8.0 * sine, 20.0 * sine + 8.0 * cosine, 5.0)
-    scene.add_body(name="load", mass=300e3, inertia=[1e6, 1e6, 1e6], position=place)
-    scene.add_joint(kind="weld", name="lashing", first="vessel", second="load")
+    scene.add_body("load", mass=300e3, inertia=[1e6, 1e6, 1e6], position=place)
+    scene.add_joint("lashing", kind="weld", first="vessel", second="load")
     with pytest.warns(seacrane.warnings.BallastWarning) as caught:
         simulate(scene, t_end=0.1)
     told = str(caught[0].message)

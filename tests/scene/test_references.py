@@ -28,7 +28,7 @@ def rail(curve: Curve | None = None, **actuator: Any) -> Scene:
     """10 t on a vertical rail, driven or held by an actuator."""
     scene = on_joint("load", mass=10e3, inertia=1e4, axis=(0, 0, 1))
     if curve is not None:
-        scene.add_driver(joint="rail", curve=curve)
+        scene.add_driver("rail", curve=curve)
     if actuator:
         scene.add_actuator(name="winch", joint="rail", **actuator)
     return scene
@@ -78,9 +78,9 @@ def out_of_stroke(stroke: float, driver: bool) -> None:
     """Of the data file's 0 to 5 m, from the described stroke of 1 m on."""
     scene, reference = crane(), to(stroke, until=10.0)
     if driver:
-        scene.add_driver(joint="main_cylinder", curve=reference, name="main")
+        scene.add_driver("main_cylinder", curve=reference, name="main")
     else:
-        scene.add_actuator(joint="main_cylinder", reference=reference, stiffness=1.0, name="main")
+        scene.add_actuator("main_cylinder", reference=reference, stiffness=1.0, name="main")
     simulate(scene, t_end=20.0)
 
 
@@ -118,7 +118,7 @@ def test_what_is_smooth_or_outside_the_run_or_of_an_actuator_along_a_slide_passe
     assert simulate(stepped, t_end=9.0)["coordinate"][-1, 0] == pytest.approx(0.5, abs=1e-3)
     crank, row = slewing(), [0, 2 * np.pi, 0, 0, 0, 0]  # whole turns are no jumps of an angle
     crank.actuators.clear()
-    crank.add_driver(joint="pin", curve=Curve.pieces(starts=[0.0, 1.0], coefficients=[row, row]))
+    crank.add_driver("pin", curve=Curve.pieces(starts=[0.0, 1.0], coefficients=[row, row]))
     with pytest.warns(FullTurnWarning, match="recorded between -180 and 180"):
         assert turned(simulate(crank, t_end=2.0)) == pytest.approx(720.0)
 
@@ -150,9 +150,9 @@ def test_a_spring_about_a_free_joint_is_harmonic_through_half_a_turn(coordinate:
     scene, start, own = Scene(gravity=0.0), np.zeros(4), Frame()
     start[0], start[1 + axis] = np.cos(1.5), np.sin(1.5)
     state = {"quaternion": start, "angular_velocity": np.eye(3)[axis]}
-    scene.add_body(name="body", mass=1.0, inertia=[1, 1, 1], **state)
+    scene.add_body("body", mass=1.0, inertia=[1, 1, 1], **state)
     frames = {"first_frame": own, "second_frame": own}
-    scene.add_joint(kind="free", name="motion", first="ground", second="body", **frames)
+    scene.add_joint("motion", kind="free", first="ground", second="body", **frames)
     scene.add_actuator(name="spring", joint="motion", coordinate=coordinate, stiffness=4.0, reference=3.0)
     result = simulate(scene, t_end=5.0, rtol=1e-9)
     angle = 2.0 * np.unwrap(np.arctan2(result["quaternion"][:, 0, 1 + axis], result["quaternion"][:, 0, 0]))

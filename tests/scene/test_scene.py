@@ -16,8 +16,8 @@ QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # 90 deg about z
 def turned_pair() -> Scene:
     """Two bodies away from the origin, the second turned by 90 deg about z."""
     scene = Scene()
-    scene.add_body(name="a", mass=1.0, inertia=[1, 1, 1], position=(1.0, 2.0, 3.0))
-    scene.add_body(name="b", mass=1.0, inertia=[1, 1, 1], position=(4.0, 2.0, 3.0), quaternion=QUARTER)
+    scene.add_body("a", mass=1.0, inertia=[1, 1, 1], position=(1.0, 2.0, 3.0))
+    scene.add_body("b", mass=1.0, inertia=[1, 1, 1], position=(4.0, 2.0, 3.0), quaternion=QUARTER)
     return scene
 
 
@@ -32,23 +32,23 @@ def test_a_joint_point_in_the_inertial_frame_becomes_one_in_each_body() -> None:
     """b's x axis points to inertial y: (-2, 3, 1) in the inertial frame is (3, 2, 1) in b. The default is the
     origin of the second body; frames on the bodies are taken as they are."""
     scene = turned_pair()
-    joint = scene.add_joint(kind="spherical", name="j", first="a", second="b", point=(2.0, 5.0, 4.0))
+    joint = scene.add_joint("j", kind="spherical", first="a", second="b", point=(2.0, 5.0, 4.0))
     assert_allclose(joint.first_frame.point, [1.0, 3.0, 1.0], atol=1e-15)
     assert_allclose(joint.second_frame.point, [3.0, 2.0, 1.0], atol=1e-15)
-    usual = scene.add_joint(kind="spherical", name="k", first="a", second="b")
+    usual = scene.add_joint("k", kind="spherical", first="a", second="b")
     assert_allclose([usual.first_frame.point, usual.second_frame.point], [(3, 0, 0), (0, 0, 0)], atol=1e-15)
     frames = Frame(point=(0.1, 0.2, 0.3)), Frame(axes=[[0, 0, 1], [1, 0, 0], [0, 1, 0]])
     given = {"first_frame": frames[0], "second_frame": frames[1]}
-    own = scene.add_joint(kind="revolute", name="l", first="a", second="b", **given)
+    own = scene.add_joint("l", kind="revolute", first="a", second="b", **given)
     assert (own.first_frame, own.second_frame) == frames
     ends = {"point": (1, 2, 3), "second_point": (4, 6, 3)}
-    wire = scene.add_joint(kind="distance", name="wire", first="a", second="b", **ends)
+    wire = scene.add_joint("wire", kind="distance", first="a", second="b", **ends)
     assert wire.length == pytest.approx(5.0, rel=1e-15)
 
 
 def test_the_joint_axis_is_z_of_both_frames_and_the_described_pose_is_zero() -> None:
     scene, axis = turned_pair(), np.array([1.0, -2.0, 0.5])
-    joint = scene.add_joint(kind="revolute", name="j", first="a", second="b", axis=7.0 * axis)
+    joint = scene.add_joint("j", kind="revolute", first="a", second="b", axis=7.0 * axis)
     frames = {"a": joint.first_frame, "b": joint.second_frame}
     inertial = [rotation_matrix(scene.bodies[name].quaternion) @ frame.axes for name, frame in frames.items()]
     assert_allclose(inertial[0], inertial[1], atol=1e-14)
@@ -73,7 +73,7 @@ def test_what_is_handed_out_is_a_copy_and_a_compiled_model_stays() -> None:
     start = np.array(model.initial_state)
     model.initial_state[:] = 7.0
     assert_array_equal(model.initial_state, start)
-    added = scene.add_body(name="c", mass=1.0, inertia=[1.0, 2.0, 2.5])
+    added = scene.add_body("c", mass=1.0, inertia=[1.0, 2.0, 2.5])
     assert_array_equal(added.inertia, np.diag([1.0, 2.0, 2.5]))
     assert model.bodies == ["a", "b"] and scene.compile().bodies == ["a", "b", "c"]
 
@@ -82,7 +82,7 @@ def test_a_copy_may_be_changed_alone() -> None:
     scene = mass_on_rail()
     scene.notes["kind"] = "rail"
     other = scene.copy(name="other", gravity=1.0)
-    other.add_body(name="extra", mass=1.0, inertia=[1, 1, 1])
+    other.add_body("extra", mass=1.0, inertia=[1, 1, 1])
     other.notes["kind"] = "changed"
     other.actuators.clear()
     other.recorded.clear()
@@ -92,10 +92,10 @@ def test_a_copy_may_be_changed_alone() -> None:
 
 def test_default_coordinates_and_names() -> None:
     scene = turned_pair()
-    scene.add_joint(kind="revolute", name="hinge", first="ground", second="a")
-    scene.add_joint(kind="cylindrical", name="sleeve", first="ground", second="b")
-    assert scene.add_driver(joint="hinge", curve=0.0).name == "hinge.angle"
-    assert scene.add_actuator(joint="sleeve").coordinate == "displacement"
+    scene.add_joint("hinge", kind="revolute", first="ground", second="a")
+    scene.add_joint("sleeve", kind="cylindrical", first="ground", second="b")
+    assert scene.add_driver("hinge", curve=0.0).name == "hinge.angle"
+    assert scene.add_actuator("sleeve").coordinate == "displacement"
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
     assert scene.recorded == {"turn": ("sleeve", "angle")}
 
@@ -126,8 +126,8 @@ def test_the_reference_input_adds_to_the_reference() -> None:
 
 def test_a_point_force_input_turns_with_the_body_when_asked() -> None:
     scene = Scene(gravity=0.0)
-    scene.add_body(name="puck", mass=2.0, inertia=[1, 1, 1], quaternion=QUARTER)
-    scene.add_point_force(name="thruster", body="puck", force=(0, 0, 0), body_axes=True)
+    scene.add_body("puck", mass=2.0, inertia=[1, 1, 1], quaternion=QUARTER)
+    scene.add_point_force("thruster", body="puck", force=(0, 0, 0), body_axes=True)
     run = Run(scene, t_end=1.0)
     run.set_inputs({"thruster.force": (4.0, 0.0, 0.0)})  # body x is inertial y
     run.advance(1.0)
@@ -148,7 +148,7 @@ def test_a_controller_is_called_at_its_period_and_not_at_the_end() -> None:
 def test_a_run_goes_on_from_a_state_to_the_same_bits() -> None:
     """A checkpoint taken where a one-step method stands costs nothing: the later run is the same run."""
     scene = mass_on_rail(stiffness=3.0)
-    scene.add_point_force(name="push", body="cart", force=(1.0, 0.0, 0.0))
+    scene.add_point_force("push", body="cart", force=(1.0, 0.0, 0.0))
     whole = Run(scene, t_end=4.0, integrator="rk4", dt=0.25)
     whole.advance(2.0)
     checkpoint = whole.core.state
@@ -160,10 +160,10 @@ def test_a_run_goes_on_from_a_state_to_the_same_bits() -> None:
 
 def door(*heights: float) -> Scene:
     scene = Scene()
-    scene.add_body(name="door", mass=5.0, inertia=[1, 1, 1], position=(1.0, 0.0, 0.0))
+    scene.add_body("door", mass=5.0, inertia=[1, 1, 1], position=(1.0, 0.0, 0.0))
     for height in heights:
         hinge = {"point": (0, height, 0), "axis": (0, 1, 0)}
-        scene.add_joint(kind="revolute", name=f"hinge {height:g}", first="ground", second="door", **hinge)
+        scene.add_joint(f"hinge {height:g}", kind="revolute", first="ground", second="door", **hinge)
     return scene
 
 
@@ -180,13 +180,12 @@ def test_names_of_one_kind_differ_and_kinds_do_not_share_names() -> None:
     scene = mass_on_rail()
     with pytest.raises(SceneError, match=r"actuator 'motor': .*twice"):
         scene.add_actuator(name="motor", joint="rail")
-    scene.add_spring(name="motor", first="ground", second="cart", stiffness=1.0)
+    scene.add_spring("motor", first="ground", second="cart", stiffness=1.0)
     scene.compile()
 
 
-@pytest.mark.parametrize(
-    ("t_end", "dt_out", "expected"), [(1.0, 0.25, 5), (1.0, 0.3, 5), (0.0, 0.1, 1), (0.3, 0.1, 4)]
-)
+@pytest.mark.parametrize(("t_end", "dt_out", "expected"), [(1.0, 0.25, 5), (1.0, 0.3, 5), (0.0, 0.1, 1),
+                                                           (0.3, 0.1, 4)])  # fmt: skip
 def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, expected: int) -> None:
     result = simulate(mass_on_rail(), t_end=t_end, dt_out=dt_out)
     assert result.time.size == expected
@@ -203,7 +202,7 @@ def test_integrator_names_are_those_that_run() -> None:
 
 def test_channels_asked_for_are_those_recorded_and_a_scene_offers_what_it_has() -> None:
     lone = Scene()
-    lone.add_body(name="stone", mass=1.0, inertia=[1, 1, 1])
+    lone.add_body("stone", mass=1.0, inertia=[1, 1, 1])
     offered = set(lone.compile().channel_names(defaults_only=False))
     of_joints = {"coordinate", "actuator_force", "reaction_force"}
     assert not offered & (of_joints | {"driver_force", "tension", "wave_force"})

@@ -15,12 +15,12 @@ from seacrane.description.description import KINDS
 def hung() -> Scene:
     """A load on a wire, on a trolley."""
     scene, ends = Scene(name="trolley"), {"point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, -4.0)}
-    scene.add_body(name="trolley", mass=100.0, inertia=(10.0, 10.0, 10.0))
-    scene.add_body(name="load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(0.0, 0.0, -4.0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="trolley", axis=(1.0, 0.0, 0.0))
-    scene.add_joint(kind="distance", name="wire", first="trolley", second="load", **ends)
+    scene.add_body("trolley", mass=100.0, inertia=(10.0, 10.0, 10.0))
+    scene.add_body("load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(0.0, 0.0, -4.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="trolley", axis=(1.0, 0.0, 0.0))
+    scene.add_joint("wire", kind="distance", first="trolley", second="load", **ends)
     scene.add_line(joint="wire", rung="rigid")
-    scene.add_actuator(joint="rail", name="drive", stiffness=10.0)
+    scene.add_actuator("rail", name="drive", stiffness=10.0)
     scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
     scene.record_coordinate(joint="rail")
     return scene
@@ -46,7 +46,7 @@ def test_a_replaced_element_takes_the_place_of_the_old_one() -> None:
     scene.replace("drive", feed_forward=3.0)
     assert scene.actuators["drive"].feed_forward == Curve.constant(value=3.0)
     assert scene.actuators["drive"].stiffness == 10.0
-    assert scene.add_driver(joint="rail", curve=0.0).curve == Curve.constant(value=0.0)
+    assert scene.add_driver("rail", curve=0.0).curve == Curve.constant(value=0.0)
 
 
 WRONG: tuple[tuple[Callable[[Scene], Any], str], ...] = (
@@ -104,7 +104,7 @@ def test_a_scene_prints_and_shows_what_it_holds() -> None:
     for words in ("Scene 'trolley'", "trolley, load", "drive (rail displacement)", "rail (-3 to 3)"):
         assert words in text
     assert "empty" in str(Scene(name="none")) and max(map(len, str(cases.case2()).splitlines())) <= 100
-    scene.add_body(name="<b>", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_body("<b>", mass=1.0, inertia=(1.0, 1.0, 1.0))
     page = scene._repr_html_()
     assert "<table>" in page and "&lt;b&gt;" in page and "<b>" not in page
     for name in dir(Scene):

@@ -27,56 +27,49 @@ def waves(body: str) -> Waves:
     omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
     phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
     transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
-    return Waves(
-        omega=omega, amplitude=amplitude, phase=phase, direction=direction, evaluation="exact",
-        hulls={body: HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)},
-        provenance=SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD)),
-    )  # fmt: skip
+    return Waves(omega=omega, amplitude=amplitude, phase=phase, direction=direction, evaluation="exact",
+                 hulls={body: HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)},
+                 provenance=SeaProvenance(seed=3, repeat_period_s=math.inf,
+                                          realised_hs=np.float64(THIRD)))  # fmt: skip
 
 
 def every_kind() -> Scene:
     """One of each element that a file can hold, with numbers that have no short decimal form."""
     scene = Scene(name="every kind", gravity=9.8 + THIRD / 100, baumgarte=THIRD, length_scale=1.1)
     inertia, half = np.array([[2.0, 0.1, 0.0], [0.1, 3.0, THIRD], [0.0, THIRD, 2.5]]), math.sqrt(0.5)
-    scene.add_body(name="hull", mass=1e7 * THIRD, inertia=inertia * 1e6, center_of_mass=(0.1, -0.2, THIRD))
-    scene.add_body(
-        name="arm", mass=5e-4, inertia=inertia * 1e-4, position=(1.0, THIRD, -2.0),
-        quaternion=(half, 0, half, 0), velocity=(0.0, -0.0, 1e-300), angular_velocity=(5e-324, 0.0, 0.0),
-        gravity=False,
-    )  # fmt: skip
+    scene.add_body("hull", mass=1e7 * THIRD, inertia=inertia * 1e6, center_of_mass=(0.1, -0.2, THIRD))
+    scene.add_body("arm", mass=5e-4, inertia=inertia * 1e-4, position=(1.0, THIRD, -2.0),
+                   quaternion=(half, 0, half, 0), velocity=(0.0, -0.0, 1e-300),
+                   angular_velocity=(5e-324, 0.0, 0.0), gravity=False)  # fmt: skip
     for i, name in enumerate(("bob", "kite")):
-        scene.add_body(name=name, mass=1.0, inertia=[1.0, 1.0, 1.0], position=(4.0, i, 0.0))
+        scene.add_body(name, mass=1.0, inertia=[1.0, 1.0, 1.0], position=(4.0, i, 0.0))
     pair = {"kind": "universal", "axis": (1, 0, 0), "second_axis": (0, THIRD, 1)}
     wire = {"kind": "distance", "point": (4, 0, 0), "second_point": (4, 1, THIRD)}
     frames = {"first_frame": Frame(point=(4.0, 1.0, 0.0)), "second_frame": Frame()}
-    scene.add_joint(kind="revolute", name="pin", first="hull", second="arm", axis=(THIRD, 1.0, 0.2))
-    scene.add_joint(name="cross", first="hull", second="bob", **pair)
-    scene.add_joint(name="wire", first="bob", second="kite", **wire)
-    scene.add_joint(kind="cylindrical", name="sleeve", first="ground", second="kite", **frames)
+    scene.add_joint("pin", kind="revolute", first="hull", second="arm", axis=(THIRD, 1.0, 0.2))
+    scene.add_joint("cross", first="hull", second="bob", **pair)
+    scene.add_joint("wire", first="bob", second="kite", **wire)
+    scene.add_joint("sleeve", kind="cylindrical", first="ground", second="kite", **frames)
     swing = Curve.harmonic(offset=0.0, amplitude=0.01, omega=THIRD, phase=-math.pi / 2.0)
-    scene.add_driver(joint="sleeve", curve=swing, name="shaker")
+    scene.add_driver("sleeve", curve=swing, name="shaker")
     move = Curve.quintic(start_time=0.1, end_time=7.0, start=0.0, end=THIRD)
     scene.add_actuator(name="motor", joint="pin", stiffness=THIRD, damping=0.2, feed_forward=1e-3,
                        reference=move.then(time=9.0, curve=swing))  # fmt: skip
-    scene.add_point_force(name="push", body="arm", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
+    scene.add_point_force("push", body="arm", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
     soft = {"stiffness": THIRD, "damping": 0.1, "natural_length": 0.3}
     table = {"first_point": (0, 0, THIRD), "lengths": [1, 2.5], "forces": [0, THIRD]}
-    scene.add_spring(name="soft", first="ground", second="bob", **soft)
-    scene.add_spring(name="table", first="hull", second="kite", **table)
+    scene.add_spring("soft", first="ground", second="bob", **soft)
+    scene.add_spring("table", first="hull", second="kite", **table)
     loads = np.arange(12.0).reshape(2, 6) / 7
     scene.add_force_table(name="gust", body="kite", times=[0.0, THIRD], loads=loads)
     matrix, restoring = np.diag([1e6, 2e6, 3e6, 4e6, 5e6, 6e6]) * THIRD, np.diag([0, 0, 1e6, 2e6, 3e6, 0])
-    memory = [
-        StateSpaceBlock(inputs=[2, 4], outputs=[4], a=[[-1.0, THIRD], [0.0, -2.0]], b=np.eye(2),
-                        c=[[THIRD, 1.0]], d=[[0.0, 1e-9]], state_scale=[0.5, THIRD]),
-        StateSpaceBlock(inputs=[0], outputs=[0], a=np.zeros((0, 0)), b=np.zeros((0, 1)), c=np.zeros((1, 0)),
-                        d=[[3.0]]),
-    ]  # fmt: skip
-    scene.add_vessel(
-        body="hull", name="water", added_mass=matrix, linear_damping=matrix / 10, restoring=restoring,
-        quadratic_damping=np.arange(6.0), mooring_stiffness=(1e4, 2e4, 3e4), mooring_damping=(1, 2, THIRD),
-        memory=memory,
-    )  # fmt: skip
+    memory = [StateSpaceBlock(inputs=[2, 4], outputs=[4], a=[[-1.0, THIRD], [0.0, -2.0]], b=np.eye(2),
+                              c=[[THIRD, 1.0]], d=[[0.0, 1e-9]], state_scale=[0.5, THIRD]),
+              StateSpaceBlock(inputs=[0], outputs=[0], a=np.zeros((0, 0)), b=np.zeros((0, 1)),
+                              c=np.zeros((1, 0)), d=[[3.0]])]  # fmt: skip
+    scene.add_vessel(body="hull", name="water", added_mass=matrix, linear_damping=matrix / 10,
+                     restoring=restoring, quadratic_damping=np.arange(6.0), mooring_stiffness=(1e4, 2e4, 3e4),
+                     mooring_damping=(1, 2, THIRD), memory=memory)  # fmt: skip
     scene.waves = waves("hull")
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
@@ -140,8 +133,8 @@ def test_a_loaded_case_runs_to_the_same_bits(tmp_path: Path) -> None:
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=6, max_size=6))
 def test_any_finite_number_comes_back(tmp_path: Path, values: list[float]) -> None:
     scene = Scene()
-    scene.add_body(name="b", mass=1.0, inertia=[1, 1, 1], velocity=values[:3])
-    scene.add_point_force(name="f", body="b", force=values[3:])
+    scene.add_body("b", mass=1.0, inertia=[1, 1, 1], velocity=values[:3])
+    scene.add_point_force("f", body="b", force=values[3:])
     scene.notes["values"] = values
     scene.save(tmp_path / "scene.json")
     back = Scene.load(tmp_path / "scene.json")
@@ -252,9 +245,8 @@ def test_nested_notes(tmp_path: Path, text: str) -> None:
         assert "nested" in str(error)
 
 
-def test_a_file_larger_than_the_bound_is_not_parsed(
-    tmp_path: Path, text: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_larger_than_the_bound_is_not_parsed(tmp_path: Path, text: str,
+                                                    monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
     for place in ("file", "file_text"):
         monkeypatch.setattr(f"seacrane.description.{place}.LARGEST_FILE", len(text) - 1)
     refused(tmp_path, text, "larger than")

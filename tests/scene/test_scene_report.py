@@ -28,11 +28,10 @@ def test_counts_and_elements_of_case_2() -> None:
     report = scene_report(scene)
     size, elements = dict(report["size"]), dict(report["elements"])
     memory = sum(len(block.a) for block in scene.vessels["vessel"].memory)
-    expected = {
-        "bodies": 10, "joints": 11, "drivers": 0, "coordinates": 60, "constraints": 46,
-        "degrees_of_freedom": 14, "compiled_coordinates": 54, "compiled_constraints": 40, "pose states": 70,
-        "velocity states": 60, "memory states": memory, "wave components": 30, "input slots": 3 * 3 + 3,
-    }  # fmt: skip
+    expected = {"bodies": 10, "joints": 11, "drivers": 0, "coordinates": 60, "constraints": 46,
+                "degrees_of_freedom": 14, "compiled_coordinates": 54, "compiled_constraints": 40,
+                "pose states": 70, "velocity states": 60, "memory states": memory, "wave components": 30,
+                "input slots": 3 * 3 + 3}  # fmt: skip
     assert {name: size[name] for name in expected} == expected and memory > 0
     assert size["states"] == sum(size[f"{kind} states"] for kind in ("pose", "velocity", "memory", "work"))
     assert elements["bodies"] == list(scene.bodies)
@@ -52,7 +51,7 @@ def test_euler_angles_and_kinks() -> None:
     assert size["pose states"] == 6 and size["states"] == 6 + 6 + 2
     scene = pendulum()
     jump = Curve.constant(value=0.0).then(time=3.0, curve=Curve.constant(value=1.0))
-    scene.add_actuator(joint="pin", stiffness=1.0, reference=jump)
+    scene.add_actuator("pin", stiffness=1.0, reference=jump)
     assert section(scene, "size")["times where a curve has a kink"] == 1
 
 
@@ -61,10 +60,10 @@ def test_assembly_tells_what_it_moved() -> None:
     assert exact["constraint residual as described [m or rad]"] == 0.0
     assert "body moved most" not in exact and UNIQUE not in exact
     scene = Scene()
-    scene.add_body(name="plate", mass=1.0, inertia=[1, 1, 1])
-    scene.add_body(name="block", mass=1.0, inertia=[1, 1, 1], position=(0.0, 0.0, 1.0))
-    scene.add_joint(kind="weld", name="base", first="ground", second="plate")
-    scene.add_joint(kind="prismatic", name="rail", first="plate", second="block", axis=(0, 0, 1))
+    scene.add_body("plate", mass=1.0, inertia=[1, 1, 1])
+    scene.add_body("block", mass=1.0, inertia=[1, 1, 1], position=(0.0, 0.0, 1.0))
+    scene.add_joint("base", kind="weld", first="ground", second="plate")
+    scene.add_joint("rail", kind="prismatic", first="plate", second="block", axis=(0, 0, 1))
     scene.replace("block", position=(0.02, 0.0, 1.0), velocity=(0.0, 0.3, 0.0))
     found = section(scene, "assembly")
     assert found["constraint residual as described [m or rad]"] == pytest.approx(0.02, rel=1e-12)
@@ -76,7 +75,7 @@ def test_assembly_tells_what_it_moved() -> None:
 
 def test_redundant_joints_are_named() -> None:
     scene, pin = pendulum(), {"point": (0, 2, 0), "axis": (0, 1, 0)}
-    scene.add_joint(kind="revolute", name="pin again", first="ground", second="bob", **pin)
+    scene.add_joint("pin again", kind="revolute", first="ground", second="bob", **pin)
     found = section(scene, "assembly")
     assert (found["rank of the constraints"], found["redundant constraints"]) == (5, 5)
     assert found[UNIQUE] == ["pin", "pin again"] and section(scene, "size")["degrees_of_freedom"] == 1
@@ -84,8 +83,8 @@ def test_redundant_joints_are_named() -> None:
 
 def test_what_is_absent() -> None:
     alone = Scene(gravity=0.0)
-    alone.add_body(name="stone", mass=1.0, inertia=[1, 1, 1])
-    alone.add_joint(kind="free", name="air", first="ground", second="stone")
+    alone.add_body("stone", mass=1.0, inertia=[1, 1, 1])
+    alone.add_joint("air", kind="free", first="ground", second="stone")
     left = section(alone, "left out")
     assert left["absent"] == ["drivers", "actuators", "vessels", "waves", "fluid memory", "gravity"]
     assert left["joints that constrain nothing"] == ["air"]
@@ -95,7 +94,7 @@ def test_what_is_absent() -> None:
     assert vessel["vessels without memory"] == vessel["bodies without weight of their own"] == ["vessel"]
     assert not {"vessels without memory", "vessels without viscous roll damping"} & set(whole)
     hull = Scene()
-    hull.add_body(name="hull", mass=1.0, inertia=[1, 1, 1])
+    hull.add_body("hull", mass=1.0, inertia=[1, 1, 1])
     hull.add_vessel(body="hull", restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
     assert section(hull, "left out")["vessels without viscous roll damping"] == ["hull"]
 
@@ -103,7 +102,7 @@ def test_what_is_absent() -> None:
 @pytest.mark.parametrize("stiffness", [50.0, 5000.0])
 def test_fastest_mode_of_a_spring_and_a_mass(stiffness: float) -> None:
     scene = on_joint("mass", mass=2.0, gravity=0.0)
-    scene.add_actuator(joint="rail", stiffness=stiffness)
+    scene.add_actuator("rail", stiffness=stiffness)
     fastest = section(scene, "modes")["fastest_mode_per_s"]
     assert fastest == pytest.approx(math.sqrt(stiffness / 2.0), rel=1e-5)
 

@@ -37,10 +37,8 @@ def hung(rng: np.random.Generator, *, drop: float = 0.0) -> tuple[Scene, float, 
     mass, depth = float(10.0 ** rng.uniform(2.5, 4.3)), float(rng.uniform(4.0, 15.0))
     angle, turn = rng.uniform(0.0, 0.15), rng.uniform(0.0, 2.0 * np.pi)
     place = depth * np.array([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), -np.cos(angle)])
-    scene.add_body(
-        name="load", mass=mass, inertia=(0.5 * mass,) * 3, position=place + np.array([0.0, 0.0, drop]),
-        velocity=(*rng.normal(0.0, 0.2, 2), 0.0),
-    )  # fmt: skip
+    scene.add_body("load", mass=mass, inertia=(0.5 * mass,) * 3, position=place + np.array([0.0, 0.0, drop]),
+                   velocity=(*rng.normal(0.0, 0.2, 2), 0.0))  # fmt: skip
     return scene, mass, place
 
 
@@ -65,7 +63,7 @@ def winched(rng: np.random.Generator) -> Scene:
             options["maximum_acceleration"] = float(rng.uniform(0.2, 2.0))
     if rng.random() < 0.5:
         options["maximum_rate"] = speed * float(rng.uniform(0.4, 1.2))
-    scene.add_winch(line="hoist", **options)
+    scene.add_winch("hoist", **options)
     if rng.random() < 0.4:
         add_tugger(rng, scene, mass, place)
     return scene
@@ -75,27 +73,22 @@ def add_tugger(rng: np.random.Generator, scene: Scene, mass: float, place: Array
     """From the side, by its length or on a winch that holds a tension; it may go slack."""
     away = np.array([rng.uniform(6.0, 12.0), rng.uniform(-3.0, 3.0), place[2] + rng.uniform(-1.0, 1.0)])
     length = float(np.linalg.norm(away - place)) * float(rng.uniform(0.99, 1.005))
-    scene.add_line(
-        name="tugger", bodies=["ground", "load"], points=[away, (0.0, 0.0, 0.0)],
-        EA=float(mass * G * rng.uniform(1.0, 10.0)), length=length, damping_ratio=0.1,
-    )  # fmt: skip
+    scene.add_line(name="tugger", bodies=["ground", "load"], points=[away, (0.0, 0.0, 0.0)],
+                   EA=float(mass * G * rng.uniform(1.0, 10.0)), length=length, damping_ratio=0.1)  # fmt: skip
     if rng.random() < 0.5:
         tension = 0.05 * mass * G
-        scene.add_winch(
-            line="tugger", tension=tension, tension_gain=float(rng.uniform(0.1, 0.5)) / tension,
-            dead_band=float(rng.choice([0.0, 0.1])) * tension, maximum_rate=float(rng.uniform(0.2, 1.0)),
-            lag=0.2, minimum_length=0.5 * length,
-        )  # fmt: skip
+        scene.add_winch("tugger", tension=tension, tension_gain=float(rng.uniform(0.1, 0.5)) / tension,
+                        dead_band=float(rng.choice([0.0, 0.1])) * tension,
+                        maximum_rate=float(rng.uniform(0.2, 1.0)), lag=0.2,
+                        minimum_length=0.5 * length)  # fmt: skip
 
 
 def shared(rng: np.random.Generator) -> Scene:
     """A load on two or three lines from blocks apart, or on one with a smaller load below it."""
     scene = Scene(name="shared")
     mass, depth = float(10.0 ** rng.uniform(2.5, 4.3)), float(rng.uniform(4.0, 10.0))
-    scene.add_body(
-        name="load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, -depth),
-        velocity=rng.normal(0.0, 0.3, 3), angular_velocity=rng.normal(0.0, 0.1, 3),
-    )  # fmt: skip
+    scene.add_body("load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, -depth),
+                   velocity=rng.normal(0.0, 0.3, 3), angular_velocity=rng.normal(0.0, 0.1, 3))  # fmt: skip
     count = int(rng.integers(1, 4))
     stiffness = float(mass * G * 10.0 ** rng.uniform(1.3, 2.5))
     for i in range(count):
@@ -104,23 +97,16 @@ def shared(rng: np.random.Generator) -> Scene:
         block = side * np.array([2.5 * np.cos(turn), 2.5 * np.sin(turn), 0.0])
         eye = side * np.array([0.6 * np.cos(turn), 0.6 * np.sin(turn), 0.3])
         reach = float(np.linalg.norm(block - eye - [0.0, 0.0, -depth]))
-        changing = Curve.harmonic(
-            start_time=0.0, offset=reach * rng.uniform(0.985, 1.003), amplitude=rng.uniform(0.0, 0.1),
-            omega=rng.uniform(0.5, 2.0),
-        )  # fmt: skip
-        scene.add_line(
-            name=f"line {i}", bodies=["ground", "load"], points=[block, eye], EA=stiffness,
-            length=changing, damping_ratio=float(rng.choice([0.02, 0.1])),
-        )  # fmt: skip
+        changing = Curve.harmonic(start_time=0.0, offset=reach * rng.uniform(0.985, 1.003),
+                                  amplitude=rng.uniform(0.0, 0.1), omega=rng.uniform(0.5, 2.0))  # fmt: skip
+        scene.add_line(name=f"line {i}", bodies=["ground", "load"], points=[block, eye], EA=stiffness,
+                       length=changing, damping_ratio=float(rng.choice([0.02, 0.1])))  # fmt: skip
     if count == 1:
         small = mass * float(rng.uniform(0.1, 0.5))
-        scene.add_body(
-            name="below", mass=small, inertia=(0.5 * small,) * 3, position=(0.3, 0.0, -depth - 3.0)
-        )
-        scene.add_line(
-            name="pendant", bodies=["load", "below"], points=np.zeros((2, 3)), EA=0.3 * stiffness,
-            tension_at_start=small * G * float(rng.uniform(0.3, 1.0)), damping_ratio=0.05,
-        )  # fmt: skip
+        scene.add_body("below", mass=small, inertia=(0.5 * small,) * 3, position=(0.3, 0.0, -depth - 3.0))
+        scene.add_line("pendant", "load", "below", EA=0.3 * stiffness,
+                       tension_at_start=small * G * float(rng.uniform(0.3, 1.0)),
+                       damping_ratio=0.05)  # fmt: skip
     return scene
 
 
@@ -131,7 +117,7 @@ def snatched(rng: np.random.Generator) -> Scene:
         guide = {"kind": "planar", "first": "ground", "second": "load"}
         scene.add_joint("guide", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0), **guide)
     scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)),
+        "hoist", "ground", "load",
         EA=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
         damping_ratio=float(rng.uniform(0.02, 0.3)),
     )  # fmt: skip
@@ -141,29 +127,24 @@ def snatched(rng: np.random.Generator) -> Scene:
 def compensated(rng: np.random.Generator) -> Scene:
     """A heaving block whose winch compensates within bounds on rate and stroke."""
     scene = Scene(name="compensated")
-    scene.add_body(name="ship", mass=1e6, inertia=(1e7, 1e8, 1e8))
-    scene.add_joint(
-        kind="prismatic", name="sea", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1)
-    )
+    scene.add_body("ship", mass=1e6, inertia=(1e7, 1e8, 1e8))
+    scene.add_joint("sea", kind="prismatic", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1))
     omega, amplitude = float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.3, 1.5))
     wave = Curve.harmonic(start_time=0.0, amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
-    scene.add_driver(joint="sea", name="wave", curve=wave)
+    scene.add_driver("sea", name="wave", curve=wave)
     mass = float(10.0 ** rng.uniform(3.0, 4.3))
-    scene.add_body(name="load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, 5.0))
-    scene.add_line(
-        name="hoist", bodies=["ship", "load"], points=[(0, 0, 20.0), (0, 0, 0)],
-        EA=float(mass * G * 10.0 ** rng.uniform(1.5, 3.0)), tension_at_start=mass * G,
-        damping_ratio=0.05,
-    )  # fmt: skip
-    scene.add_winch(line="hoist", lag=float(rng.choice([0.0, 0.1])))
+    scene.add_body("load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, 5.0))
+    scene.add_line(name="hoist", bodies=["ship", "load"], points=[(0, 0, 20.0), (0, 0, 0)],
+                   EA=float(mass * G * 10.0 ** rng.uniform(1.5, 3.0)), tension_at_start=mass * G,
+                   damping_ratio=0.05)  # fmt: skip
+    scene.add_winch("hoist", lag=float(rng.choice([0.0, 0.1])))
     bounds = {}
     if rng.random() < 0.5:
         bounds["maximum_rate"] = amplitude * omega * float(rng.uniform(0.3, 1.1))
     if rng.random() < 0.5:
         bounds["maximum_stroke"] = amplitude * float(rng.uniform(0.4, 1.1))
-    scene.add_heave_compensation(
-        name="ahc", body="ship", point=(0, 0, 20.0), winch="hoist", high_pass=0.0, **bounds
-    )
+    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, 20.0), winch="hoist", high_pass=0.0,
+                                 **bounds)  # fmt: skip
     return scene
 
 
@@ -172,42 +153,34 @@ def on_oil(rng: np.random.Generator) -> Scene:
     scene = Scene(name="on oil")
     area, stroke = float(10.0 ** rng.uniform(-2.3, -1.5)), float(rng.uniform(0.6, 1.5))
     mass, standing = area * float(rng.uniform(4e6, 1.2e7)) / G, float(rng.uniform(0.3, 0.7)) * stroke
-    scene.add_body(name="load", mass=mass, inertia=(mass,) * 3, position=(0.0, 0.0, 1.0 + standing))
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0)
-    )
+    scene.add_body("load", mass=mass, inertia=(mass,) * 3, position=(0.0, 0.0, 1.0 + standing))
+    scene.add_joint("guide", kind="prismatic", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0))
     speed = float(rng.uniform(0.05, 0.3))
-    oil = {
-        "pump_pressure": 25e6, "rated_flow": area * speed, "rated_drop": 1e6,
-        "viscous_friction": mass * float(10.0 ** rng.uniform(-0.3, 1.0)),
-        "spool_lag": float(rng.choice([0.0, 5e-3, 0.05])), "air": float(rng.choice([0.0, 0.002, 0.01])),
-    }  # fmt: skip
+    oil = {"pump_pressure": 25e6, "rated_flow": area * speed, "rated_drop": 1e6,
+           "viscous_friction": mass * float(10.0 ** rng.uniform(-0.3, 1.0)),
+           "spool_lag": float(rng.choice([0.0, 5e-3, 0.05])),
+           "air": float(rng.choice([0.0, 0.002, 0.01]))}  # fmt: skip
     if rng.random() < 0.6:
         oil["makeup_flow"] = area * float(rng.uniform(0.1, 1.0))
     if rng.random() < 0.3:
         oil |= {"relief_pressure": 1.3 * mass * G / area + 4e6, "relief_flow": area * speed}
     if rng.random() < 0.3:
-        oil |= {
-            "accumulator_volume": area * stroke * 0.3, "accumulator_pressure": 0.5 * mass * G / area,
-            "accumulator_flow": area * speed,
-        }  # fmt: skip
+        oil |= {"accumulator_volume": area * stroke * 0.3, "accumulator_pressure": 0.5 * mass * G / area,
+                "accumulator_flow": area * speed}  # fmt: skip
     if rng.random() < 0.65:
         hole = area * float(10.0 ** rng.uniform(-2.7, -1.2))
         oil |= {"rupture_time": float(rng.uniform(0.5, 3.0)), "rupture_area": hole}
         if rng.random() < 0.3:
-            oil |= {
-                "counterbalance_pressure": 1.5 * mass * G / area + 5e6,
-                "counterbalance_flow": area * speed,
-            }
+            oil |= {"counterbalance_pressure": 1.5 * mass * G / area + 5e6,
+                    "counterbalance_flow": area * speed}  # fmt: skip
     if rng.random() < 0.5:
         oil["command"] = move(rng, end=float(rng.uniform(-1.0, 1.0)))
     else:
         goal = float(rng.uniform(0.2, 0.8)) * stroke
         oil |= {"gain": float(rng.uniform(1.0, 5.0)), "reference": move(rng, start=standing, end=goal)}
-    scene.add_hydraulic_cylinder(
-        name="ram", first="ground", second="load", full_area=area, rod_side_area=area * rng.uniform(0.5, 0.9),
-        retracted_length=1.0, stroke=stroke, **oil,
-    )  # fmt: skip
+    scene.add_hydraulic_cylinder("ram", first="ground", second="load", full_area=area,
+                                 rod_side_area=area * rng.uniform(0.5, 0.9), retracted_length=1.0,
+                                 stroke=stroke, **oil)  # fmt: skip
     return scene
 
 
@@ -256,9 +229,7 @@ def word(number: int, *, seed: int) -> Word:
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])
         judges = judged(scene, method, result.settings["rtol"], span)
-    known = {
-        "number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method,
-    }  # fmt: skip
+    known = {"number": number, "scene": scene.name, "limit": limit, "told": told, "integrator": method}
     if isinstance(judges, str):
         return Word(**known, end="not judgeable", why=judges)
     one, other = judges

@@ -15,9 +15,8 @@ from seacrane import Run, Scene, State
 FORMULATIONS = ("redundant", "recursive")
 
 
-def both_forms(
-    scene: Scene, t_end: float, within: dict[str, float], *, merge: bool = False, **how: Any
-) -> dict[str, Any]:
+def both_forms(scene: Scene, t_end: float, within: dict[str, float], *, merge: bool = False,
+               **how: Any) -> dict[str, Any]:  # fmt: skip
     """Run in both formulations, with `merge` as a model whose bodies are not merged too.
 
     Channels agree within the bounds given, and the energy balance closes; the redundant run is returned.
@@ -37,9 +36,8 @@ def both_forms(
     return runs[0]
 
 
-def goes_on(
-    make: Callable[[], Scene], t_end: float, at: float, folder: Path | None = None, **how: Any
-) -> State:
+def goes_on(make: Callable[[], Scene], t_end: float, at: float, folder: Path | None = None,
+            **how: Any) -> State:  # fmt: skip
     """A run that is stopped and goes on from its state has the bits of the whole, and tells events once."""
     whole = Run(make(), t_end=t_end, **how)
     whole.advance(at)

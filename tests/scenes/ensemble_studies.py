@@ -27,7 +27,7 @@ SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
     scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
+    scene.add_body("bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
     scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     return scene
 
@@ -44,18 +44,17 @@ def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) 
     down = np.array([0.0, 0.0, -0.7])
     places = {"arm": tip, "barrel": foot + 0.2 * line, "rod": tip - 0.2 * line, "load": tip + down}
     for name, place in places.items():
-        scene.add_body(name=name, mass=5.0, inertia=(0.1, 0.2, 0.3), position=place)
+        scene.add_body(name, mass=5.0, inertia=(0.1, 0.2, 0.3), position=place)
     hinge = {"kind": "revolute", "name": "hinge", "first": "ground", "second": "arm"}
     scene.add_joint(**hinge, point=(0, 0, 0), axis=(0, 1, 0))
     cross = {"kind": "universal", "name": "cross", "first": "ground", "second": "barrel"}
     scene.add_joint(**cross, point=foot, axis=(0, 1, 0), second_axis=np.cross(line, (0, 1, 0)))
-    scene.add_joint(
-        "ram", kind="prismatic", first="barrel", second="rod", point=0.5 * (foot + tip), axis=line
-    )
-    scene.add_joint(kind="spherical", name="ball", first="rod", second="arm", point=tip)
-    scene.add_joint(kind="revolute", name="eye", first="arm", second="load", point=tip, axis=(0, 1, 0))
+    scene.add_joint("ram", kind="prismatic", first="barrel", second="rod", point=0.5 * (foot + tip),
+                    axis=line)  # fmt: skip
+    scene.add_joint("ball", kind="spherical", first="rod", second="arm", point=tip)
+    scene.add_joint("eye", kind="revolute", first="arm", second="load", point=tip, axis=(0, 1, 0))
     if driven:
-        scene.add_driver(joint="ram", curve=Curve.harmonic(amplitude=0.02, omega=3.0, phase=0.5 * np.pi))
+        scene.add_driver("ram", curve=Curve.harmonic(amplitude=0.02, omega=3.0, phase=0.5 * np.pi))
     leaning = float(np.arctan2(line[2], line[0]))
     half = {"arm": angle, "barrel": leaning, "rod": leaning}  # of the turn to behind
     moved = {}
@@ -76,13 +75,11 @@ def two_numbers_or_three(result: Result) -> list[float]:
     return [0.0] * (2 if result.stats["scene"] == "short" else 3)
 
 
-KEEP = {
-    "track": Kept(channel="position", names={"body": "bob"}, interval=0.5),
-    "highest": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "z"}, after=1.0),
-    "mean": Kept(channel="position", what="mean", names={"body": "bob"}),
-    "scatter": Kept(channel="position", what="standard_deviation", names={"body": "bob", "axis": "x"}),
-    "lowest": lowest,
-}
+KEEP = {"track": Kept(channel="position", names={"body": "bob"}, interval=0.5),
+        "highest": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "z"}, after=1.0),
+        "mean": Kept(channel="position", what="mean", names={"body": "bob"}),
+        "scatter": Kept(channel="position", what="standard_deviation", names={"body": "bob", "axis": "x"}),
+        "lowest": lowest}  # fmt: skip
 
 
 def fails_in_the_middle(*, start: float) -> Scene:
@@ -143,7 +140,7 @@ def storm_that_kills(*, seed: int, mark: str) -> Scene:
 def cart(*, seed: int, mass: float, kind: str = "prismatic", stiffness: float = 40.0) -> Scene:
     """A cart that a spring holds and a driver pulls by another; the seed is its speed at the start."""
     scene = Scene(name="cart")
-    scene.add_body(name="tug", mass=2.0, size=(1.0, 1.0, 1.0))
+    scene.add_body("tug", mass=2.0, size=(1.0, 1.0, 1.0))
     scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1.0, 0.0, 0.0))
     scene.add_driver("rail", curve=0.0)
     scene.add_body("cart", mass=mass, size=(1, 1, 1), position=(3.0, 0, 0), velocity=(0.1 * seed, 0, 0))

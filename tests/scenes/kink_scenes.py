@@ -15,34 +15,28 @@ CART = 4.0  # kg
 def cart(speed: float = 0.0) -> Scene:
     """A mass on a rail along x, without gravity."""
     scene = Scene(name="cart", gravity=0.0)
-    scene.add_body(name="cart", mass=CART, inertia=(1.0, 1.0, 1.0), velocity=(speed, 0.0, 0.0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    scene.add_body("cart", mass=CART, inertia=(1.0, 1.0, 1.0), velocity=(speed, 0.0, 0.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
     return scene
 
 
 def sprung(frequency: float, damping_ratio: float = 0.0, *, speed: float = 0.0, rest: float = 0.0) -> Scene:
     """The cart on a spring and a damper to `rest`; rad/s."""
     scene = cart(speed)
-    scene.add_actuator(
-        name="hold", joint="rail", stiffness=CART * frequency**2, reference=rest,
-        damping=2.0 * damping_ratio * CART * frequency,
-    )  # fmt: skip
+    scene.add_actuator(name="hold", joint="rail", stiffness=CART * frequency**2, reference=rest,
+                       damping=2.0 * damping_ratio * CART * frequency)  # fmt: skip
     return scene
 
 
 def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     """A rotor with a payload on a wire of 18 m."""
     scene = Scene(name="slewing", gravity=9.81)
-    scene.add_body(name="rotor", mass=1e5, inertia=(2e7, 2e7, 2e7))
-    scene.add_body(name="payload", mass=2e4, inertia=(1e3, 1e3, 1e3), position=(25.0, 0.0, 12.0))
-    scene.add_joint(
-        kind="revolute", name="slew", first="ground", second="rotor", point=(0.0, 0.0, 0.0),
-        axis=(0.0, 0.0, 1.0),
-    )  # fmt: skip
-    scene.add_joint(
-        kind="distance", name="wire", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
-        second_point=(25.0, 0.0, 12.0),
-    )  # fmt: skip
+    scene.add_body("rotor", mass=1e5, inertia=(2e7, 2e7, 2e7))
+    scene.add_body("payload", mass=2e4, inertia=(1e3, 1e3, 1e3), position=(25.0, 0.0, 12.0))
+    scene.add_joint("slew", kind="revolute", first="ground", second="rotor", point=(0.0, 0.0, 0.0),
+                    axis=(0.0, 0.0, 1.0))  # fmt: skip
+    scene.add_joint("wire", kind="distance", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
+                    second_point=(25.0, 0.0, 12.0))  # fmt: skip
     scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)
     return scene
 
@@ -51,21 +45,18 @@ def driven_by(element: str, curve: Curve) -> Scene:
     """A cart with a rod below it, moved by what follows a curve; loads act against a soft spring."""
     scene = cart()
     scene.gravity = 9.81
-    scene.add_body(name="rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
-    scene.add_joint(
-        kind="revolute", name="pin", first="cart", second="rod", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_body("rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
+    scene.add_joint("pin", kind="revolute", first="cart", second="rod", point=(0.0, 0.0, 0.0),
+                    axis=(0.0, 1.0, 0.0))  # fmt: skip
     if element in ("feed-forward", "force table", "wind"):
-        scene.add_spring(
-            name="hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0,
-            damping=1.0, natural_length=20.0,
-        )  # fmt: skip
+        scene.add_spring("hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0,
+                         damping=1.0, natural_length=20.0)  # fmt: skip
     if element == "feed-forward":
         scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
     elif element == "reference":
         scene.add_actuator(name="drive", joint="rail", stiffness=40.0, damping=12.0, reference=curve)
     elif element == "driver":
-        scene.add_driver(joint="rail", curve=curve)
+        scene.add_driver("rail", curve=curve)
     elif element == "force table":  # takes the curve at every half second
         times, loads = np.linspace(0.0, 20.0, 41), np.zeros((41, 6))
         loads[:, 0] = curve.evaluate(times)[:, 0]
@@ -73,10 +64,9 @@ def driven_by(element: str, curve: Curve) -> Scene:
     else:
         angle = np.linspace(0.0, np.pi, 13)
         zero = np.zeros_like(angle)
-        scene.add_wind(
-            coefficients=FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero), speed=curve,
-            direction_deg=0.0, body="cart", frontal_area=0.5, lateral_area=0.5, length=1.0,
-        )  # fmt: skip
+        scene.add_wind(coefficients=FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero),
+                       speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5, lateral_area=0.5,
+                       length=1.0)  # fmt: skip
     return scene
 
 
@@ -101,10 +91,8 @@ def random_curve(rng: np.random.Generator, *, continuous: bool = False) -> Curve
         target = rng.normal()  # the cubic brings the curve near it
         cubic = (target - value - rate * span - 0.5 * acceleration * span**2) / span**3
         pieces.append([value, rate, 0.5 * acceleration, cubic, 0.0, 0.0])
-        value, rate = (
-            value + rate * span + 0.5 * acceleration * span**2 + cubic * span**3,
-            rate + acceleration * span + 3.0 * cubic * span**2,
-        )
+        value, rate = (value + rate * span + 0.5 * acceleration * span**2 + cubic * span**3,
+                       rate + acceleration * span + 3.0 * cubic * span**2)  # fmt: skip
     end = [value, rate if continuous else 0.0, 0.0, 0.0, 0.0, 0.0]
     return Curve.pieces(starts=[*starts, starts[-1] + 3.0], coefficients=[*pieces, end])
 
@@ -144,23 +132,19 @@ def random_snatch(rng: np.random.Generator) -> Scene:
     """A ball on a wire, thrown so that it may go slack and snatch."""
     scene = Scene(name="snatch")
     length = rng.uniform(1.0, 4.0)
-    scene.add_body(
-        name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -length),
-        velocity=(np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(), 0.0),
-    )  # fmt: skip
-    scene.add_joint(
-        kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
-        second_point=(0.0, 0.0, -length),
-    )  # fmt: skip
+    scene.add_body("ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -length),
+                   velocity=(np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(),
+                             0.0))  # fmt: skip
+    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+                    second_point=(0.0, 0.0, -length))  # fmt: skip
     scene.add_line(joint="wire", rung="rigid")
     return scene
 
 
 def scaled(curve: Curve, factor: float) -> Curve:
     pieces = curve.to_pieces()
-    return Curve.pieces(
-        starts=pieces["starts"], coefficients=(factor * np.array(pieces["coefficients"])).tolist()
-    )
+    return Curve.pieces(starts=pieces["starts"],
+                        coefficients=(factor * np.array(pieces["coefficients"])).tolist())  # fmt: skip
 
 
 def random_kinked(rng: np.random.Generator) -> Scene:

@@ -61,13 +61,11 @@ class View:
 
 
 AS_DRAWN = View()
-VIEWS = {
-    "mirrored": View(mirrored=True), "turned": View(turn_deg=73.0), "shifted": View(shift=(310.0, -140.0)),
-    "later": View(later=7.3), "cut in two": View(cut=True), "twice half": View(twice_half=True),
-    "other": View(other=True),
-    "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True,
-                other=True),
-}  # fmt: skip
+VIEWS = {"mirrored": View(mirrored=True), "turned": View(turn_deg=73.0),
+         "shifted": View(shift=(310.0, -140.0)), "later": View(later=7.3), "cut in two": View(cut=True),
+         "twice half": View(twice_half=True), "other": View(other=True),
+         "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True,
+                     twice_half=True, other=True)}  # fmt: skip
 
 
 @cache
@@ -126,19 +124,17 @@ def drawn(seed: int) -> Drawn:
            "direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 99)), "count": 40,
            "spreading": one_of(None, 2.0)}  # fmt: skip
     kinds = rng.choice(["lower", "raise", "wait", "meet", "let go"], int(rng.integers(1, 5)))
-    return Drawn(
-        base=base, sea=sea if wet else None, slew=float(rng.uniform(-2.0, 2.0)),
-        mass=float(rng.uniform(5e3, 4e4)), size=tuple(rng.uniform(1.5, 5.0, 3).tolist()),
-        height=float((deck or 0.0) + rng.uniform(0.3, 2.0)), stiffness=float(10.0 ** rng.uniform(5.8, 7.2)),
-        rung=one_of("elastic", "elastic", "quasi-static"),
-        compartment=bool(part == "box" and rng.random() < 0.5),
-        oil=bool(rng.random() < 0.25), winch_lag=one_of(0.0, 0.3), part=part,
-        deck=deck, surface=one_of("plane", "box"),
-        friction=one_of(0.0, 0.3), tugger=one_of(0.0, 5e3), damping=bool(rng.random() < 0.3),
-        stages=tuple((str(kind), float(rng.uniform(0.3, 1.2))) for kind in kinds),
-        formulation=one_of("recursive", "redundant"),
-        integrator=one_of("tsit5", "dop853", "dopri5", "cvode-bdf"),
-    )  # fmt: skip
+    return Drawn(base=base, sea=sea if wet else None, slew=float(rng.uniform(-2.0, 2.0)),
+                 mass=float(rng.uniform(5e3, 4e4)), size=tuple(rng.uniform(1.5, 5.0, 3).tolist()),
+                 height=float((deck or 0.0) + rng.uniform(0.3, 2.0)),
+                 stiffness=float(10.0 ** rng.uniform(5.8, 7.2)),
+                 rung=one_of("elastic", "elastic", "quasi-static"),
+                 compartment=bool(part == "box" and rng.random() < 0.5), oil=bool(rng.random() < 0.25),
+                 winch_lag=one_of(0.0, 0.3), part=part, deck=deck, surface=one_of("plane", "box"),
+                 friction=one_of(0.0, 0.3), tugger=one_of(0.0, 5e3), damping=bool(rng.random() < 0.3),
+                 stages=tuple((str(kind), float(rng.uniform(0.3, 1.2))) for kind in kinds),
+                 formulation=one_of("recursive", "redundant"),
+                 integrator=one_of("tsit5", "dop853", "dopri5", "cvode-bdf"))  # fmt: skip
 
 
 class Lift:
@@ -165,9 +161,8 @@ class Lift:
         direction = view.side * waves.direction + np.radians(view.turn_deg)
         k = wavenumber(waves.omega, g=G, depth=waves.depth)
         along = k * (view.shift[0] * np.cos(direction) + view.shift[1] * np.sin(direction))
-        scene.waves = replace(
-            waves, direction=direction, phase=waves.phase + along - waves.omega * view.later
-        )
+        scene.waves = replace(waves, direction=direction,
+                              phase=waves.phase + along - waves.omega * view.later)  # fmt: skip
 
     def add_base(self) -> None:
         lift, view, scene = self.lift, self.view, self.scene
@@ -219,7 +214,7 @@ class Lift:
         place = {"position": np.array(whole.position), "quaternion": np.array(whole.quaternion)}
         scene.replace("load", mass=rest, inertia=inertia - part - turned, center_of_mass=other)
         scene.add_body("other part", mass=small, inertia=part, center_of_mass=offset, **place)
-        scene.add_joint(kind="weld", name="cut", first="load", second="other part", point=place["position"])
+        scene.add_joint("cut", kind="weld", first="load", second="other part", point=place["position"])
 
     def halves(self, name: str) -> list[tuple[str, float]]:
         return [(f"{name} 1", HALF), (f"{name} 2", HALF)] if self.view.twice_half else [(name, 1.0)]
@@ -227,12 +222,10 @@ class Lift:
     def add_water(self) -> None:
         lift, scene = self.lift, self.scene
         length, breadth, height = lift.size
-        parts = {
-            "box": BoxPart(size=lift.size, strips=(2, 2), fill=0.2),
-            "plate": PlatePart(size=(length, breadth), thickness=0.1, point=(0.0, 0.0, -HALF * height)),
-            "cylinder": CylinderPart(length=length, diameter=min(breadth, height)),
-            "sphere": SpherePart(diameter=min(lift.size)),
-        }
+        parts = {"box": BoxPart(size=lift.size, strips=(2, 2), fill=0.2),
+                 "plate": PlatePart(size=(length, breadth), thickness=0.1, point=(0.0, 0.0, -HALF * height)),
+                 "cylinder": CylinderPart(length=length, diameter=min(breadth, height)),
+                 "sphere": SpherePart(diameter=min(lift.size))}  # fmt: skip
         if lift.part in parts:
             scene.add_immersed("load", parts=[parts[lift.part]])
         if lift.compartment:

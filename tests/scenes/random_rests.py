@@ -13,10 +13,8 @@ from seacrane.scene import Tank
 
 Array = NDArray[np.float64]
 G = 9.80665
-OIL: dict[str, Any] = {
-    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03, "gain": 0.8,
-    "viscous_friction": 2e6,
-}  # fmt: skip
+OIL: dict[str, Any] = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03,
+                       "gain": 0.8, "viscous_friction": 2e6}  # fmt: skip
 SHIP = "vessel"
 AHEAD = np.array([1.0, 0.0, 0.0])
 
@@ -58,17 +56,15 @@ class Builder:
         breadth = length / self.between(4.0, 6.0)
         weight, plane = mass * G, 1025.0 * G * length * breadth
         inertia = mass * np.array([(0.35 * breadth) ** 2, (0.25 * length) ** 2, (0.25 * length) ** 2])
-        self.scene.add_body(name=SHIP, mass=mass, inertia=inertia, gravity=False)
+        self.scene.add_body(SHIP, mass=mass, inertia=inertia, gravity=False)
         heavy = np.concatenate([[0.1 * mass, mass, mass], 0.5 * inertia])
         stiff = np.array([0.0, 0.0, plane, weight * self.between(1.0, 6.0), weight * 1.2 * length, 0.0])
         moored = np.concatenate([heavy[:2] + mass, heavy[5:] + inertia[2:]]) * (2.0 * np.pi / 200.0) ** 2
         self.moored = self.chance(0.8)
-        self.scene.add_vessel(
-            body=SHIP, added_mass=np.diag(heavy), restoring=np.diag(stiff),
-            linear_damping=np.diag(0.05 * np.sqrt(np.maximum(stiff, 1.0) * (heavy + mass))),
-            mooring_stiffness=moored if self.moored else np.zeros(3),
-            mooring_damping=0.2 * np.sqrt(moored * mass),
-        )  # fmt: skip
+        self.scene.add_vessel(body=SHIP, added_mass=np.diag(heavy), restoring=np.diag(stiff),
+                              linear_damping=np.diag(0.05 * np.sqrt(np.maximum(stiff, 1.0) * (heavy + mass))),
+                              mooring_stiffness=moored if self.moored else np.zeros(3),
+                              mooring_damping=0.2 * np.sqrt(moored * mass))  # fmt: skip
         self.base, self.breadth = SHIP, breadth
 
     def holder(self) -> tuple[str, Array]:
@@ -80,10 +76,9 @@ class Builder:
         if kind == "arm":
             return self.arm()
         hydraulics = {"main": self.oil(), "knuckle": self.oil()} if kind == "oil crane" else None
-        roles = self.scene.add_crane(
-            base=self.base, foot=(5.0, 0.0, 5.0), slew=self.between(-3.0, 3.0), s1=self.between(1.0, 2.5),
-            s2=self.between(1.0, 3.0), held=True, hydraulics=hydraulics,
-        )  # fmt: skip
+        roles = self.scene.add_crane(base=self.base, foot=(5.0, 0.0, 5.0), slew=self.between(-3.0, 3.0),
+                                     s1=self.between(1.0, 2.5), s2=self.between(1.0, 3.0), held=True,
+                                     hydraulics=hydraulics)  # fmt: skip
         return roles.tip[0], np.asarray(roles.tip[1])
 
     def oil(self) -> dict[str, Any]:
@@ -101,22 +96,17 @@ class Builder:
         """A boom on a hinge, lifted by a hydraulic cylinder below it."""
         foot, reach = np.array([0.0, 0.0, 25.0]), self.between(8.0, 20.0)
         mass = self.magnitude(2e3, 2e4)
-        self.scene.add_body(
-            name="arm", mass=mass, inertia=np.diag([0.01, 1.0, 1.0]) * mass * reach**2 / 12.0,
-            position=foot + 0.5 * reach * AHEAD,
-        )  # fmt: skip
-        self.scene.add_joint(
-            kind="revolute", name="hinge", first=self.base, second="arm", point=foot, axis=(0, 1, 0)
-        )
+        self.scene.add_body("arm", mass=mass, inertia=np.diag([0.01, 1.0, 1.0]) * mass * reach**2 / 12.0,
+                            position=foot + 0.5 * reach * AHEAD)  # fmt: skip
+        self.scene.add_joint("hinge", kind="revolute", first=self.base, second="arm", point=foot,
+                             axis=(0, 1, 0))  # fmt: skip
         low, high = foot + np.array([1.0, 0.0, -4.0]), foot + 0.4 * reach * AHEAD
         apart = float(np.linalg.norm(high - low))
-        self.ram = {
-            "name": "ram", "first": self.base, "second": "arm", "first_point": low,
-            "second_point": [-0.1 * reach, 0.0, 0.0],
-            **SET, **self.oil(), "full_area": 0.3, "rod_side_area": 0.15, "stroke": 3.0,
-            "retracted_length": apart - self.between(0.5, 2.5), "hose_volume": 0.05, "hose_volume_rod": 0.05,
-            "pressure": 2e7, "pressure_rod": 1e6,
-        }  # fmt: skip
+        self.ram = {"name": "ram", "first": self.base, "second": "arm", "first_point": low,
+                    "second_point": [-0.1 * reach, 0.0, 0.0], **SET, **self.oil(), "full_area": 0.3,
+                    "rod_side_area": 0.15, "stroke": 3.0, "retracted_length": apart - self.between(0.5, 2.5),
+                    "hose_volume": 0.05, "hose_volume_rod": 0.05, "pressure": 2e7,
+                    "pressure_rod": 1e6}  # fmt: skip
         self.scene.add_hydraulic_cylinder(**self.ram)
         return "arm", np.array([0.5 * reach, 0.0, 0.0])
 
@@ -127,9 +117,8 @@ class Builder:
         if self.chance(0.3):
             place = place + np.array([self.between(-2.0, 2.0), self.between(-2.0, 2.0), 0.0])
         size = self.between(1.0, 4.0)
-        self.scene.add_body(
-            name="load", mass=mass, inertia=mass * size**2 * self.rng.uniform(0.15, 0.25, 3), position=place
-        )
+        self.scene.add_body("load", mass=mass, inertia=mass * size**2 * self.rng.uniform(0.15, 0.25, 3),
+                            position=place)  # fmt: skip
         self.loads.append("load")
         falls = int(self.rng.integers(1, 4))
         bodies = ([self.tip, "load"] * 2)[: falls + 1]
@@ -141,15 +130,12 @@ class Builder:
         if self.chance(0.5):
             given = {"length": falls * (drop - top[2]) * self.between(0.95, 1.08)}
         if self.chance(0.15) and falls == 1:
-            self.scene.add_line(
-                name="hoist", rung="with mass", bodies=bodies, points=points, EA=stiffness, segments=4,
-                length=(drop - top[2]) * self.between(0.99, 1.009), mass_per_length=self.between(5.0, 40.0),
-            )  # fmt: skip
+            self.scene.add_line(name="hoist", rung="with mass", bodies=bodies, points=points, EA=stiffness,
+                                segments=4, length=(drop - top[2]) * self.between(0.99, 1.009),
+                                mass_per_length=self.between(5.0, 40.0))  # fmt: skip
             return
-        self.scene.add_line(
-            name="hoist", bodies=bodies, points=points, EA=stiffness,
-            damping_ratio=self.between(0.0, 0.1), **given,
-        )  # fmt: skip
+        self.scene.add_line(name="hoist", bodies=bodies, points=points, EA=stiffness,
+                            damping_ratio=self.between(0.0, 0.1), **given)  # fmt: skip
         if self.chance(0.5):
             self.wind("hoist")
 
@@ -162,7 +148,7 @@ class Builder:
                 given |= {"drum_inertia": self.magnitude(500.0, 5e4), "drum_radius": 0.5}
                 if self.chance(0.4):
                     given |= {"brake": 1.0, "brake_capacity": 1e7, "brake_give": 0.01}
-        self.scene.add_winch(line=line, maximum_rate=self.between(0.2, 2.0), **given)
+        self.scene.add_winch(line, maximum_rate=self.between(0.2, 2.0), **given)
 
     def tug(self) -> None:
         """Taglines to the base: fixed, or on tuggers that hold a tension; slack at first or not."""
@@ -184,9 +170,8 @@ class Builder:
             else:
                 length *= self.between(0.97, 1.03)
                 stiffness = self.magnitude(5e4, 5e6)
-            self.scene.add_line(
-                name=name, bodies=[self.base, load], points=[end, arm], EA=stiffness, length=length
-            )
+            self.scene.add_line(name=name, bodies=[self.base, load], points=[end, arm], EA=stiffness,
+                                length=length)  # fmt: skip
             if stiffness != 0.02 * weight / 0.01:
                 self.hold(name, weight)
 
@@ -198,10 +183,8 @@ class Builder:
             given["lag"] = self.between(0.05, 0.3)
         if self.chance(0.3):
             given["dead_band"] = 0.05 * tension
-        self.scene.add_winch(
-            line=line, tension=tension, tension_gain=self.magnitude(0.05, 0.5) / tension,
-            maximum_rate=self.between(0.3, 2.0), **given,
-        )  # fmt: skip
+        self.scene.add_winch(line, tension=tension, tension_gain=self.magnitude(0.05, 0.5) / tension,
+                             maximum_rate=self.between(0.3, 2.0), **given)  # fmt: skip
 
     def hang_below(self) -> None:
         """A second load below the first, on slings."""
@@ -209,9 +192,8 @@ class Builder:
         mass, drop = above.mass * self.between(0.1, 1.0), self.between(4.0, 10.0)
         half = self.between(0.5, 2.0)
         place = np.asarray(above.position) - [0.0, 0.0, drop]
-        self.scene.add_body(
-            name="below", mass=mass, inertia=mass * half**2 * np.array([0.5, 0.5, 0.6]), position=place
-        )
+        self.scene.add_body("below", mass=mass, inertia=mass * half**2 * np.array([0.5, 0.5, 0.6]),
+                            position=place)  # fmt: skip
         self.loads.append("below")
         for i, (x, y) in enumerate([(-1, -1), (-1, 1), (1, -1), (1, 1)][: int(self.rng.integers(2, 5))]):
             corner = half * np.array([x, y, 0.3])
@@ -226,7 +208,7 @@ class Builder:
         """A steady force on the load, as of wind."""
         weight = self.scene.bodies["load"].mass * G
         force = weight * self.between(0.0, 0.05) * np.array([np.cos(1.0), np.sin(1.0), 0.0])
-        self.scene.add_point_force(name="gust", body="load", point=(0.0, 0.0, 0.2), force=force)
+        self.scene.add_point_force("gust", body="load", point=(0.0, 0.0, 0.2), force=force)
 
     def ballast(self) -> None:
         kind = self.rng.choice(["none", "force", "tanks", "heel"])

@@ -58,14 +58,11 @@ def met(rng: np.random.Generator) -> Lift:
     """Two bodies that are welded as they meet, and held by a wire from then on."""
     after = float(rng.uniform(0.2, 1.0))
     scene = meeting(velocity=float(rng.uniform(0.2, 1.0)), after=after)
-    scene.add_line(
-        "tether", first="ground", first_point=(0.0, 0.0, 1.5), second="hook",
-        EA=float(10.0 ** rng.uniform(1.5, 3.0)), length=float(rng.uniform(1.4, 1.6)), damping_ratio=0.1,
-    )  # fmt: skip
-    return scene, [
-        Stage(name="apart", duration=after),
-        Stage(name="one", duration=3.0, connect=["shackle", "tether"]),
-    ]
+    scene.add_line("tether", first="ground", first_point=(0.0, 0.0, 1.5), second="hook",
+                   EA=float(10.0 ** rng.uniform(1.5, 3.0)), length=float(rng.uniform(1.4, 1.6)),
+                   damping_ratio=0.1)  # fmt: skip
+    return scene, [Stage(name="apart", duration=after), Stage(name="one", duration=3.0,
+                                                              connect=["shackle", "tether"])]  # fmt: skip
 
 
 def from_a_ship(rng: np.random.Generator) -> Lift:
@@ -119,19 +116,16 @@ def _word(number: int) -> Word:
     scene, stages = lift_of(number)
     rough = simulate_stages(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-6)
     limit = part * _size(scene, quantity, rough)
-    about = {
-        "number": number, "kind": KINDS[number % len(KINDS)].__name__, "quantity": quantity, "limit": limit
-    }  # fmt: skip
+    about = {"number": number, "kind": KINDS[number % len(KINDS)].__name__, "quantity": quantity,
+             "limit": limit}  # fmt: skip
     try:
         found = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={quantity: limit})
     except SeacraneError as refused:
         return Word(**about, end="refused", why=str(refused))
     stats = found.stats
-    about |= {
-        "told": float(stats[f"error_estimate_{quantity}"]), "other_course": "accuracy_course" in stats,
-        "runs": int(stats["accuracy_runs"]),
-        "cost": float(stats["accuracy_evaluations"]) / float(stats["evaluations"]),
-    }  # fmt: skip
+    about |= {"told": float(stats[f"error_estimate_{quantity}"]), "other_course": "accuracy_course" in stats,
+              "runs": int(stats["accuracy_runs"]),
+              "cost": float(stats["accuracy_evaluations"]) / float(stats["evaluations"])}  # fmt: skip
     one, other = _judges(scene, stages, found)
     extremes = bool(about["other_course"])
     apart = distance(scene, quantity, other, one, extremes=extremes)
@@ -144,10 +138,9 @@ def _word(number: int) -> Word:
 def _judges(scene: Scene, stages: list[Stage], found: Result) -> tuple[Result, Result]:
     rtol = float(found.settings["rtol"])
     first, second = [name for name in OTHERS if name != found.stats["integrator"]][:2]
-    return (
-        simulate_stages(scene, stages, dt_out=DT_OUT, integrator=first, rtol=min(0.1 * rtol, 1e-7)),
-        simulate_stages(scene, stages, dt_out=DT_OUT, integrator=second, rtol=min(0.01 * rtol, 1e-8)),
-    )
+    return (simulate_stages(scene, stages, dt_out=DT_OUT, integrator=first, rtol=min(0.1 * rtol, 1e-7)),
+            simulate_stages(scene, stages, dt_out=DT_OUT, integrator=second,
+                            rtol=min(0.01 * rtol, 1e-8)))  # fmt: skip
 
 
 def _size(scene: Scene, quantity: str, result: Result) -> float:

@@ -77,11 +77,9 @@ def random_scene(rng: np.random.Generator) -> Scene:
     kind = rng.choice(["case1", "case2", "case2", "case3", "vessel", "chain"])
     if kind == "chain":
         return random_chain(rng)
-    options = {
-        "hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
-        "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
-        "memory": str(rng.choice(["per-pair", "passive"])),
-    }  # fmt: skip
+    options = {"hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
+               "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
+               "memory": str(rng.choice(["per-pair", "passive"]))}  # fmt: skip
     if kind == "case2":
         mass, length = float(10.0 ** rng.uniform(3.0, 4.7)), float(rng.uniform(4.0, 15.0))
         options["payload"] = Payload(mass=mass, link_length=length)
@@ -100,7 +98,7 @@ def random_chain(rng: np.random.Generator) -> Scene:
         along = length * np.array([-np.sin(swing) * axis[1], np.sin(swing) * axis[0], -np.cos(swing)])
         name, inertia = f"rod{i}", mass * length**2 / 12.0
         scene.add_body(name, mass=mass, inertia=(inertia, inertia, inertia), position=end + along / 2)
-        scene.add_joint(kind="revolute", name=f"pin{i}", first=before, second=name, point=end, axis=axis)
+        scene.add_joint(f"pin{i}", kind="revolute", first=before, second=name, point=end, axis=axis)
         before, end = name, end + along
     return scene
 
@@ -116,16 +114,12 @@ def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> Pro
     part = 10.0 ** rng.uniform(-7.0, -2.0)
     result = simulate(scene, accuracy={quantity.name: part * size}, **span)
     cheapest = _cheapest(scene, quantity, truth, part * size, span) if grid else math.nan
-    return Promise(
-        what=f"{scene.name} {quantity.name}",
-        part=part,
-        limit=part * size,
-        estimate=float(result.stats[f"error_estimate_{quantity.name}"]),
-        error=compare(truth, quantity.values(result)).largest,
-        runs=int(result.stats["accuracy_runs"]),
-        cost_of_run=int(result.stats["evaluations"]) / cheapest,
-        cost_of_all=int(result.stats["accuracy_evaluations"]) / cheapest,
-    )
+    return Promise(what=f"{scene.name} {quantity.name}", part=part, limit=part * size,
+                   estimate=float(result.stats[f"error_estimate_{quantity.name}"]),
+                   error=compare(truth, quantity.values(result)).largest,
+                   runs=int(result.stats["accuracy_runs"]),
+                   cost_of_run=int(result.stats["evaluations"]) / cheapest,
+                   cost_of_all=int(result.stats["accuracy_evaluations"]) / cheapest)  # fmt: skip
 
 
 def _cheapest(scene: Scene, quantity: Quantity, truth: Any, limit: float, span: dict[str, Any]) -> float:

@@ -36,10 +36,9 @@ def thrown() -> Result:
     scene = cases.case2()
     scene.add_line(joint="link", rung="rigid")
     load = scene.bodies["payload"]
-    scene.bodies["payload"] = Body(
-        name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
-        position=load.position, quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0),
-    )  # fmt: skip
+    scene.bodies["payload"] = Body(name=load.name, mass=load.mass, inertia=load.inertia,
+                                   center_of_mass=load.center_of_mass, position=load.position,
+                                   quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0))  # fmt: skip
     return _quietly(scene, 6.0, OutsideRangeWarning)
 
 
