@@ -1,10 +1,10 @@
-"""The core's table of channels is the only one: results, files and documents follow from it. One that a scene
-cannot have is refused by name, however it is asked for."""
+"""Results, files and documents follow from the core's table of channels; what a scene has not is refused."""
 
 from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,11 @@ import pytest
 from test_restart import chain, crank
 
 from seacrane import Outputs, Run, Scene, Stage, _core, cases, ensemble, simulate, simulate_stages
-from seacrane.description import channels
 from seacrane.description.channels import DERIVED, FIXED, NAMED, OWN
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.operability import Criterion, allowable_hs
-from seacrane.result import CHANNELS, Result, result, result_file
+from seacrane.result import CHANNELS
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -81,21 +80,6 @@ def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
         assert alone.stats["evaluations"] == whole.stats["evaluations"], name
 
 
-def test_an_axis_of_any_name_is_saved_and_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Neither results nor files know axes by name: a channel over a new one needs its entry alone."""
-    dims = ("time", "point", "axis")
-    new = channels.Channel(dims=dims, dims_of_several=dims, unit="m", long_name="of named points")
-    for module in (channels, result):
-        monkeypatch.setattr(module, "CHANNELS", {**CHANNELS, "point_position": new})
-    monkeypatch.setattr(result_file, "NAMED", NAMED | {"point"})
-    arrays, stats = {"point_position": np.arange(12.0).reshape(2, 2, 3)}, simulate(chain(), t_end=0.1).stats
-    coords = {"point": ["hook", "tip"]}
-    made = Result.from_arrays(time=[0.0, 1.0], arrays=arrays, coords=coords, stats=stats)
-    read = Result.load(made.save(tmp_path / "r.nc"))
-    assert read.coords == made.coords == {"point": ("hook", "tip"), "axis": ("x", "y", "z")}
-    assert np.array_equal(read.select("point_position", point="tip", axis="z"), [5.0, 11.0])
-
-
 def test_the_documented_table_is_current() -> None:
     spec = importlib.util.spec_from_file_location("channel_table", TOOL)
     assert spec is not None and spec.loader is not None
@@ -133,15 +117,7 @@ def ship(*, crane: bool = False, hoist: bool = False) -> Scene:
     return scene
 
 
-def ship_with_crane() -> Scene:
-    return ship(crane=True)
-
-
-def ship_with_hoist() -> Scene:
-    return ship(hoist=True)
-
-
-@pytest.mark.parametrize("make", [box, rod, ship, ship_with_crane, ship_with_hoist])
+@pytest.mark.parametrize("make", [box, rod, ship, partial(ship, crane=True), partial(ship, hoist=True)])
 def test_each_channel_is_recorded_or_refused_by_its_name(make: Callable[[], Scene]) -> None:
     scene, refused = make(), set()
     for channel in CHANNELS:
@@ -160,17 +136,14 @@ def limited(scene: Scene, channel: str) -> Scene:
     return scene
 
 
-def below_one(channel: str) -> Criterion:
-    return Criterion(channel=channel, maximum=1.0)
-
-
 ALL = [Stage(name="all", duration=0.1)]
 SEAS: dict[str, Any] = {"tp": [8.0], "direction_deg": [90.0], "hs": [1.0]}
 WAYS: dict[str, Callable[[Scene, str], Any]] = {
     "outputs": lambda scene, name: simulate(scene, 0.1, channels=[name]),
     "stages": lambda scene, name: simulate_stages(scene, ALL, channels=[name]),
     "kept": lambda scene, name: ensemble(scene, over={"seed": [1]}, keep={"most": f"{name}.max"}),
-    "criterion": lambda scene, name: allowable_hs(scene, criteria=[below_one(name)], **SEAS),
+    "criterion": lambda scene, name: allowable_hs(
+        scene, criteria=[Criterion(channel=name, maximum=1.0)], **SEAS),
     "limit state": lambda scene, name: simulate(limited(scene, name), 0.1),
     "limit state of stages": lambda scene, name: simulate_stages(limited(scene, name), ALL),
 }  # fmt: skip
@@ -185,7 +158,7 @@ def test_it_is_refused_by_every_way_of_asking(way: str) -> None:
 
 @pytest.mark.warns("LineLengthWarning")
 def test_what_a_later_stage_connects_is_recorded_there_and_its_limits_hold() -> None:
-    scene = limited(ship_with_hoist(), "swing")
+    scene = limited(ship(hoist=True), "swing")
     stages = [Stage(name="before", duration=0.2), Stage(name="hooked", connect=["hoist"], duration=0.2)]
     run = simulate_stages(scene, stages, channels=["swing", "position"], rtol=1e-3)
     assert np.isnan(run["swing"][0]) and np.isfinite(run["swing"][-1])

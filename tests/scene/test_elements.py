@@ -71,11 +71,7 @@ def test_a_joint_is_saved_reported_and_stepped_in_both_formulations(kind: str, t
     assert all(getattr(joint, name) == value for name, value in joint.parameters.items())
     bare = _core.Joint(**entries(joint))
     for field in KINDS[kind].parameters:
-        if field.required:
-            with pytest.raises(AttributeError, match=f"joint 'joint' is {kind} and has no '{field.name}'"):
-                getattr(bare, field.name)
-        else:
-            assert getattr(bare, field.name) == field.default
+        assert field.required or getattr(bare, field.name) == field.default
     if not KINDS[kind].branch:
         return
     one, two = (record(scene, 0.5, rtol=1e-10, formulation=name) for name in ("redundant", "recursive"))
@@ -95,9 +91,6 @@ def test_a_joints_own_numbers_are_checked(kind: str) -> None:
             scene.compile()
         with pytest.raises(SceneError, match=f"{field.name} belongs to a .*{kind}.* joint, this one is free"):
             scene.add_joint("j", kind="free", first="first", second="third", **{field.name: 1.0})
-    scene.joints["joint"] = _core.Joint(**entries(joint) | joint.parameters | {"colour": 1.0})
-    with pytest.raises(SceneError, match="has no parameter 'colour'"):
-        scene.compile()
 
 
 @pytest.mark.parametrize("kind", SAVED)
@@ -172,11 +165,6 @@ def test_entries_that_no_file_holds_are_checked(kind: str) -> None:
         for wrong in ({"a": 1}, 0, -8, len):
             with pytest.raises(SceneError, match=f"{kind} 'load': {field.name} is "):
                 type_(**given | {field.name: wrong})
-
-
-def test_a_kind_that_is_none_names_those_that_are() -> None:
-    with pytest.raises(SceneError, match=r"load: kind 'string' is unknown; choose one of .*actuator, "):
-        Scene().add_load(kind="string", name="load")
 
 
 def beyond(bounds: dict[str, float]) -> list[float]:

@@ -1,4 +1,4 @@
-"""Arguments of every kind where another is due: a value, or an exception by name; no NaN, hang or crash."""
+"""Arguments of every kind where another is due give a value or an error by name; no NaN, hang or crash."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, Phase, assume, example, given, seed, setting
 from hypothesis import strategies as st
 from joint_examples import KINDS
 
-from seacrane import Curve, MotionHistory, MotionRaos, Scene, SceneError, SimulationError, sea, simulate
+from seacrane import Curve, MotionHistory, Scene, SceneError, SimulationError, simulate
 from seacrane.scene import HullLoads, Waves, spline_curve
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -54,37 +54,27 @@ RESTORING = np.diag([0.0, 0.0, 1e7, 1e8, 1e9, 0.0])
 MATRIX = np.diag([1e6, 1e6, 1e6, 1e8, 1e8, 1e8])
 CALLS: dict[str, dict[str, Any]] = {
     "add_body": {
-        "name": "x", "mass": 2.0, "inertia": [1.0, 1.0, 1.0], "center_of_mass": (0.0, 0.0, 0.1),
-        "position": (3.0, 0.0, 0.0), "quaternion": (1.0, 0.0, 0.0, 0.0), "velocity": (0.1, 0.0, 0.0),
-        "angular_velocity": (0.0, 0.1, 0.0), "gravity": True,
-    },
-    "add_joint": {
-        "kind": "spherical", "name": "x", "first": "ground", "second": "hull", "point": (0.0, 0.0, 0.0),
-        "axis": (0.0, 0.0, 1.0), "second_axis": None, "second_point": None, "length": None,
-    },
-    "add_driver": {"joint": "pin", "curve": Curve.constant(value=0.1), "coordinate": "angle", "name": "x"},
-    "add_actuator": {
-        "joint": "pin", "name": "x", "coordinate": "angle", "stiffness": 1e3, "damping": 10.0,
-        "feed_forward": 1.0, "reference": 0.1,
-    },
-    "add_point_force": {"name": "x", "body": "bob", "point": (0, 0, 0), "force": (1, 0, 0)},
-    "add_spring": {
-        "name": "x", "first": "hull", "second": "bob", "first_point": (1.0, 0, 0), "second_point": (0, 0, 0),
-        "stiffness": 1e3, "damping": 1.0, "natural_length": 1.0, "lengths": (), "forces": (),
-    },
-    "add_force_table": {
-        "name": "x", "body": "bob", "times": [0.0, 1.0], "loads": np.zeros((2, 6)), "point": (0.0, 0.0, 0.0),
-    },
-    "add_vessel": {
-        "name": "x", "body": "hull", "added_mass": MATRIX, "linear_damping": MATRIX, "restoring": RESTORING,
-        "quadratic_damping": np.ones(6), "mooring_stiffness": np.ones(3), "mooring_damping": np.ones(3),
-    },
+        "mass": 2.0, "inertia": [1.0] * 3, "center_of_mass": (0.0, 0.0, 0.1), "position": (3.0, 0.0, 0.0),
+        "quaternion": (1.0, 0.0, 0.0, 0.0), "velocity": (0.1, 0.0, 0.0), "angular_velocity": (0.0, 0.1, 0.0),
+        "gravity": True},
+    "add_joint": {"kind": "spherical", "first": "ground", "second": "hull", "point": (0.0, 0.0, 0.0),
+                  "axis": (0.0, 0.0, 1.0), "second_axis": None, "second_point": None, "length": None},
+    "add_driver": {"joint": "pin", "curve": Curve.constant(value=0.1), "coordinate": "angle"},
+    "add_actuator": {"joint": "pin", "coordinate": "angle", "stiffness": 1e3, "damping": 10.0,
+                     "feed_forward": 1.0, "reference": 0.1},
+    "add_point_force": {"body": "bob", "point": (0, 0, 0), "force": (1, 0, 0)},
+    "add_spring": {"first": "hull", "second": "bob", "first_point": (1.0, 0, 0), "second_point": (0, 0, 0),
+                   "stiffness": 1e3, "damping": 1.0, "natural_length": 1.0, "lengths": (), "forces": ()},
+    "add_force_table": {"body": "bob", "times": [0.0, 1.0], "loads": np.zeros((2, 6)), "point": (0, 0, 0)},
+    "add_vessel": {"body": "hull", "added_mass": MATRIX, "linear_damping": MATRIX, "restoring": RESTORING,
+                   "quadratic_damping": np.ones(6), "mooring_stiffness": np.ones(3),
+                   "mooring_damping": np.ones(3)},
     "add_given_vessel": {
-        "motion": MotionHistory(time=range(6), motion=np.zeros((6, 6))), "name": "x", "position": (9.0, 0, 0),
-        "heading_deg": 30.0, "ramp": 1.0, "duration": 10.0, "size": (90.0, 20.0, 5.0),
-    },
-    "record_coordinate": {"name": "x", "joint": "pin", "coordinate": "angle"},
+        "motion": MotionHistory(time=range(6), motion=np.zeros((6, 6))), "position": (9.0, 0, 0),
+        "heading_deg": 30.0, "ramp": 1.0, "duration": 10.0, "size": (90.0, 20.0, 5.0)},
+    "record_coordinate": {"joint": "pin", "coordinate": "angle"},
 }  # fmt: skip
+CALLS = {call: {"name": "x"} | given for call, given in CALLS.items()}
 
 
 def refused(action: Callable[[], Any], *others: type[Exception]) -> Any:
@@ -142,31 +132,7 @@ def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
             getattr(scene, call)(**CALLS[call])
 
 
-RAOS = {"omega": [0.3, 0.6], "heading": [0.0], "values": np.zeros((1, 2, 6)), "depth": 60.0,
-        "symmetric": True, "name": "x", "g": 9.81}  # fmt: skip
-GIVEN: dict[str, tuple[type, dict[str, Any]]] = {
-    "RAOs": (MotionRaos, RAOS),
-    "history": (MotionHistory, {"time": np.arange(6.0), "motion": np.zeros((6, 6))}),
-}
-
-
-@pytest.mark.parametrize("kind", GIVEN)
-@seed(21)
-@SETTINGS
-@given(data=st.data())
-def test_given_motions(kind: str, data: st.DataObject) -> None:
-    """What is accepted tells finite motions, or is refused by name."""
-    make, usual = GIVEN[kind]
-    arguments = replaced(data, usual)
-    motion = refused(lambda: make(**arguments))
-    if isinstance(motion, MotionHistory):
-        refused(lambda: motion.curves(0.0))
-    if isinstance(motion, MotionRaos):
-        found = refused(lambda: motion.at([0.4], [0.0]))
-        assert found is None or np.isfinite(found).all()
-
-
-@pytest.mark.parametrize("name", ["Ladekran 🏗", "рука", "架", "é" * 200])
+@pytest.mark.parametrize("name", ["Ladekran 🏗", "é" * 200])
 def test_names_of_any_script(name: str) -> None:
     """Names that can be printed work all the way into results and messages."""
     scene = Scene(name=name)
@@ -192,13 +158,6 @@ def test_simulate(key: str, value: Any) -> None:
     settings = SIMULATE | {key: value}
     errors = SimulationError, ValueError, TypeError
     finite(refused(lambda: simulate(base(), t_end=0.05, **settings), *errors))
-
-
-@pytest.mark.parametrize("t_end", [NAN, INF, -INF, -1.0, None, "1", [1.0], 1e300])
-def test_end_times(t_end: Any) -> None:
-    """1e300 s in outputs of 0.05 s are refused before anything is allocated for them."""
-    with pytest.raises((SceneError, SimulationError, ValueError, TypeError, MemoryError), match=r"\w"):
-        simulate(base(), t_end=t_end, dt_out=0.05)
 
 
 CURVES: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
@@ -248,20 +207,3 @@ def test_waves(key: str, value: Any) -> None:
     scene.waves = refused(waves, ValueError, TypeError)
     if scene.waves is not None:
         run_for_some_steps(scene)
-
-
-RECORD: dict[str, Any] = {"time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)),
-                          "direction_deg": 0.0, "position": (0.0, 0.0), "minimum_omega": None,
-                          "maximum_omega": None, "taper": 0.1, "name": "record"}  # fmt: skip
-
-
-@seed(24)
-@SETTINGS
-@given(data=st.data())
-def test_measured_series(data: st.DataObject) -> None:
-    arguments = replaced(data, RECORD, most=1)
-    waves = refused(lambda: sea.MeasuredWaves(**arguments), TypeError)
-    if waves is not None:
-        found = refused(lambda: waves.waves(direction=np.array([0.0]), depth=INF), ValueError)
-        assert found is None or np.all(np.isfinite(found.amplitude))
-        assert np.all(np.isfinite(waves.band_passed()))

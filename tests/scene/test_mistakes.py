@@ -9,14 +9,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import line_scenes
 import mistaken_units
 import named
 import numpy as np
 import pytest
+import stage_scenes
 from hydraulic_scenes import raised
+from line_scenes import add_led, below
 from mistaken_units import raos, record
 from named import on_joint, on_wire
 from slipped_scenes import MASS, G, with_load
+from stage_scenes import lift_off, on_deck
 
 import seacrane
 from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate, simulate_stages
@@ -30,7 +34,6 @@ from seacrane.water import BoxPart, PlatePart, TablePart
 
 PAGE = (Path(__file__).parents[2] / "docs" / "mistakes.md").read_text()
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
-UP, ENDS = (0, 0, 1), np.zeros((2, 3))
 
 
 def answers() -> dict[str, list[str]]:
@@ -66,15 +69,17 @@ def on_land() -> Scene:
     return scene
 
 
-def controlled(omega: float, *, feed_forward: bool = True) -> Scene:
+def controlled(omega: float, *, feed_forward: bool = True, **slew: Any) -> Scene:
     """The crane on land, its drives held by gains of that frequency (rad/s)."""
     scene = on_land()
     for name, joint in JOINTS.items():
-        scene.add_actuator(name=name, joint=joint)
+        scene.add_actuator(joint, name=name)
     held, inertia = balance(scene), reflected_inertia(scene)
     for name in JOINTS:
         gains = {"stiffness": inertia[name] * omega**2, "damping": 1.6 * omega * inertia[name]}
         scene.replace(name, feed_forward=held.loads[name] if feed_forward else 0.0, **gains)
+    if slew:
+        scene.replace("slew", **slew)
     return scene
 
 
@@ -106,7 +111,7 @@ def on_its_side(part: Any) -> None:
     simulate(scene, t_end=0.1)
 
 
-def on_deck(**surface: Any) -> None:
+def above_a_deck(**surface: Any) -> None:
     """A load on a deck whose surface is not where its feet are."""
     scene = with_load((0, 0, 3.0))
     scene.add_contact("load", on="ground", points=[(-1, 0, -1.0), (1, 0, -1.0)], **surface)
@@ -166,12 +171,6 @@ def raos_in_degrees() -> None:
     MotionRaos(omega=omega, heading=[np.pi], values=values)
 
 
-def record_in_degrees() -> None:
-    time, motion = np.linspace(0.0, 60.0, 121), np.zeros((121, 6))
-    motion[:, 3] = 2.5 * np.sin(0.7 * time)
-    seacrane.MotionHistory(time=time, motion=motion)
-
-
 def wind_where_it_comes_from() -> None:
     scene, circle = lift(sea=180.0), np.linspace(0.0, np.pi, 5)
     side = np.array([0.0, 0.6, 0.8, 0.6, 0.0])
@@ -196,27 +195,9 @@ def a_tower_too_heavy() -> None:
     scene.compile()
 
 
-def a_constant_beyond_half_a_turn() -> None:
-    scene = controlled(5.0)
-    scene.replace("slew", reference=np.radians(270.0))
-    simulate(scene, t_end=1.0)
-
-
 def two_controllers() -> None:
     both = [SampledController(period=0.1, function=lambda t, m: {"slew.force": 1.0}) for _ in range(2)]
     simulate(controlled(5.0), t_end=1.0, controllers=both)
-
-
-def a_slew_that_flings_its_load() -> None:
-    scene = held_by_drivers(on_land(), "main", "knuckle")
-    scene.add_actuator(name="slew", joint="A")
-    simulate(driven(scene, references={"slew": move(-np.pi / 2, until=10.0)}), t_end=15.0)
-
-
-def held_by_drivers(scene: Scene, *names: str) -> Scene:
-    for name in names:
-        scene.add_driver(joint=JOINTS[name], curve=0.0)
-    return scene
 
 
 def a_stop_of_steel() -> None:
@@ -226,9 +207,17 @@ def a_stop_of_steel() -> None:
 
 
 def above_the_table() -> None:
-    scene = held_by_drivers(on_land(), *JOINTS)
+    scene = on_land()
+    for joint in JOINTS.values():
+        scene.add_driver(joint, curve=0.0)
     scene.roles[""] = replace(scene.roles[""], capacity=((10.0, 30e3), (15.0, 22e3), (25.0, 12e3)))
     simulate(scene, t_end=0.5)
+
+
+def thrown() -> None:
+    scene = on_wire()
+    scene.replace("load", velocity=(6.0, 0.0, 0.0))
+    simulate(scene, t_end=3.0)
 
 
 def a_link_down_to_the_keel() -> None:
@@ -251,11 +240,6 @@ def hours_at_a_loose_tolerance() -> None:
     simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, maximum_step=0.5)
 
 
-def a_hose_that_bursts_and_no_makeup() -> None:
-    shut = {"pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
-    simulate(raised(rupture_time=0.1, rupture_area=2e-5, **shut), 0.5)
-
-
 def a_guide_ten_centimetres_off() -> None:
     scene = on_wire()
     scene.add_contact("load", on="ground", points=[(1, 0, 0)], surface="post", place=(1.1, 0, -10),
@@ -264,20 +248,16 @@ def a_guide_ten_centimetres_off() -> None:
 
 
 def a_tagline_connected_short() -> None:
-    scene, points = on_wire(), [(6.5, 0, -10), (0, 0, 0)]
-    scene.add_line(name="tag", bodies=["ground", "load"], points=points, EA=1e6, length=5.0)
-    simulate_stages(scene, [Stage(name="wait", duration=0.1),
-                            Stage(name="on", duration=0.1, connect=["tag"])])  # fmt: skip
+    scene = on_wire()
+    scene.add_line("tag", "ground", "load", first_point=(6.5, 0, -10), EA=1e6, length=5.0)
+    stages = [Stage(name="wait", duration=0.1), Stage(name="on", duration=0.1, connect=["tag"])]
+    simulate_stages(scene, stages)
 
 
 def a_resonant_wire_as_quasi_static() -> None:
-    scene = Scene(name="deep")
-    scene.add_body("tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
-    scene.add_joint("up", kind="prismatic", first="ground", second="tip", axis=UP)
-    scene.add_driver("up", curve=Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
-    scene.add_body("load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000))
-    scene.add_line(name="wire", bodies=["tip", "load"], points=ENDS, EA=4e8,
-                   tension_at_start=180e3 * scene.gravity, rung="quasi-static")  # fmt: skip
+    scene = below((0, 0, -2000), mass=180e3)
+    add_led(scene, "tip", Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
+    scene.add_line("wire", "tip", "load", EA=4e8, tension_at_start=180e3 * G, rung="quasi-static")
     simulate(scene, t_end=1.0)
 
 
@@ -286,33 +266,16 @@ def drag_of_the_world() -> None:
     on_its_side(TablePart(height=3, drag_area=(40, 40, 90), source="a tank", **tables))
 
 
-def lift_off_too_slowly() -> None:
-    """A load lifted by a slow winch off a barge that heaves."""
-    scene = Scene(name="deck")
-    scene.add_body("barge", mass=1e6, inertia=(1e8,) * 3)
-    scene.add_joint("heave", kind="prismatic", first="ground", second="barge", axis=UP)
-    wave = Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.8, omega=0.8, phase=-np.pi / 2)
-    scene.add_driver("heave", curve=wave)
-    scene.add_body("load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 2.0))
-    scene.add_joint("on deck", kind="weld", first="barge", second="load")
-    scene.add_seat(joint="on deck")
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], EA=1e8,
-                   length=38.5)  # fmt: skip
-    scene.add_winch("hoist", lag=0.2)
-    up = {"until": Until.release("on deck"), "commands": {"hoist.rate": -0.05}}
-    lift = Stage(name="lift", maximum_duration=60.0, **up)
-    simulate_stages(scene, [lift, Stage(name="raised", duration=10.0)], dt_out=0.1)
-
-
 # In no time, and at once at full speed.
 STEP = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=2.0))
 RAMP = Curve.pieces(starts=[1.0, 2.0], coefficients=[[0, 0.2, 0, 0, 0, 0], [0.2, 0, 0, 0, 0, 0]])
+SHUT = {"pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
 SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "degrees where radians are meant": [lambda: follow("slew", move(-90.0)),
         lambda: lift(slew=-90.0, ballast=False)],
     "RAOs in degrees per metre": [raos_in_degrees,
         lambda: MotionRaos(omega=[0.3, 0.6], heading=[0.0, 180.0], values=np.zeros((2, 2, 6)))],
-    "a record in degrees": [record_in_degrees],
+    "a record in degrees": [lambda: record(0.0, roll=2.5)],
     "radians where degrees are meant": [lambda: lift(sea=np.pi * 3 / 4, ballast=False)],
     "compass directions": [lambda: lift(sea=315.0, ballast=False), wind_where_it_comes_from],
     "tonnes for kilograms": [lambda: Payload(mass=20.0), body_in_tonnes],
@@ -323,14 +286,15 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a crane too heavy for its ship": [a_tower_too_heavy],
     "ballast beside the ship": [lambda: lift(ballast=False, mass=50e3).add_ballast(heel_deg=15.0)],
     "gains too soft": [lambda: simulate(controlled(0.5, feed_forward=False), t_end=20.0)],
-    "angles beyond half a turn": [a_constant_beyond_half_a_turn,
+    "angles beyond half a turn": [
+        lambda: simulate(controlled(5.0, reference=np.radians(270.0)), t_end=1.0),
         lambda: follow("slew", move(np.radians(270.0), until=40.0), t_end=41.0)],
     "strokes beyond the cylinder": [lambda: follow("main", move(-4.0)), lambda: let_go(3.0, s1=1.0, s2=1.0)],
     "motions in no time": [lambda: follow("main", STEP, 2.0), lambda: follow("main", RAMP, 3.0)],
     "a start that joints do not allow": [
         lambda: driven(lift(), references={"slew": Curve.constant(value=-0.5)}).compile()],
     "two masters of one input": [two_controllers],
-    "a load that swings too far": [a_slew_that_flings_its_load],
+    "a load that swings too far": [thrown],
     "more than the crane may lift": [above_the_table],
     "a load in the hull": [a_link_down_to_the_keel],
     "a mode far faster than the outputs": [a_stop_of_steel],
@@ -338,7 +302,8 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
     "a hydraulic cylinder that swings by itself": [
         lambda: simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)],
-    "a hose that bursts, and nothing that lets oil in": [a_hose_that_bursts_and_no_makeup],
+    "a hose that bursts, and nothing that lets oil in": [
+        lambda: simulate(raised(rupture_time=0.1, rupture_area=2e-5, **SHUT), 0.5)],
     "a roll amplitude in radians": [lambda: ikeda(np.radians(8.0))],
     "bilge keels in millimetres": [lambda: ikeda(8.0, bilge_keel_length=35.0, bilge_keel_breadth=400.0)],
     "a mooring counted twice": [lambda: moored(mooring=MOORING), moored],
@@ -378,11 +343,11 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a record with noise": [lambda: record(1.5, noise=5e-3)],
     "phases of the other sign, or in degrees": [lambda: raos(np.conj),
         lambda: raos(lambda v: np.abs(v) * np.exp(1j * np.degrees(np.angle(v))))],
-    "a load that comes back to its deck": [lift_off_too_slowly],
-    "a deck upside down, or above the feet": [lambda: on_deck(axis=(0, 0, -1), place=(0, 0, 1.0)),
-        lambda: on_deck(place=(0, 0, 2.8))],
+    "a load that comes back to its deck": [lambda: simulate_stages(on_deck(), lift_off())],
+    "a deck upside down, or above the feet": [lambda: above_a_deck(axis=(0, 0, -1), place=(0, 0, 1.0)),
+        lambda: above_a_deck(place=(0, 0, 2.8))],
 }  # fmt: skip
-FILES = {__file__, mistaken_units.__file__, named.__file__}
+FILES = {__file__, *(module.__file__ for module in (line_scenes, mistaken_units, named, stage_scenes))}
 
 
 def test_the_page_and_these_scripts_hold_the_same_mistakes_and_public_answers() -> None:
@@ -426,9 +391,9 @@ def test_the_same_scripts_without_the_mistake_warn_of_nothing() -> None:
         simulate(without, t_end=1.0, start=equilibrium(without))
 
 
-@pytest.mark.parametrize("heading", [0.0, -2.0])
-def test_the_heel_that_missing_ballast_is_said_to_give_is_that_of_the_rest_state(heading: float) -> None:
+def test_the_heel_that_missing_ballast_is_said_to_give_is_that_of_the_rest_state() -> None:
     """Of 300 t, 20 m before the origin and 8 m to port; the rest state also feels their height."""
+    heading = -2.0
     scene, cosine, sine = Scene(name="deck load"), np.cos(heading), np.sin(heading)
     scene.add_vessel(shipped_database(), heading_deg=np.degrees(heading))
     place = (20.0 * cosine - 8.0 * sine, 20.0 * sine + 8.0 * cosine, 5.0)

@@ -1,14 +1,18 @@
-"""What a script writes and what the scene makes of it: frames, defaults, copies, inputs, warnings."""
+"""What the scene makes of what a script writes: frames, defaults, copies, inputs; elements by name."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from named import on_joint
 from numpy.testing import assert_allclose, assert_array_equal
 
-from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, _core, cases, simulate
-from seacrane.inputs.frames import axes_along, rotation_matrix
+from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, cases, simulate
+from seacrane.description.description import KINDS
+from seacrane.inputs.frames import rotation_matrix
 
 QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # 90 deg about z
 
@@ -57,14 +61,6 @@ def test_the_joint_axis_is_z_of_both_frames_and_the_described_pose_is_zero() -> 
     assert abs(simulate(scene, t_end=0.0)["coordinate"][0, 0]) < 1e-14
 
 
-@pytest.mark.parametrize("axis", [(1, 0, 0), (0, -1, 0), (0, 0, 3), (1, 1, 1), (-0.2, 1e-9, 1)])
-def test_axes_along_any_direction_are_right_handed(axis: tuple[float, float, float]) -> None:
-    axes = axes_along("axis", axis)
-    assert_allclose(axes.T @ axes, np.eye(3), atol=1e-14)
-    assert np.linalg.det(axes) == pytest.approx(1.0)
-    assert_allclose(axes[:, 2], np.array(axis) / np.linalg.norm(axis), atol=1e-15)
-
-
 def test_what_is_handed_out_is_a_copy_and_a_compiled_model_stays() -> None:
     scene = turned_pair()
     scene.bodies["a"].position[0] = 99.0
@@ -100,12 +96,6 @@ def test_default_coordinates_and_names() -> None:
     assert scene.recorded == {"turn": ("sleeve", "angle")}
 
 
-def test_numbers_and_constant_curves_are_the_same_to_an_actuator() -> None:
-    forces = 2.0, Curve.constant(value=2.0)
-    ends = [simulate(mass_on_rail(feed_forward=force), t_end=3.0)["coordinate"][-1, 0] for force in forces]
-    assert ends[0] == ends[1] == pytest.approx(0.5 * 2.0 / 4.0 * 3.0**2, rel=1e-9)
-
-
 def test_inputs_hold_until_they_are_set_again() -> None:
     """4 kg pushed by 2 N for 1 s, then let go, then stopped within 2 s by -1 N: x = 0.25 + 0.5 + 0.5 m."""
     run = Run(mass_on_rail(), t_end=4.0)
@@ -115,9 +105,7 @@ def test_inputs_hold_until_they_are_set_again() -> None:
     assert run.measure()["coordinate"][0] == pytest.approx(1.25, rel=1e-9)
     assert run.measure()["coordinate_rate"][0] == pytest.approx(0.0, abs=1e-9)
     assert run.measure()["actuator_force"][0] == -1.0
-
-
-def test_the_reference_input_adds_to_the_reference() -> None:
+    # The reference input adds to the reference.
     run = Run(mass_on_rail(stiffness=100.0, damping=40.0, reference=0.5), t_end=20.0)
     run.set_inputs({"motor.reference": 0.25})
     run.advance(20.0)
@@ -145,19 +133,6 @@ def test_a_controller_is_called_at_its_period_and_not_at_the_end() -> None:
     assert_allclose(times, np.arange(10) * 0.1, atol=1e-12)
 
 
-def test_a_run_goes_on_from_a_state_to_the_same_bits() -> None:
-    """A checkpoint taken where a one-step method stands costs nothing: the later run is the same run."""
-    scene = mass_on_rail(stiffness=3.0)
-    scene.add_point_force("push", body="cart", force=(1.0, 0.0, 0.0))
-    whole = Run(scene, t_end=4.0, integrator="rk4", dt=0.25)
-    whole.advance(2.0)
-    checkpoint = whole.core.state
-    whole.advance(4.0)
-    later = simulate(scene, t_end=4.0, integrator="rk4", dt=0.25, start=checkpoint)
-    assert later.time[0] == 2.0
-    assert_array_equal(later["coordinate"][-1], whole.measure()["coordinate"])
-
-
 def door(*heights: float) -> Scene:
     scene = Scene()
     scene.add_body("door", mass=5.0, inertia=[1, 1, 1], position=(1.0, 0.0, 0.0))
@@ -176,14 +151,6 @@ def test_redundant_joints_warn_by_name_and_the_motion_is_that_of_one() -> None:
     assert_allclose(two["reaction_force"].sum(axis=1), weight, rtol=1e-5, atol=1e-3)
 
 
-def test_names_of_one_kind_differ_and_kinds_do_not_share_names() -> None:
-    scene = mass_on_rail()
-    with pytest.raises(SceneError, match=r"actuator 'motor': .*twice"):
-        scene.add_actuator(name="motor", joint="rail")
-    scene.add_spring("motor", first="ground", second="cart", stiffness=1.0)
-    scene.compile()
-
-
 @pytest.mark.parametrize(("t_end", "dt_out", "expected"), [(1.0, 0.25, 5), (1.0, 0.3, 5), (0.0, 0.1, 1),
                                                            (0.3, 0.1, 4)])  # fmt: skip
 def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, expected: int) -> None:
@@ -193,19 +160,82 @@ def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, e
     assert_allclose(np.diff(result.time)[:-1], dt_out, rtol=1e-12)
 
 
-def test_integrator_names_are_those_that_run() -> None:
-    for name in _core.integrator_names():
-        end = simulate(mass_on_rail(feed_forward=2.0), t_end=1.0, integrator=name)["coordinate"][-1, 0]
-        bound = 3e-3 if name == "semi-implicit-euler" else 1e-4  # order 1: a half step of 2 ms late
-        assert end == pytest.approx(0.25, rel=bound), name
+def hung() -> Scene:
+    """A load on a wire, on a trolley."""
+    scene, ends = Scene(name="trolley"), {"point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, -4.0)}
+    scene.add_body("trolley", mass=100.0, inertia=(10.0, 10.0, 10.0))
+    scene.add_body("load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(0.0, 0.0, -4.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="trolley", axis=(1.0, 0.0, 0.0))
+    scene.add_joint("wire", kind="distance", first="trolley", second="load", **ends)
+    scene.add_line(joint="wire", rung="rigid")
+    scene.add_actuator("rail", name="drive", stiffness=10.0)
+    scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
+    scene.record_coordinate(joint="rail")
+    return scene
 
 
-def test_channels_asked_for_are_those_recorded_and_a_scene_offers_what_it_has() -> None:
-    lone = Scene()
-    lone.add_body("stone", mass=1.0, inertia=[1, 1, 1])
-    offered = set(lone.compile().channel_names(defaults_only=False))
-    of_joints = {"coordinate", "actuator_force", "reaction_force"}
-    assert not offered & (of_joints | {"driver_force", "tension", "wave_force"})
-    assert of_joints <= set(mass_on_rail().compile().channel_names())
-    wanted = ["slew_angle", "stroke", "cylinder_force", "link_tension"]
-    assert sorted(simulate(cases.case2(), t_end=1.0, channels=wanted).channels) == sorted(wanted)
+def test_a_name_that_is_not_there_says_what_is() -> None:
+    scene = hung()
+    for table, kind in KINDS.items():
+        with pytest.raises(KeyError, match=f"no {kind} 'lost'; the scene has"):
+            getattr(scene, table)["lost"]
+        assert getattr(scene, table).get("lost") is None and "lost" not in getattr(scene, table)
+
+
+def test_a_replaced_element_takes_the_place_of_the_old_one() -> None:
+    scene = hung()
+    before = list(scene.bodies)
+    heavier = scene.replace("load", mass=70.0)
+    assert scene.bodies["load"] is heavier and heavier.mass == 70.0
+    assert list(scene.bodies) == before
+    assert_array_equal(heavier.position, (0.0, 0.0, -4.0))
+    tension = simulate(scene, t_end=0.1, channels=["tension"])["tension"]
+    assert_allclose(tension, 70.0 * scene.gravity, rtol=1e-9)
+    scene.replace("drive", feed_forward=3.0)
+    assert scene.actuators["drive"].feed_forward == Curve.constant(value=3.0)
+    assert scene.actuators["drive"].stiffness == 10.0
+    assert scene.add_driver("rail", curve=0.0).curve == Curve.constant(value=0.0)
+
+
+WRONG: tuple[tuple[Callable[[Scene], Any], str], ...] = (
+    (lambda s: s.replace("lost", mass=1.0), "scene 'trolley'.*no element 'lost'"),
+    (lambda s: s.replace("wire", length=3.0), "'wire'.*several elements; pass kind='joint' or 'load'"),
+    (lambda s: s.remove("load", kind="bodies"), "kind 'bodies' is unknown; choose body"),
+    (lambda s: s.replace("load", weight=3.0), "body 'load': cannot change 'weight'"),
+    (lambda s: s.replace("load", name="cargo"), "cannot change 'name'"),
+    (lambda s: s.replace("load", mass="heavy"), "body 'load': mass is 'heavy'"),
+    (lambda s: s.remove("load"), "body 'load': joint 'wire' refer to it"),
+    (lambda s: s.remove("rail", kind="joint"), "joint 'rail': .*'drive', range 'rail', recorded"),
+    (lambda s: s.remove("wire", kind="joint"), "joint 'wire': load 'wire' refer to it"),
+)
+
+
+@pytest.mark.parametrize(("do", "told"), WRONG, ids=[row[1] for row in WRONG])
+def test_what_cannot_be_done_is_refused_and_changes_nothing(do: Callable[[Scene], Any], told: str) -> None:
+    scene = hung()
+    with pytest.raises((SceneError, TypeError), match=told):
+        do(scene)
+    assert scene == hung()
+
+
+def test_elements_are_removed_from_the_outside_in() -> None:
+    scene = hung()
+    scene.remove("wire", kind="load")
+    for name in ("wire", "load", "drive"):
+        scene.remove(name)
+    for kind in ("range", "recorded coordinate"):
+        scene.remove("rail", kind=kind)
+    for name in ("rail", "trolley"):
+        scene.remove(name)
+    assert scene == Scene(name="trolley")
+
+
+def test_a_vessel_in_a_sea_is_kept() -> None:
+    scene = cases.vessel()
+    with pytest.raises(SceneError, match=r"vessel 'vessel': the waves on it .*refer to it"):
+        scene.remove("vessel", kind="vessel")
+    scene.waves = None
+    scene.remove("vessel", kind="vessel")
+    assert not scene.vessels and not scene.provenance
+    scene.remove("vessel")
+    assert not scene.bodies

@@ -14,7 +14,6 @@ import numpy as np
 from random_scenes import CLOSING, Shape, build, unit
 
 from seacrane import Scene, SeacraneError, simulate
-from seacrane._core import Body
 
 MISSES = 0.05  # of the work: energy lost or won unseen
 METHODS: list[dict[str, Any]] = [
@@ -42,11 +41,8 @@ def random_shape(rng: np.random.Generator) -> Shape:
 
 def throw(scene: Scene, rng: np.random.Generator) -> None:
     """Every body at a speed of its own; assembling brings them onto the joints."""
-    for name, body in list(scene.bodies.items()):
-        scene.bodies[name] = Body(name=name, mass=body.mass, inertia=body.inertia,
-                                  center_of_mass=body.center_of_mass, position=body.position,
-                                  quaternion=body.quaternion, velocity=rng.normal(size=3),
-                                  angular_velocity=rng.normal(size=3))  # fmt: skip
+    for name in list(scene.bodies):
+        scene.replace(name, kind="body", velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3))
 
 
 def double_joints(scene: Scene, rng: np.random.Generator) -> None:
@@ -89,14 +85,13 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
             for coordinate in offered:
                 if (joint.name, coordinate) in driven:
                     continue
+                name, draw = f"{joint.name} {coordinate}", rng.random()
                 where = {"joint": joint.name, "coordinate": coordinate}
-                name = f"{joint.name} {coordinate}"
-                draw = rng.random()
-                low, high = -rng.uniform(0.02, 0.8), rng.uniform(0.02, 0.8)
+                bounds = {"minimum": -rng.uniform(0.02, 0.8), "maximum": rng.uniform(0.02, 0.8), "name": name}
                 if draw < 0.4:
-                    scene.add_end_stop(minimum=low, maximum=high, name=name, **where, **common)
+                    scene.add_end_stop(**bounds, **where, **common)
                 elif draw < 0.5:
-                    scene.add_soft_stop(minimum=low, maximum=high, stiffness=1e3, name=name, **where)
+                    scene.add_soft_stop(**bounds, stiffness=1e3, **where)
                 if rng.random() < 0.2:
                     scene.add_friction(load=3.0, speed=0.05, name=f"{name} friction", **where)
 

@@ -108,7 +108,7 @@ def a_ship() -> Scene:
 
 def weighed(scene: Scene, **numbers: Any) -> None:
     scene.add_body("load", **numbers)
-    scene.add_line("wire", "ground", "load", EA=5e7, length=15.0)
+    scene.add_line("wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
 
 
 def linked(scene: Scene, length: float, **points: Any) -> None:

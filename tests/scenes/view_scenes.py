@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Result, Scene, cases, simulate
-from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
 from seacrane.warnings import BallastWarning, LargeSwingWarning, OutsideRangeWarning
@@ -35,10 +34,7 @@ def thrown() -> Result:
     """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
     scene = cases.case2()
     scene.add_line(joint="link", rung="rigid")
-    load = scene.bodies["payload"]
-    scene.bodies["payload"] = Body(name=load.name, mass=load.mass, inertia=load.inertia,
-                                   center_of_mass=load.center_of_mass, position=load.position,
-                                   quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0))  # fmt: skip
+    scene.replace("payload", kind="body", velocity=(1.0, 2.0, 6.0))
     return _quietly(scene, 6.0, OutsideRangeWarning)
 
 
