@@ -32,7 +32,7 @@ def scene_of_two(**settings: Any) -> Scene:
     """Two bodies 1 m apart, not joined."""
     scene = Scene(**settings)
     scene.add_body("a", mass=1.0, inertia=[1.0, 1.0, 1.0])
-    scene.add_body("b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1.0, 0.0, 0.0))
+    scene.add_body("b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1, 0, 0))
     return scene
 
 

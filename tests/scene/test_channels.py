@@ -60,7 +60,7 @@ def test_every_channel_carries_the_names_of_the_scene(make: Any) -> None:
 def test_several_vessels_are_told_apart_by_name() -> None:
     scene = cases.vessel(hs=0.0, memory="none")
     there = scene.vessels["vessel"]
-    scene.add_body("barge", mass=1e6, inertia=(1e8, 1e8, 1e8), position=(200.0, 0.0, 0.0))
+    scene.add_body("barge", mass=1e6, inertia=(1e8,) * 3, position=(200, 0, 0))
     same = {key: getattr(there, key) for key in ("added_mass", "restoring", "linear_damping")}
     scene.add_vessel(body="barge", **same)
     run = simulate(scene, t_end=0.1)
@@ -98,7 +98,7 @@ def box() -> Scene:
 def rod() -> Scene:
     scene, ends = box(), {"point": (0, 0, 20), "second_point": (0, 0, 5)}
     scene.add_joint("rod", kind="distance", first="ground", second="load", **ends)
-    scene.add_body("arm", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_body("arm", mass=1.0, inertia=(1.0,) * 3)
     scene.add_joint("slide", kind="prismatic", first="ground", second="arm", axis=(1, 0, 0))
     scene.add_driver("slide", curve=0.0)
     return scene

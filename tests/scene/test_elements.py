@@ -127,8 +127,7 @@ def described(kind: str) -> tuple[Scene, Any]:
     make = {"vessel": lambda: scene.add_vessel(body="third", name="load"),
             "point": lambda: scene.add_point(name="load", body="third"),
             "driver": lambda: scene.add_driver("joint", curve=0.0, name="load"),
-            "body": lambda: scene.add_body("load", mass=1e3, inertia=(1e3, 1e3, 1e3),
-                                           size=(1, 1, 1))}  # fmt: skip
+            "body": lambda: scene.add_body("load", mass=1e3, inertia=(1e3,) * 3, size=(1, 1, 1))}  # fmt: skip
     return scene, make[kind]() if kind in make else scene.all_loads()[0]
 
 
@@ -207,7 +206,7 @@ def every_load() -> Scene:
         told = entries(LOADS[kind].example())
         told |= {key: names.get(value, value) for key, value in told.items() if isinstance(value, str)}
         scene.add_load(kind=kind, **told | {"name": f"a {kind}"})
-    scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 3.0))
+    scene.add_point(name="corner", body="hull", point=(1, 2, 3))
     scene.replace("water", kind="vessel", floats=False)
     for name in scene.bodies:
         scene.replace(name, kind="body", size=(1.0, 2.0, 3.0))

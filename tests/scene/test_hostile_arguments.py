@@ -45,7 +45,7 @@ def base() -> Scene:
     """A pendulum on a hull, both free of constraints that could be singular."""
     scene = Scene(name="base")
     scene.add_body("hull", mass=1e6, inertia=[1e7, 2e7, 2e7])
-    scene.add_body("bob", mass=1e3, inertia=[1e3, 1e3, 1e3], position=(0.0, 0.0, -10.0))
+    scene.add_body("bob", mass=1e3, inertia=[1e3, 1e3, 1e3], position=(0, 0, -10))
     scene.add_joint("pin", kind="revolute", first="hull", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     return scene
 

@@ -114,7 +114,7 @@ def on_its_side(part: Any) -> None:
 def above_a_deck(**surface: Any) -> None:
     """A load on a deck whose surface is not where its feet are."""
     scene = with_load((0, 0, 3.0))
-    scene.add_contact("load", on="ground", points=[(-1, 0, -1.0), (1, 0, -1.0)], **surface)
+    scene.add_contact("load", on="ground", points=[(-1, 0, -1), (1, 0, -1)], **surface)
     simulate(scene, t_end=1.0)
 
 
@@ -216,7 +216,7 @@ def above_the_table() -> None:
 
 def thrown() -> None:
     scene = on_wire()
-    scene.replace("load", velocity=(6.0, 0.0, 0.0))
+    scene.replace("load", velocity=(6, 0, 0))
     simulate(scene, t_end=3.0)
 
 
@@ -344,7 +344,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "phases of the other sign, or in degrees": [lambda: raos(np.conj),
         lambda: raos(lambda v: np.abs(v) * np.exp(1j * np.degrees(np.angle(v))))],
     "a load that comes back to its deck": [lambda: simulate_stages(on_deck(), lift_off())],
-    "a deck upside down, or above the feet": [lambda: above_a_deck(axis=(0, 0, -1), place=(0, 0, 1.0)),
+    "a deck upside down, or above the feet": [lambda: above_a_deck(axis=(0, 0, -1), place=(0, 0, 1)),
         lambda: above_a_deck(place=(0, 0, 2.8))],
 }  # fmt: skip
 FILES = {__file__, *(module.__file__ for module in (line_scenes, mistaken_units, named, stage_scenes))}

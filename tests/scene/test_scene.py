@@ -20,8 +20,8 @@ QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # 90 deg about z
 def turned_pair() -> Scene:
     """Two bodies away from the origin, the second turned by 90 deg about z."""
     scene = Scene()
-    scene.add_body("a", mass=1.0, inertia=[1, 1, 1], position=(1.0, 2.0, 3.0))
-    scene.add_body("b", mass=1.0, inertia=[1, 1, 1], position=(4.0, 2.0, 3.0), quaternion=QUARTER)
+    scene.add_body("a", mass=1.0, inertia=[1, 1, 1], position=(1, 2, 3))
+    scene.add_body("b", mass=1.0, inertia=[1, 1, 1], position=(4, 2, 3), quaternion=QUARTER)
     return scene
 
 
@@ -36,7 +36,7 @@ def test_a_joint_point_in_the_inertial_frame_becomes_one_in_each_body() -> None:
     """b's x axis points to inertial y: (-2, 3, 1) in the inertial frame is (3, 2, 1) in b. The default is the
     origin of the second body; frames on the bodies are taken as they are."""
     scene = turned_pair()
-    joint = scene.add_joint("j", kind="spherical", first="a", second="b", point=(2.0, 5.0, 4.0))
+    joint = scene.add_joint("j", kind="spherical", first="a", second="b", point=(2, 5, 4))
     assert_allclose(joint.first_frame.point, [1.0, 3.0, 1.0], atol=1e-15)
     assert_allclose(joint.second_frame.point, [3.0, 2.0, 1.0], atol=1e-15)
     usual = scene.add_joint("k", kind="spherical", first="a", second="b")
@@ -135,7 +135,7 @@ def test_a_controller_is_called_at_its_period_and_not_at_the_end() -> None:
 
 def door(*heights: float) -> Scene:
     scene = Scene()
-    scene.add_body("door", mass=5.0, inertia=[1, 1, 1], position=(1.0, 0.0, 0.0))
+    scene.add_body("door", mass=5.0, inertia=[1, 1, 1], position=(1, 0, 0))
     for height in heights:
         hinge = {"point": (0, height, 0), "axis": (0, 1, 0)}
         scene.add_joint(f"hinge {height:g}", kind="revolute", first="ground", second="door", **hinge)
@@ -163,9 +163,9 @@ def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, e
 def hung() -> Scene:
     """A load on a wire, on a trolley."""
     scene, ends = Scene(name="trolley"), {"point": (0.0, 0.0, 0.0), "second_point": (0.0, 0.0, -4.0)}
-    scene.add_body("trolley", mass=100.0, inertia=(10.0, 10.0, 10.0))
-    scene.add_body("load", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(0.0, 0.0, -4.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="trolley", axis=(1.0, 0.0, 0.0))
+    scene.add_body("trolley", mass=100.0, inertia=(10.0,) * 3)
+    scene.add_body("load", mass=50.0, inertia=(5.0,) * 3, position=(0, 0, -4))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="trolley", axis=(1, 0, 0))
     scene.add_joint("wire", kind="distance", first="trolley", second="load", **ends)
     scene.add_line(joint="wire", rung="rigid")
     scene.add_actuator("rail", name="drive", stiffness=10.0)

@@ -45,7 +45,7 @@ def every_kind() -> Scene:
         scene.add_body(name, mass=1.0, inertia=[1.0, 1.0, 1.0], position=(4.0, i, 0.0))
     pair = {"kind": "universal", "axis": (1, 0, 0), "second_axis": (0, THIRD, 1)}
     wire = {"kind": "distance", "point": (4, 0, 0), "second_point": (4, 1, THIRD)}
-    frames = {"first_frame": Frame(point=(4.0, 1.0, 0.0)), "second_frame": Frame()}
+    frames = {"first_frame": Frame(point=(4, 1, 0)), "second_frame": Frame()}
     scene.add_joint("pin", kind="revolute", first="hull", second="arm", axis=(THIRD, 1.0, 0.2))
     scene.add_joint("cross", first="hull", second="bob", **pair)
     scene.add_joint("wire", first="bob", second="kite", **wire)

@@ -53,10 +53,10 @@ def test_assembly_tells_what_it_moved() -> None:
     assert "body moved most" not in exact and UNIQUE not in exact
     scene = Scene()
     scene.add_body("plate", mass=1.0, inertia=[1, 1, 1])
-    scene.add_body("block", mass=1.0, inertia=[1, 1, 1], position=(0.0, 0.0, 1.0))
+    scene.add_body("block", mass=1.0, inertia=[1, 1, 1], position=(0, 0, 1))
     scene.add_joint("base", kind="weld", first="ground", second="plate")
     scene.add_joint("rail", kind="prismatic", first="plate", second="block", axis=(0, 0, 1))
-    scene.replace("block", position=(0.02, 0.0, 1.0), velocity=(0.0, 0.3, 0.0))
+    scene.replace("block", position=(0.02, 0, 1), velocity=(0, 0.3, 0))
     found = section(scene, "assembly")
     assert found["constraint residual as described [m or rad]"] == pytest.approx(0.02, rel=1e-12)
     assert found["constraint residual at the start [m or rad]"] < 1e-12

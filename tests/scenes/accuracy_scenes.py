@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from heave_scenes import heaving
 from kink_scenes import random_kinked
 from numpy.typing import NDArray
 
@@ -115,26 +116,20 @@ def snatched(rng: np.random.Generator) -> Scene:
     scene, mass, place = hung(rng, drop=float(rng.uniform(0.005, 0.3)))
     if rng.random() < 0.5:
         guide = {"kind": "planar", "first": "ground", "second": "load"}
-        scene.add_joint("guide", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0), **guide)
-    scene.add_line(
-        "hoist", "ground", "load",
-        EA=float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), length=float(np.linalg.norm(place)),
-        damping_ratio=float(rng.uniform(0.02, 0.3)),
-    )  # fmt: skip
+        scene.add_joint("guide", point=(0, 0, 0), axis=(0, 1, 0), **guide)
+    stiffness, length = float(mass * G * 10.0 ** rng.uniform(1.0, 2.3)), float(np.linalg.norm(place))
+    scene.add_line("hoist", "ground", "load", EA=stiffness, length=length,
+                   damping_ratio=float(rng.uniform(0.02, 0.3)))  # fmt: skip
     return scene
 
 
 def compensated(rng: np.random.Generator) -> Scene:
     """A heaving block whose winch compensates within bounds on rate and stroke."""
-    scene = Scene(name="compensated")
-    scene.add_body("ship", mass=1e6, inertia=(1e7, 1e8, 1e8))
-    scene.add_joint("sea", kind="prismatic", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1))
     omega, amplitude = float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.3, 1.5))
-    wave = Curve.harmonic(start_time=0.0, amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
-    scene.add_driver("sea", name="wave", curve=wave)
+    scene = heaving(amplitude=amplitude, omega=omega)
     mass = float(10.0 ** rng.uniform(3.0, 4.3))
-    scene.add_body("load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0.0, 0.0, 5.0))
-    scene.add_line(name="hoist", bodies=["ship", "load"], points=[(0, 0, 20.0), (0, 0, 0)],
+    scene.add_body("load", mass=mass, inertia=(0.5 * mass,) * 3, position=(0, 0, 5))
+    scene.add_line("hoist", "ship", "load", first_point=(0, 0, 20),
                    EA=float(mass * G * 10.0 ** rng.uniform(1.5, 3.0)), tension_at_start=mass * G,
                    damping_ratio=0.05)  # fmt: skip
     scene.add_winch("hoist", lag=float(rng.choice([0.0, 0.1])))
@@ -143,8 +138,7 @@ def compensated(rng: np.random.Generator) -> Scene:
         bounds["maximum_rate"] = amplitude * omega * float(rng.uniform(0.3, 1.1))
     if rng.random() < 0.5:
         bounds["maximum_stroke"] = amplitude * float(rng.uniform(0.4, 1.1))
-    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, 20.0), winch="hoist", high_pass=0.0,
-                                 **bounds)  # fmt: skip
+    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, 20), winch="hoist", high_pass=0.0, **bounds)
     return scene
 
 

@@ -22,7 +22,7 @@ def ball(speed: float, damping: float, **contact: Any) -> Scene:
     """A ball that flies against the ground, without gravity, 0.1 m before it."""
     scene = Scene(name="ball", gravity=0.0)
     scene.add_body("ball", mass=MASS, inertia=(1.0e3,) * 3, position=(0, 0, 0.1), velocity=(0, 0, -speed))
-    scene.add_contact("ball", points=[(0.0, 0.0, 0.0)], on="ground", stiffness=STIFFNESS, damping=damping,
+    scene.add_contact("ball", points=[(0, 0, 0)], on="ground", stiffness=STIFFNESS, damping=damping,
                       name="wall", **contact)  # fmt: skip
     return scene
 
@@ -42,7 +42,7 @@ def shaken(*, friction: float = 0.3, hold: float = 1e-4, omega: float = np.pi) -
     """A block on a plate that moves by 1 m sin(omega t), at the speed that it keeps on it."""
     scene = Scene(name="shaken plate", gravity=GRAVITY)
     scene.add_body("plate", mass=500.0, inertia=(1.0e3,) * 3, velocity=(omega, 0.0, 0.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="plate", axis=(1.0, 0.0, 0.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="plate", axis=(1, 0, 0))
     curve = Curve.harmonic(amplitude=1.0, omega=omega, phase=-0.5 * np.pi)
     scene.add_driver("rail", curve=curve)
     fastest = 0.5 * np.pi * friction * GRAVITY / omega  # of the block, when the plate has just its speed
@@ -68,7 +68,7 @@ def rolling(roll_deg: float, *, friction: float = 0.3, hold: float = 1e-4, perio
     """A block with its centre 5 m above the axis of a deck that rolls with 8 s, from rest on."""
     scene = Scene(name="rolling deck", gravity=GRAVITY)
     scene.add_body("deck", mass=1.0e5, inertia=(1.0e6,) * 3)
-    scene.add_joint("roll", kind="revolute", first="ground", second="deck", axis=(1.0, 0.0, 0.0))
+    scene.add_joint("roll", kind="revolute", first="ground", second="deck", axis=(1, 0, 0))
     time = np.linspace(0.0, 8.0 * periods, 160 * periods + 1)
     x = np.clip(time / (8.0 * (periods - 1)), 0.0, 1.0)
     angle = np.radians(roll_deg) * x**3 * (10.0 - 15.0 * x + 6.0 * x * x) * np.sin(2.0 * np.pi / 8.0 * time)
@@ -95,8 +95,8 @@ def spun() -> Scene:
 def thrown() -> Scene:
     """A load that is thrown onto a deck, heeled: its feet land one after the other, slide and stick."""
     scene = Scene(name="thrown", gravity=GRAVITY)
-    scene.add_body("load", mass=MASS, inertia=(1.2e3, 1.4e3, 1.6e3), position=(0.0, 0.0, 1.2),
-                   quaternion=(np.cos(0.06), np.sin(0.06), 0.0, 0.0), velocity=(1.5, 0.5, 0.0))  # fmt: skip
+    scene.add_body("load", mass=MASS, inertia=(1.2e3, 1.4e3, 1.6e3), position=(0, 0, 1.2),
+                   quaternion=(np.cos(0.06), np.sin(0.06), 0.0, 0.0), velocity=(1.5, 0.5, 0))  # fmt: skip
     scene.add_contact("load", points=FEET - (0.0, 0.0, 0.6), on="ground", stiffness=1e6, damping=1.0,
                       friction=0.4, name="feet")  # fmt: skip
     return scene
@@ -106,11 +106,11 @@ def lifted(heave: float, omega: float, stretch: float, rate: float, stiffness: f
     """A load on a barge that heaves by a sine, under a spring whose upper end rises at a steady rate."""
     scene = Scene(name="lifted", gravity=GRAVITY)
     scene.add_body("barge", mass=1e6, inertia=(1e6,) * 3, velocity=(0.0, 0.0, heave * omega))
-    scene.add_joint("heave", kind="prismatic", first="ground", second="barge", axis=(0.0, 0.0, 1.0))
+    scene.add_joint("heave", kind="prismatic", first="ground", second="barge", axis=(0, 0, 1))
     scene.add_driver("heave", curve=Curve.harmonic(amplitude=heave, omega=omega, phase=-0.5 * np.pi))
     block(scene, "barge", friction=0.3, hold=1e-3, stiffness=stiffness, velocity=(0.0, 0.0, heave * omega))
-    scene.add_body("tip", mass=100.0, inertia=(1.0,) * 3, position=(0.0, 0.0, 10.0), velocity=(0, 0, rate))
-    scene.add_joint("hoist", kind="prismatic", first="ground", second="tip", axis=(0.0, 0.0, 1.0))
+    scene.add_body("tip", mass=100.0, inertia=(1.0,) * 3, position=(0, 0, 10), velocity=(0, 0, rate))
+    scene.add_joint("hoist", kind="prismatic", first="ground", second="tip", axis=(0, 0, 1))
     scene.add_driver("hoist", curve=Curve.table([0.0, 100.0], [0.0, 100.0 * rate]))
     slack = 10.0 + MASS * GRAVITY / (len(FEET) * stiffness)
     scene.add_spring("wire", first="block", second="tip", lengths=[0.0, slack, slack + 10.0],

@@ -7,6 +7,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import named
 import numpy as np
 
 from seacrane import Curve, HydroDatabase, Kept, Result, Scene
@@ -26,10 +27,7 @@ SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 
 def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body("bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    return scene
+    return named.pendulum(mass=mass, arm=start)
 
 
 def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) -> Scene:
@@ -110,7 +108,7 @@ def storm(*, seed: int, height: float = 1.0) -> Scene:
     scene = Scene(name="storm")
     push = 0.5 + 0.05 * height * float(random.gumbel())
     low = (0.0, 0.0, -1.0)
-    scene.add_body("bob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=low, velocity=(push, 0.0, 0.0))
+    scene.add_body("bob", mass=1.0, inertia=(0.1,) * 3, position=low, velocity=(push, 0.0, 0.0))
     scene.add_joint("rail", kind="prismatic", first="ground", second="bob", point=low, axis=(1, 0, 0))
     return scene
 
@@ -128,22 +126,13 @@ def storm_that_parts(*, seed: int) -> Scene:
     return storm(seed=seed)
 
 
-def storm_that_kills(*, seed: int, mark: str) -> Scene:
-    """The process that describes seed 8 ends at once, as long as the mark is not there."""
-    if seed == 8 and not Path(mark).exists():
-        time.sleep(0.3)  # others come back first
-        Path(mark).touch()
-        os._exit(1)
-    return storm(seed=seed)
-
-
 def cart(*, seed: int, mass: float, kind: str = "prismatic", stiffness: float = 40.0) -> Scene:
     """A cart that a spring holds and a driver pulls by another; the seed is its speed at the start."""
     scene = Scene(name="cart")
     scene.add_body("tug", mass=2.0, size=(1.0, 1.0, 1.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1.0, 0.0, 0.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="tug", axis=(1, 0, 0))
     scene.add_driver("rail", curve=0.0)
-    scene.add_body("cart", mass=mass, size=(1, 1, 1), position=(3.0, 0, 0), velocity=(0.1 * seed, 0, 0))
-    scene.add_joint("track", kind=kind, first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    scene.add_body("cart", mass=mass, size=(1, 1, 1), position=(3, 0, 0), velocity=(0.1 * seed, 0, 0))
+    scene.add_joint("track", kind=kind, first="ground", second="cart", axis=(1, 0, 0))
     scene.add_spring("tow", first="tug", second="cart", stiffness=stiffness, damping=1.0, natural_length=3.0)
     return scene

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from named import on_joint
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
@@ -29,7 +30,7 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
     scene = Scene(name="pendulum")
     scene.add_body("ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, -LENGTH),
                    velocity=(FIRST_SPEED, 0.0, 0.0))  # fmt: skip
-    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0, 0, 0),
                     second_point=(0.0, 0.0, -LENGTH))  # fmt: skip
     scene.add_line(joint="wire", rung="rigid", restitution=restitution, **wire)
     return scene
@@ -88,11 +89,8 @@ def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]
 
 def pushed(restitution: float = 0.0) -> Scene:
     """A slide pushed against its stop by a load that turns round: F = -F0 cos(w t)."""
-    scene = Scene(name="pushed", gravity=0.0)
-    scene.add_body("slide", mass=MASS, inertia=INERTIA)
-    scene.add_joint("rail", kind="prismatic", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
+    scene = on_joint("slide", mass=MASS, gravity=0.0)
     scene.add_actuator("rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0))
-    scene.record_coordinate(joint="rail")
     scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene
 
@@ -101,13 +99,11 @@ def lift(rate: float = 0.2, stiffness: float = 2.0e3) -> Scene:
     """A load on the deck, a hook that is hauled up, a spring between them that is just slack at the start."""
     scene = Scene(name="lift")
     scene.add_body("load", mass=MASS, inertia=INERTIA)
-    scene.add_body("hook", mass=1.0, inertia=INERTIA, position=(0.0, 0.0, 5.0), velocity=(0.0, 0.0, rate))
+    scene.add_body("hook", mass=1.0, inertia=INERTIA, position=(0, 0, 5), velocity=(0.0, 0.0, rate))
     scene.add_joint("deck", kind="weld", first="ground", second="load")
     scene.add_joint("hoist", kind="prismatic", first="ground", second="hook")
-    scene.add_driver(
-        "hoist", curve=Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0.0, 0.0, 0.0, 0.0]])
-    )  # fmt: skip
-    scene.add_spring("wire", first="hook", second="load", first_point=(0.0, 0.0, 0.0),
-                     second_point=(0.0, 0.0, 0.0), stiffness=stiffness, natural_length=5.0)  # fmt: skip
+    rise = Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0, 0, 0, 0]])
+    scene.add_driver("hoist", curve=rise)
+    scene.add_spring("wire", first="hook", second="load", stiffness=stiffness, natural_length=5.0)
     scene.add_seat(joint="deck")
     return scene

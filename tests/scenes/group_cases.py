@@ -13,7 +13,6 @@ from test_hydro_nemoh import control
 from seacrane.hydro import HydroDatabase, HydroGroup, shipped_database
 from seacrane.sea.dispersion import wavenumber
 
-NAMES = ("crane", "feeder")
 MOTIONS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 FEEDER = (6.0, 38.0, -1.5)  # m, reference point of the second hull
 HEIGHT = 1.5  # m, of the first one's reference point above the still waterline

@@ -32,7 +32,7 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     sign = 1.0 if above else -1.0
     scene = Scene(name="on a cylinder")
     place = (0.0, 0.0, sign * (RETRACTED + START))
-    scene.add_body("load", mass=mass, inertia=(10.0, 10.0, 10.0), position=place, velocity=(0, 0, velocity))
+    scene.add_body("load", mass=mass, inertia=(10.0,) * 3, position=place, velocity=(0, 0, velocity))
     scene.add_joint("guide", kind="prismatic", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1))
     scene.add_hydraulic_cylinder("ram", first="ground", second="load", **SET | settings)
     return scene

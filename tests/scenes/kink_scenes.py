@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from named import on_joint
 
 from seacrane import Curve, FlowCoefficients, Scene
 
@@ -14,10 +15,7 @@ CART = 4.0  # kg
 
 def cart(speed: float = 0.0) -> Scene:
     """A mass on a rail along x, without gravity."""
-    scene = Scene(name="cart", gravity=0.0)
-    scene.add_body("cart", mass=CART, inertia=(1.0, 1.0, 1.0), velocity=(speed, 0.0, 0.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
-    return scene
+    return on_joint("cart", mass=CART, gravity=0.0, velocity=(speed, 0, 0))
 
 
 def sprung(frequency: float, damping_ratio: float = 0.0, *, speed: float = 0.0, rest: float = 0.0) -> Scene:
@@ -31,12 +29,11 @@ def sprung(frequency: float, damping_ratio: float = 0.0, *, speed: float = 0.0, 
 def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     """A rotor with a payload on a wire of 18 m."""
     scene = Scene(name="slewing", gravity=9.81)
-    scene.add_body("rotor", mass=1e5, inertia=(2e7, 2e7, 2e7))
-    scene.add_body("payload", mass=2e4, inertia=(1e3, 1e3, 1e3), position=(25.0, 0.0, 12.0))
-    scene.add_joint("slew", kind="revolute", first="ground", second="rotor", point=(0.0, 0.0, 0.0),
-                    axis=(0.0, 0.0, 1.0))  # fmt: skip
-    scene.add_joint("wire", kind="distance", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
-                    second_point=(25.0, 0.0, 12.0))  # fmt: skip
+    scene.add_body("rotor", mass=1e5, inertia=(2e7,) * 3)
+    scene.add_body("payload", mass=2e4, inertia=(1e3,) * 3, position=(25, 0, 12))
+    scene.add_joint("slew", kind="revolute", first="ground", second="rotor", point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_joint("wire", kind="distance", first="rotor", second="payload", point=(25, 0, 30),
+                    second_point=(25, 0, 12))  # fmt: skip
     scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)
     return scene
 
@@ -45,11 +42,10 @@ def driven_by(element: str, curve: Curve) -> Scene:
     """A cart with a rod below it, moved by what follows a curve; loads act against a soft spring."""
     scene = cart()
     scene.gravity = 9.81
-    scene.add_body("rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
-    scene.add_joint("pin", kind="revolute", first="cart", second="rod", point=(0.0, 0.0, 0.0),
-                    axis=(0.0, 1.0, 0.0))  # fmt: skip
+    scene.add_body("rod", mass=1.0, inertia=(0.1,) * 3, position=(0, 0, -0.8))
+    scene.add_joint("pin", kind="revolute", first="cart", second="rod", point=(0, 0, 0), axis=(0, 1, 0))
     if element in ("feed-forward", "force table", "wind"):
-        scene.add_spring("hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0,
+        scene.add_spring("hold", first="ground", second="cart", first_point=(-20, 0, 0), stiffness=6.0,
                          damping=1.0, natural_length=20.0)  # fmt: skip
     if element == "feed-forward":
         scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
@@ -135,7 +131,7 @@ def random_snatch(rng: np.random.Generator) -> Scene:
     scene.add_body("ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -length),
                    velocity=(np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(),
                              0.0))  # fmt: skip
-    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0, 0, 0),
                     second_point=(0.0, 0.0, -length))  # fmt: skip
     scene.add_line(joint="wire", rung="rigid")
     return scene

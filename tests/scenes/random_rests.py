@@ -20,24 +20,24 @@ AHEAD = np.array([1.0, 0.0, 0.0])
 
 
 class Builder:
-    """One scene from a seed; `leaks` tells whether its oil does."""
+    """One scene from a seed."""
 
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
-        self.scene = Scene(name=f"rest {seed}")
-        self.leaks, self.moored = False, True
-        self.base = "ground"
+        self.scene, self.base = Scene(name=f"rest {seed}"), "ground"
+        self.moored = True
         if self.chance(0.5):
             self.add_ship()
         self.tip, self.head = self.holder()
-        self.loads: list[str] = []
         self.hang()
         if self.chance(0.5):
             self.tug()
         if self.chance(0.3):
             self.hang_below()
-        if self.chance(0.3) and self.moored:
-            self.blow()
+        if self.chance(0.3) and self.moored:  # a steady force on the load, as of wind
+            push = self.scene.bodies["load"].mass * G * self.between(0.0, 0.05)
+            force = push * np.array([np.cos(1.0), np.sin(1.0), 0.0])
+            self.scene.add_point_force("gust", body="load", point=(0, 0, 0.2), force=force)
         if self.base == SHIP:
             self.ballast()
 
@@ -87,7 +87,6 @@ class Builder:
             out |= {"overlap": 0.02}
         if self.chance(0.1):
             out |= {"internal_leakage": 1e-13}
-            self.leaks = True
         if self.chance(0.2):
             out |= {"counterbalance_pressure": 35e6, "counterbalance_flow": 0.02}
         return out
@@ -102,12 +101,11 @@ class Builder:
                              axis=(0, 1, 0))  # fmt: skip
         low, high = foot + np.array([1.0, 0.0, -4.0]), foot + 0.4 * reach * AHEAD
         apart = float(np.linalg.norm(high - low))
-        self.ram = {"name": "ram", "first": self.base, "second": "arm", "first_point": low,
-                    "second_point": [-0.1 * reach, 0.0, 0.0], **SET, **self.oil(), "full_area": 0.3,
-                    "rod_side_area": 0.15, "stroke": 3.0, "retracted_length": apart - self.between(0.5, 2.5),
-                    "hose_volume": 0.05, "hose_volume_rod": 0.05, "pressure": 2e7,
-                    "pressure_rod": 1e6}  # fmt: skip
-        self.scene.add_hydraulic_cylinder(**self.ram)
+        size = {"full_area": 0.3, "rod_side_area": 0.15, "stroke": 3.0, "hose_volume": 0.05,
+                "hose_volume_rod": 0.05, "pressure": 2e7, "pressure_rod": 1e6}  # fmt: skip
+        oil = SET | self.oil() | size | {"retracted_length": apart - self.between(0.5, 2.5)}
+        self.scene.add_hydraulic_cylinder("ram", first=self.base, second="arm", first_point=low,
+                                          second_point=[-0.1 * reach, 0.0, 0.0], **oil)  # fmt: skip
         return "arm", np.array([0.5 * reach, 0.0, 0.0])
 
     def hang(self) -> None:
@@ -119,7 +117,6 @@ class Builder:
         size = self.between(1.0, 4.0)
         self.scene.add_body("load", mass=mass, inertia=mass * size**2 * self.rng.uniform(0.15, 0.25, 3),
                             position=place)  # fmt: skip
-        self.loads.append("load")
         falls = int(self.rng.integers(1, 4))
         bodies = ([self.tip, "load"] * 2)[: falls + 1]
         top = np.array([0.0, 0.0, 0.5 * size * self.chance(0.7)])
@@ -152,33 +149,24 @@ class Builder:
 
     def tug(self) -> None:
         """Taglines to the base: fixed, or on tuggers that hold a tension; slack at first or not."""
-        load = self.loads[0]
-        place = np.asarray(self.scene.bodies[load].position)
-        weight = self.scene.bodies[load].mass * G
+        place, weight = np.asarray(self.scene.bodies["load"].position), self.scene.bodies["load"].mass * G
+        origin = np.asarray(self.scene.bodies[SHIP].position) if self.base == SHIP else np.zeros(3)
         for i in range(int(self.rng.integers(1, 4))):
             way = self.between(0.0, 2.0 * np.pi)
             far = np.array([np.cos(way), np.sin(way), self.between(-0.2, 0.3)]) * self.between(8.0, 30.0)
-            end = place + far
-            if self.base == SHIP:
-                end = end - np.asarray(self.scene.bodies[SHIP].position)
             arm = np.array([np.cos(way), np.sin(way), 0.0]) * self.between(0.0, 2.0) * self.chance(0.6)
-            length = float(np.linalg.norm(far - arm))
-            name = f"tug {i}"
-            if self.chance(0.3):
-                length *= self.between(0.9, 1.02)
-                stiffness = 0.02 * weight / 0.01
-            else:
-                length *= self.between(0.97, 1.03)
-                stiffness = self.magnitude(5e4, 5e6)
-            self.scene.add_line(name=name, bodies=[self.base, load], points=[end, arm], EA=stiffness,
-                                length=length)  # fmt: skip
-            if stiffness != 0.02 * weight / 0.01:
-                self.hold(name, weight)
+            fixed = self.chance(0.3)
+            bounds = (0.9, 1.02) if fixed else (0.97, 1.03)
+            length = float(np.linalg.norm(far - arm)) * self.between(*bounds)
+            stiffness = 2.0 * weight if fixed else self.magnitude(5e4, 5e6)
+            self.scene.add_line(f"tug {i}", bodies=[self.base, "load"], points=[place + far - origin, arm],
+                                EA=stiffness, length=length)  # fmt: skip
+            if not fixed:
+                self.hold(f"tug {i}", weight)
 
     def hold(self, line: str, weight: float) -> None:
         """A winch that holds a tension."""
-        tension = weight * self.magnitude(0.005, 0.1)
-        given = {}
+        tension, given = weight * self.magnitude(0.005, 0.1), {}
         if self.chance(0.5):
             given["lag"] = self.between(0.05, 0.3)
         if self.chance(0.3):
@@ -194,33 +182,19 @@ class Builder:
         place = np.asarray(above.position) - [0.0, 0.0, drop]
         self.scene.add_body("below", mass=mass, inertia=mass * half**2 * np.array([0.5, 0.5, 0.6]),
                             position=place)  # fmt: skip
-        self.loads.append("below")
         for i, (x, y) in enumerate([(-1, -1), (-1, 1), (1, -1), (1, 1)][: int(self.rng.integers(2, 5))]):
             corner = half * np.array([x, y, 0.3])
-            self.scene.add_line(
-                name=f"sling {i}", bodies=["load", "below"], points=[(0, 0, 0), corner],
-                EA=mass * G / 2e-3,
-                length=float(np.linalg.norm(np.array([0.0, 0.0, drop]) + corner - [0, 0, 2 * corner[2]]))
-                * self.between(0.98, 1.02),
-            )  # fmt: skip
-
-    def blow(self) -> None:
-        """A steady force on the load, as of wind."""
-        weight = self.scene.bodies["load"].mass * G
-        force = weight * self.between(0.0, 0.05) * np.array([np.cos(1.0), np.sin(1.0), 0.0])
-        self.scene.add_point_force("gust", body="load", point=(0.0, 0.0, 0.2), force=force)
+            reach = float(np.linalg.norm(corner * (1, 1, -1) + (0.0, 0.0, drop)))
+            self.scene.add_line(f"sling {i}", "load", "below", second_point=corner, EA=mass * G / 2e-3,
+                                length=reach * self.between(0.98, 1.02))  # fmt: skip
 
     def ballast(self) -> None:
-        kind = self.rng.choice(["none", "force", "tanks", "heel"])
+        kind, b = self.rng.choice(["none", "force", "tanks", "heel"]), self.breadth
         if kind == "force":
             self.scene.add_ballast()
         elif kind == "heel":
             self.scene.add_ballast(heel_deg=self.between(-4.0, 4.0))
         elif kind == "tanks":
-            side, ends = 0.45 * self.breadth, 1.5 * self.breadth
-            tanks = {
-                f"{x} {y}": Tank(point=(x * ends, y * side, 0.0), capacity=1e8, content=5e7)
-                for x in (-1, 1)
-                for y in (-1, 1)
-            }
+            points = [(x * b, y * b, 0.0) for x in (-1.5, 1.5) for y in (-0.45, 0.45)]
+            tanks = {str(point): Tank(point=point, capacity=1e8, content=5e7) for point in points}
             self.scene.add_ballast(tanks=tanks)

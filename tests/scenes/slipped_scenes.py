@@ -81,7 +81,7 @@ def at_the_surface() -> Scene:
 
 def beside_a_part() -> Scene:
     scene = at_the_surface()
-    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0.0, 0.0))])
+    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0, 0))])
     return scene
 
 

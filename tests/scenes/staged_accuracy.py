@@ -56,7 +56,7 @@ def met(rng: np.random.Generator) -> Lift:
     """Two bodies that are welded as they meet, and held by a wire from then on."""
     after = float(rng.uniform(0.2, 1.0))
     scene = meeting(velocity=float(rng.uniform(0.2, 1.0)), after=after)
-    scene.add_line("tether", first="ground", first_point=(0.0, 0.0, 1.5), second="hook",
+    scene.add_line("tether", first="ground", first_point=(0, 0, 1.5), second="hook",
                    EA=float(10.0 ** rng.uniform(1.5, 3.0)), length=float(rng.uniform(1.4, 1.6)),
                    damping_ratio=0.1)  # fmt: skip
     return scene, [Stage(name="apart", duration=after), Stage(name="one", duration=3.0,

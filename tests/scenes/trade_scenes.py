@@ -76,7 +76,7 @@ def random_chain(rng: np.random.Generator) -> Scene:
         axis = np.array([np.cos(turn), np.sin(turn), 0.0])
         along = length * np.array([-np.sin(swing) * axis[1], np.sin(swing) * axis[0], -np.cos(swing)])
         name, inertia = f"rod{i}", mass * length**2 / 12.0
-        scene.add_body(name, mass=mass, inertia=(inertia, inertia, inertia), position=end + along / 2)
+        scene.add_body(name, mass=mass, inertia=(inertia,) * 3, position=end + along / 2)
         scene.add_joint(f"pin{i}", kind="revolute", first=before, second=name, point=end, axis=axis)
         before, end = name, end + along
     return scene

@@ -34,7 +34,7 @@ def thrown() -> Result:
     """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
     scene = cases.case2()
     scene.add_line(joint="link", rung="rigid")
-    scene.replace("payload", kind="body", velocity=(1.0, 2.0, 6.0))
+    scene.replace("payload", kind="body", velocity=(1, 2, 6))
     return _quietly(scene, 6.0, OutsideRangeWarning)
 
 
@@ -44,7 +44,7 @@ def pair() -> Result:
     database = shipped_database()
     scene = Scene(name="<i>two vessels</i>")
     scene.add_vessel(database)
-    scene.add_vessel(database, name=HTML_NAME, position=(-15.0, 45.0, 0.0), heading_deg=12.0, memory="none")
+    scene.add_vessel(database, name=HTML_NAME, position=(-15, 45, 0), heading_deg=12.0, memory="none")
     scene.add_sea(hs=2.5, tp=8.0, seed=3, count=120)
     scene.add_sea(vessel=HTML_NAME)
     scene.add_crane(base="vessel", payload=Payload(mass=20e3))
