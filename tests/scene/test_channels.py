@@ -12,11 +12,10 @@ import numpy as np
 import pytest
 from test_restart import chain, crank
 
-from seacrane import Outputs, Run, Scene, Stage, _core, cases, ensemble, simulate, simulate_stages
+from seacrane import Outputs, Run, Scene, Stage, _core, cases, simulate, simulate_stages
 from seacrane.description.channels import DERIVED, FIXED, NAMED, OWN
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
-from seacrane.operability import Criterion, allowable_hs
 from seacrane.result import CHANNELS
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -131,34 +130,10 @@ def test_each_channel_is_recorded_or_refused_by_its_name(make: Callable[[], Scen
     assert {"own", "clearance"} < refused < set(CHANNELS)
 
 
-def limited(scene: Scene, channel: str) -> Scene:
-    scene.add_limit_state(channel, maximum=1.0)
-    return scene
-
-
-ALL = [Stage(name="all", duration=0.1)]
-SEAS: dict[str, Any] = {"tp": [8.0], "direction_deg": [90.0], "hs": [1.0]}
-WAYS: dict[str, Callable[[Scene, str], Any]] = {
-    "outputs": lambda scene, name: simulate(scene, 0.1, channels=[name]),
-    "stages": lambda scene, name: simulate_stages(scene, ALL, channels=[name]),
-    "kept": lambda scene, name: ensemble(scene, over={"seed": [1]}, keep={"most": f"{name}.max"}),
-    "criterion": lambda scene, name: allowable_hs(
-        scene, criteria=[Criterion(channel=name, maximum=1.0)], **SEAS),
-    "limit state": lambda scene, name: simulate(limited(scene, name), 0.1),
-    "limit state of stages": lambda scene, name: simulate_stages(limited(scene, name), ALL),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("way", WAYS)
-def test_it_is_refused_by_every_way_of_asking(way: str) -> None:
-    for channel in ("swing", "offlead", "utilisation", "tip_velocity", "line_tension"):
-        with pytest.raises(SceneError, match=f"channel '{channel}' is unknown to this scene; it"):
-            WAYS[way](ship(), channel)
-
-
 @pytest.mark.warns("LineLengthWarning")
 def test_what_a_later_stage_connects_is_recorded_there_and_its_limits_hold() -> None:
-    scene = limited(ship(hoist=True), "swing")
+    scene = ship(hoist=True)
+    scene.add_limit_state("swing", maximum=1.0)
     stages = [Stage(name="before", duration=0.2), Stage(name="hooked", connect=["hoist"], duration=0.2)]
     run = simulate_stages(scene, stages, channels=["swing", "position"], rtol=1e-3)
     assert np.isnan(run["swing"][0]) and np.isfinite(run["swing"][-1])

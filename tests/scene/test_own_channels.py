@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from test_relative_motion import hoisting, tumbling
 
-from seacrane import Kept, Lift, Result, Scene, Stage, Until, cases, ensemble, simulate, simulate_stages
+from seacrane import Kept, Result, Scene, Stage, Until, cases, ensemble, simulate, simulate_stages
 from seacrane.analysis import linear_model
 from seacrane.description.expression import DEEPEST, FUNCTIONS, LONGEST, parsed
 from seacrane.description.file import scene_digest
@@ -115,33 +115,6 @@ def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("corner.z", "croner.z"))
     with pytest.raises(FileFormatError, match=r"no point or body 'croner'; did you mean 'corner'\?"):
         Scene.load(path)
-
-
-LIFT = """format = "seacrane lift"
-version = 2
-[body]
-name = "load"
-mass_kg = 1e3
-inertia_kg_m2 = [1, 1, 1]
-[channel]
-name = "depth"
-expression = "-load.z"
-[limit_state]
-channel = "own[depth]"
-maximum_KEY = 3
-[run]
-t_end_s = 1
-"""
-
-
-def test_a_lift_file_has_it_with_the_unit_of_its_limit(tmp_path: Path) -> None:
-    path = tmp_path / "lift.toml"
-    path.write_text(LIFT.replace("KEY", "m"))
-    result = Lift.load(path).simulate()
-    assert result.utilisation[0].reached == pytest.approx(0.5 * 9.80665, rel=1e-6)
-    path.write_text(LIFT.replace("KEY", "N"))
-    with pytest.raises(FileFormatError, match="is in m or SI; give maximum_m"):
-        Lift.load(path).scene()
 
 
 NEEDED, DEEP = "number or a curve was expected at", f"more than {DEEPEST} parentheses"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from named import pendulum
 
-from seacrane import Criterion, Kept, Result, Until, cases, ensemble, extremes, simulate
+from seacrane import Kept, Result, cases, ensemble, simulate
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.pick import Pick, column_name, pick_of
 from seacrane.errors import SceneError
@@ -92,38 +92,13 @@ def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_pa
 
 def test_what_is_kept_is_said_by_a_text() -> None:
     late = {"channel": "position", "what": "minimum", "names": {"body": "load", "axis": "z"}, "after": 60.0}
-    kept: dict[str, dict[str, Any]] = {
-        "roll.std": {"channel": "vessel_motion", "what": "standard_deviation", "names": {"motion": "roll"}},
-        "hook_load.max": {"channel": "hook_load", "what": "maximum"},
-        "load_state[hoist.length]": {"channel": "load_state", "names": {"state_name": "hoist.length"}},
-        "position[load, z, after=60].min": late,
-    }
-    for text, given in kept.items():
-        assert Kept.of_text(text) == Kept(**given), text
+    assert Kept.of_text("position[load, z, after=60].min") == Kept(**late)
     assert Kept(channel="position[load, z, after=60]", what="minimum") == Kept(**late)
+    roll = Kept(channel="vessel_motion", what="standard_deviation", names={"motion": "roll"})
+    assert Kept.of_text("roll.std") == roll
     with pytest.raises(SceneError, match="give each name once"):
         Kept(channel="position[load, z]", names={"axis": "x"})
-    keep: dict[str, Any] = {
-        "low": "position[bob, z].min",
-        "same": Kept(**late | {"names": {"body": "bob", "axis": "z"}, "after": 0.0}),
-    }
+    low = Kept(channel="position", what="minimum", names={"body": "bob", "axis": "z"})
+    keep: dict[str, Any] = {"low": "position[bob, z].min", "same": low}
     found = ensemble(pendulum(), over={"gravity": [9.0, 9.8]}, keep=keep, t_end=1.0)
     assert np.array_equal(found.dataset.low, found.dataset.same)
-
-
-def test_criteria_conditions_and_extremes_take_the_text(lift: Result) -> None:
-    load = {"body": "load", "axis": "z"}
-    by_names = Criterion(channel="position", names=load, maximum=1.0)
-    assert Criterion(channel="position[load, z]", maximum=1.0) == by_names
-    until = Until.channel("position", minimum=1.0, **load)
-    assert Until.channel("position[load, z]", minimum=1.0) == until
-    several = simulate(cases.vessel(), t_end=200.0, dt_out=0.5)
-    by_text = extremes(several, channel="roll", after=20.0)
-    assert str(by_text) == str(extremes(several, channel="vessel_motion", motion="roll", after=20.0))
-    for ask in (
-        lambda: Criterion(channel="roll[after=3]", maximum=1.0),
-        lambda: Until.channel("vessel_motion[roll, after=3]", minimum=1.0),
-        lambda: extremes(lift, channel="vessel_motion[roll, after=3]"),
-    ):
-        with pytest.raises(SceneError):
-            ask()

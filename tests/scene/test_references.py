@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -140,14 +139,3 @@ def test_a_spring_about_a_free_joint_is_harmonic_through_half_a_turn(coordinate:
     result = simulate(scene, t_end=5.0, rtol=1e-9)
     angle = 2.0 * np.unwrap(np.arctan2(result["quaternion"][:, 0, 1 + axis], result["quaternion"][:, 0, 0]))
     np.testing.assert_allclose(angle, 3.0 + 0.5 * np.sin(2.0 * result.time), atol=1e-6)
-
-
-def test_ranges_are_kept_by_copies_and_files_and_checked(tmp_path: Path) -> None:
-    scene = crane()
-    scene.save(tmp_path / "crane.json")
-    assert Scene.load(tmp_path / "crane.json").ranges == scene.ranges == scene.copy().ranges
-    assert (scene.ranges["main_cylinder"].minimum, scene.ranges["main_cylinder"].maximum) == (-1.0, 4.0)
-    with pytest.raises(SceneError, match=r"'main_cylinder'.*twice"):
-        scene.add_range(joint="main_cylinder", minimum=0.0, maximum=1.0)
-    with pytest.raises(SceneError, match="minimum must be below the maximum"):
-        scene.add_range(joint="A", minimum=1.0, maximum=1.0)

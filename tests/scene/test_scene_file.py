@@ -6,7 +6,6 @@ import dataclasses
 import json
 import math
 import pickle
-import struct
 from pathlib import Path
 from typing import Any
 
@@ -81,20 +80,16 @@ def every_kind() -> Scene:
 
 
 def plain(value: Any) -> Any:
-    """Everything a scene holds, as nested lists with each float as its eight bytes."""
-    if isinstance(value, (float, np.floating)):
-        return struct.pack("<d", value)
-    if isinstance(value, (complex, np.complexfloating)):
-        return [plain(value.real), plain(value.imag)]
-    if isinstance(value, np.integer):
-        return int(value)
+    """Everything a scene holds, as nested lists with each number as its bytes."""
+    if isinstance(value, (float, complex, np.number)):
+        return np.asarray(value, dtype=complex).tobytes()
     if isinstance(value, Curve):
         return plain(value.to_pieces())
     if isinstance(value, (list, tuple, np.ndarray)):
         return [plain(item) for item in value]
     if isinstance(value, dict):
         return [[key, plain(item)] for key, item in value.items()]
-    if isinstance(value, (str, int, bool, type(None))):
+    if isinstance(value, (str, int, type(None))):
         return value
     names = [name for name in dir(value) if not name.startswith("_") and not callable(getattr(value, name))]
     assert names, f"{value!r} shows nothing to compare"
