@@ -19,10 +19,11 @@ import numpy as np
 from PIL import Image
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-OPTIONS = ("--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader",
-           "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--disable-background-networking",
-           "--disable-component-update", "--disable-extensions", "--no-first-run",
-           "--remote-debugging-pipe")  # fmt: skip
+OPTIONS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--disable-background-networking",
+    "--disable-component-update", "--disable-extensions", "--no-first-run", "--remote-debugging-pipe",
+)  # fmt: skip
 PATIENCE = 180.0  # s, for anything the browser is asked
 
 
@@ -138,9 +139,10 @@ def tab(command: str) -> Iterator[Tab]:
         os.dup2(104, 4)
 
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        process = subprocess.Popen([command, *OPTIONS, f"--user-data-dir={profile}"], preexec_fn=connect,
-                                   close_fds=False, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)  # fmt: skip
+        process = subprocess.Popen(
+            [command, *OPTIONS, f"--user-data-dir={profile}"],
+            preexec_fn=connect, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
         os.close(from_us)
         os.close(from_it)
         try:

@@ -21,10 +21,10 @@ CATENARY_H, CATENARY_V = 663_644.668, 728_230.403  # N, at the upper end: Irvine
 def slung(count: int) -> Scene:
     """The catenary of those forces: 800 m across, 300 m up, 900 m of 1000 N/m and EA 1e9 N."""
     scene = Scene(name="slung")
-    scene.add_body("end", mass=1e3, inertia=(1e3,) * 3, position=(800, 0, 300))
-    scene.add_joint("bolts", kind="weld", first="ground", second="end")
-    scene.add_line("line", "ground", "end", rung="with mass", EA=1e9, length=900.0,
-                   mass_per_length=1000.0 / G, segments=count)  # fmt: skip
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 300.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_line(name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9,
+                   length=900.0, mass_per_length=1000.0 / G, segments=count)  # fmt: skip
     return scene
 
 
@@ -46,10 +46,10 @@ def heave(t_end: float) -> Curve:
 def heaving(count: int, t_end: float, **more: Any) -> Scene:
     """A slack line below an end that moves up and down."""
     scene = Scene(name="heaving")
-    scene.add_body("end", mass=1e3, inertia=(1e3,) * 3, position=(800, 0, 0))
-    scene.add_joint("guide", kind="prismatic", first="ground", second="end", point=(800, 0, 0),
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 0.0))
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="end", point=(800, 0, 0),
                     axis=(0, 0, 1))  # fmt: skip
-    scene.add_driver("guide", curve=heave(t_end))
+    scene.add_driver(joint="guide", curve=heave(t_end))
     line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
     scene.add_line(name="line", rung="with mass", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)],
                    segments=count, **line)  # fmt: skip
@@ -62,19 +62,21 @@ def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any
     length, weight = line["length"], line["mass_per_length"] * G
     stretched = length + (load * G * length + 0.5 * weight * length**2) / line["EA"]
     scene = Scene(name="hanging")
-    scene.add_body("load", mass=load, inertia=(1e3,) * 3, position=(0.0, 0.0, -stretched),
+    scene.add_body(name="load", mass=load, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -stretched),
                    velocity=(velocity, 0.0, 0.0))  # fmt: skip
-    scene.add_line("wire", "ground", "load", rung="with mass", segments=count, **line)
+    scene.add_line(name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)),
+                   segments=count, **line)  # fmt: skip
     return scene
 
 
 def string(count: int, *, strain: float = 0.01, amplitude: float = 0.01) -> Scene:
     """A taut string of 50 m without weight, its nodes moving as the first transverse mode does, m/s."""
     scene = Scene(name="string", gravity=0.0)
-    scene.add_body("end", mass=1e3, inertia=(1e3,) * 3, position=(50, 0, 0))
-    scene.add_joint("bolts", kind="weld", first="ground", second="end")
-    scene.add_line("line", "ground", "end", rung="with mass", EA=1e6, length=50.0 / (1.0 + strain),
-                   mass_per_length=2.0 * (1.0 + strain), segments=count)  # fmt: skip
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(50.0, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_line(name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
+                   length=50.0 / (1.0 + strain), mass_per_length=2.0 * (1.0 + strain),
+                   segments=count)  # fmt: skip
     for i in range(1, count):
         node = scene.bodies[f"line.{i}"]
         pluck = amplitude * np.sin(np.pi * i / count)
@@ -87,9 +89,9 @@ def in_waves(length: Curve | float, *, seed: int = 3, rung: Any = "elastic") -> 
     scene = Scene(name="wet", gravity=G)
     scene.add_sea(vessel=None, hs=1.5, tp=5.0, count=20, seed=seed, direction_deg=30.0, gamma=2.0,
                   current=Current(depth=0.0, speed=0.8, direction_deg=20.0))  # fmt: skip
-    scene.add_body("load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8, 1, -3),
-                   velocity=(-1, 2, 1), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
-    scene.add_line("wire", "ground", "load", first_point=(0, 0, 5), second_point=(0.1, -0.2, 0.4),
+    scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
+                   velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4),
                    EA=2e5, length=length, mass_per_length=40.0, diameter=0.25, rung="with mass", medium="sea",
                    segments=4, segment_rung=rung)  # fmt: skip
     return scene
@@ -101,9 +103,9 @@ BED = {"depth": 10.0, "stiffness": 2e4, "friction": 0.5}
 def dropped(*, friction: float = 0.5, segments: int = 6, **given: Any) -> Scene:
     """A line that falls askew on a seabed 10 m below, a load at its end that slides there."""
     scene = Scene(name="dropped")
-    scene.add_body("load", mass=300.0, inertia=(90.0, 80.0, 70.0), position=(14, 2, -8.5),
-                   velocity=(1, 2, -0.5), angular_velocity=(0.2, -0.1, 0.3))  # fmt: skip
-    scene.add_line("line", "ground", "load", first_point=(0, 0, -4), second_point=(0.1, -0.2, 0.1),
+    scene.add_body(name="load", mass=300.0, inertia=(90.0, 80.0, 70.0), position=(14.0, 2.0, -8.5),
+                   velocity=(1.0, 2.0, -0.5), angular_velocity=(0.2, -0.1, 0.3))  # fmt: skip
+    scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, -4.0), second_point=(0.1, -0.2, 0.1),
                    rung="with mass", EA=2e5, length=16.0, mass_per_length=40.0, segments=segments,
                    damping_ratio=0.1, seabed=BED | {"friction": friction}, **given)  # fmt: skip
     return scene
