@@ -29,7 +29,6 @@ KINDS = tuple(joint_examples.KINDS)
 
 
 def scene_of_two(**settings: Any) -> Scene:
-    """Two bodies 1 m apart, not joined."""
     scene = Scene(**settings)
     scene.add_body("a", mass=1.0, inertia=[1.0, 1.0, 1.0])
     scene.add_body("b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1, 0, 0))
@@ -49,12 +48,8 @@ def refused(action: Callable[[], Any], told: str, error: Any = SceneError) -> No
 
 
 def rows(*table: tuple[Any, str]) -> Any:
-    """Of (what is given, the words of the answer)."""
     ids = [re.sub(r"\W+", " ", row[1]) for row in table]
     return pytest.mark.parametrize(("what", "told"), table, ids=ids)
-
-
-# bodies, joints, vessels
 
 
 @rows(
@@ -123,9 +118,6 @@ def test_vessels(what: dict[str, Any], told: str) -> None:
     refused(lambda: (scene.add_vessel(**{"body": "a"} | what), scene.compile()), own + told)
 
 
-# drives and loads on the pendulum
-
-
 def hang(**more: Any) -> Callable[[Scene], Any]:
     return lambda scene: scene.add_spring("s", first="ground", second="bob", **more)
 
@@ -169,9 +161,6 @@ def one_name_for_two_coordinates(scene: Scene) -> None:
 def test_drives_and_loads(what: Callable[[Scene], Any], told: str) -> None:
     scene = pendulum()
     refused(lambda: (what(scene), scene.compile()), told)
-
-
-# assembly
 
 
 def frames(first: Any, second: Any, **of_first: Any) -> dict[str, Any]:
@@ -226,9 +215,6 @@ def test_scenes_that_cannot_be_assembled(what: Callable[[], Scene], told: str) -
         refused(lambda: what().compile(), told)
 
 
-# waves
-
-
 @rows(({"hulls": {"b": HullLoads(transfer=np.ones((1, 6)))}}, "wave load.*'b' is not a vessel"),
       ({"heading": NAN}, "heading is nan"), ({"force_by_heading": 3.0}, "force_by_heading is 3.0.*ByHeading"),
       ({"amplitude": [NAN]}, "'a'.*amplitude"), ({"omega": [-1.0]}, "'a'.*omega"),
@@ -247,9 +233,6 @@ def test_waves(what: dict[str, Any], told: str) -> None:
         scene.compile()
 
     refused(compiled, told)
-
-
-# runs
 
 
 @rows(
@@ -383,7 +366,6 @@ def plausible_joint(draw: st.DrawFn) -> dict[str, Any]:
 @given(st.lists(plausible_joint(), min_size=1, max_size=4), st.sampled_from(["quaternion", "euler_xyz"]))
 def test_any_set_of_joints_compiles_and_runs_or_is_refused(joints: list[dict[str, Any]],
                                                            orientation: str) -> None:  # fmt: skip
-    """Redundant, contradictory or singular: a run starts and stays on its constraints, or ends by name."""
 
     def build() -> Scene:
         scene = scene_of_two(orientation=orientation)

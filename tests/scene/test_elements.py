@@ -33,7 +33,6 @@ SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" f
 
 
 def entries(element: Any) -> dict[str, Any]:
-    """The arguments that make an element."""
     return {field.name: getattr(element, field.name) for field in type(element).FIELDS}
 
 
@@ -122,7 +121,6 @@ def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
 
 
 def described(kind: str) -> tuple[Scene, Any]:
-    """A scene with an element of a kind, and the element."""
     scene = loaded_scene(kind) if kind in LOADS else three_bodies()
     make = {"vessel": lambda: scene.add_vessel(body="third", name="load"),
             "point": lambda: scene.add_point(name="load", body="third"),
@@ -167,7 +165,6 @@ def test_entries_that_no_file_holds_are_checked(kind: str) -> None:
 
 
 def beyond(bounds: dict[str, float]) -> list[float]:
-    """Numbers just outside of bounds, and two that are none."""
     below = {"minimum": -1e-9, "exclusiveMinimum": 0.0, "maximum": 1e-9, "exclusiveMaximum": 0.0}
     return [bound + below[word] for word, bound in bounds.items()] + [np.nan, np.inf]
 
@@ -194,7 +191,6 @@ def test_every_number_of_an_element_is_held_to_its_bound(kind: str) -> None:
 
 
 def to_six(number: float) -> str:
-    """As the engine writes it in messages."""
     return re.escape(f"{number:.6g}")
 
 

@@ -102,7 +102,6 @@ def finite(result: Any) -> None:
 
 
 def replaced(data: st.DataObject, usual: dict[str, Any], most: int = 2) -> dict[str, Any]:
-    """One or some arguments are hostile."""
     keys = st.lists(st.sampled_from(sorted(usual)), min_size=1, max_size=most, unique=True)
     return usual | {key: data.draw(HOSTILE, label=key) for key in data.draw(keys)}
 
@@ -112,7 +111,6 @@ def replaced(data: st.DataObject, usual: dict[str, Any], most: int = 2) -> dict[
 @SETTINGS
 @given(data=st.data())
 def test_scene_methods(call: str, data: st.DataObject) -> None:
-    """What is accepted compiles and runs, or is refused by name later."""
     scene, arguments = base(), CALLS[call]
     if call == "add_joint":
         arguments = arguments | {"kind": data.draw(st.sampled_from(sorted(KINDS)))}
@@ -123,7 +121,6 @@ def test_scene_methods(call: str, data: st.DataObject) -> None:
 
 @pytest.mark.parametrize("call", CALLS)
 def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
-    """Else the test above would test nothing."""
     scene = base()
     getattr(scene, call)(**CALLS[call])
     scene.compile()
@@ -134,7 +131,6 @@ def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
 
 @pytest.mark.parametrize("name", ["Ladekran 🏗", "é" * 200])
 def test_names_of_any_script(name: str) -> None:
-    """Names that can be printed work all the way into results and messages."""
     scene = Scene(name=name)
     scene.add_body(name, mass=1.0, inertia=[1, 1, 1])
     refused(lambda: scene.add_body(name, mass=1.0, inertia=[1, 1, 1]))
@@ -195,7 +191,6 @@ WAVES: dict[str, Any] = {"omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": 
 @given(key=st.sampled_from(sorted(WAVES | HULL)), value=HOSTILE)
 @example(key="evaluation", value=np.eye(3))
 def test_waves(key: str, value: Any) -> None:
-    """Of the sea, and of the loads on a hull in it."""
     scene = base()
     scene.add_vessel(**CALLS["add_vessel"])
 

@@ -47,7 +47,6 @@ def refused(action: Callable[[], Any], match: str) -> None:
 
 
 def placed(name: str, folder: Path) -> tuple[Target, Path]:
-    """A target, and its path among the sound files that stand beside it."""
     target = TARGETS[name]
     if target.reader == "orcaflex":
         pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
@@ -206,7 +205,6 @@ def test_limits_of_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     ],
 )  # fmt: skip
 def test_nesting_and_tags(name: str, text: str, read: Callable[[Path], Any], tmp_path: Path) -> None:
-    """Brackets without end, aliases that multiply, and tags that would build objects."""
     (tmp_path / name).write_text(text)
     refused(lambda: read(tmp_path / name), name)
 
@@ -235,7 +233,6 @@ def test_files_larger_than_their_kind(name: str, tmp_path: Path) -> None:
 
 
 def scene_text(**changes: Any) -> str:
-    """The seed of scenes with other entries."""
     return json.dumps(json.loads((CORPUS / "scene" / "every-kind").read_bytes()) | changes)
 
 

@@ -47,7 +47,6 @@ ROWS = answers()
 
 def lift(*, slew: float = 0.0, ballast: bool = True, sea: float | None = None, mass: float = MASS,
          **load: float) -> Scene:  # fmt: skip
-    """A lift on the shipped hull, its drives without gains."""
     scene = Scene(name="lift")
     scene.add_vessel(shipped_database())
     if sea is not None:
@@ -112,7 +111,6 @@ def on_its_side(part: Any) -> None:
 
 
 def above_a_deck(**surface: Any) -> None:
-    """A load on a deck whose surface is not where its feet are."""
     scene = with_load((0, 0, 3.0))
     scene.add_contact("load", on="ground", points=[(-1, 0, -1), (1, 0, -1)], **surface)
     simulate(scene, t_end=1.0)
@@ -145,7 +143,6 @@ def waves(hs: float = 2.0, tp: float = 8.0) -> WaveSystem:
 
 
 def pair(distance: float) -> HydroGroup:
-    """The shipped hull twice; it is 25 m broad."""
     ship = shipped_database()
     return HydroGroup.from_databases(databases={"crane": ship, "feeder": ship},
                                      positions={"crane": (0.0, 0.0, 0.0),

@@ -28,13 +28,11 @@ def refused(repository: Path) -> dict[str, list[str]]:
 
 
 def replaced(place: str, word: str, refused: dict[str, list[str]]) -> bool:
-    """Whether a word at a place is one that the table replaces."""
     rows = [stays for old, stays in refused.items() if fnmatchcase(word, old)]
     return any(not any(fnmatchcase(place, at) for at in stays) for stays in rows)
 
 
 def keywords_of(name: str, call: Any) -> Iterator[tuple[str, str]]:
-    """Each parameter of a call, with where it is."""
     try:
         parameters = inspect.signature(call).parameters.values()
     except (TypeError, ValueError):  # of the core, whose keywords are those of Scene
@@ -43,7 +41,6 @@ def keywords_of(name: str, call: Any) -> Iterator[tuple[str, str]]:
 
 
 def public(module: ModuleType, prefix: str = "") -> Iterator[tuple[str, str]]:
-    """Keywords of what a module shows, of its modules, and of the methods of its classes."""
     for name in dir(module):
         one = getattr(module, name)
         if name.startswith("_") or not str(getattr(one, "__module__", "seacrane")).startswith("seacrane"):
@@ -62,7 +59,6 @@ def public(module: ModuleType, prefix: str = "") -> Iterator[tuple[str, str]]:
 
 
 def keys_in(path: str, keys: Iterable[Key]) -> Iterator[tuple[str, str]]:
-    """Keys of a table and of those inside it."""
     for key in keys:
         yield f"[{path}] {key.name}", key.name
         yield from keys_in(f"{path}.{key.name}", key.keys)
