@@ -162,12 +162,6 @@ def ikeda(amplitude_deg: float, **keel: float) -> None:
     ikeda_roll_damping(shipped_hull(), amplitude_deg=amplitude_deg, omega=0.5, axis_height=2.0, **keel)
 
 
-def raos_in_degrees() -> None:
-    omega, values = np.array([0.3, 0.6, 1.0]), np.zeros((1, 3, 6), dtype=complex)
-    values[0, :, 2], values[0, :, 4] = 1.0, -1j * np.degrees(omega**2 / G)
-    MotionRaos(omega=omega, heading=[np.pi], values=values)
-
-
 def wind_where_it_comes_from() -> None:
     scene, circle = lift(sea=180.0), np.linspace(0.0, np.pi, 5)
     side = np.array([0.0, 0.6, 0.8, 0.6, 0.0])
@@ -266,11 +260,12 @@ def drag_of_the_world() -> None:
 # In no time, and at once at full speed.
 STEP = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=2.0))
 RAMP = Curve.pieces(starts=[1.0, 2.0], coefficients=[[0, 0.2, 0, 0, 0, 0], [0.2, 0, 0, 0, 0, 0]])
+IN_DEGREES = np.where(np.arange(6) < 3, 1.0, 180.0 / np.pi)
 SHUT = {"pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
 SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "degrees where radians are meant": [lambda: follow("slew", move(-90.0)),
         lambda: lift(slew=-90.0, ballast=False)],
-    "RAOs in degrees per metre": [raos_in_degrees,
+    "RAOs in degrees per metre": [lambda: raos(lambda v: v * IN_DEGREES),
         lambda: MotionRaos(omega=[0.3, 0.6], heading=[0.0, 180.0], values=np.zeros((2, 2, 6)))],
     "a record in degrees": [lambda: record(0.0, roll=2.5)],
     "radians where degrees are meant": [lambda: lift(sea=np.pi * 3 / 4, ballast=False)],
