@@ -64,18 +64,6 @@ def test_every_channel_carries_the_names_of_the_scene(make: Any) -> None:
         assert run.coords.get(dim, ()) == tuple(names), dim
 
 
-@pytest.mark.warns("UnitWarning")
-def test_several_vessels_are_told_apart_by_name() -> None:
-    scene = cases.vessel(hs=0.0, memory="none")
-    there = scene.vessels["vessel"]
-    scene.add_body("barge", mass=1e6, inertia=(1e8,) * 3, position=(200, 0, 0))
-    same = {key: getattr(there, key) for key in ("added_mass", "restoring", "linear_damping")}
-    scene.add_vessel(body="barge", **same)
-    run = simulate(scene, t_end=0.1)
-    assert run.dims["vessel_motion"] == ("time", "vessel", "motion")
-    assert run.coords["vessel"] == tuple(scene.vessels)
-
-
 def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
     """Whatever is evaluated for an output, for few channels or for many, leaves the steps as they are."""
     scene = cases.case2()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import struct
 import tracemalloc
 from collections.abc import Callable
 from functools import partial
@@ -121,12 +120,6 @@ def test_what_HDF5_allows_and_no_writer_makes(name: str, tmp_path: Path) -> None
     refused(lambda: Result.load(tmp_path / "run.nc"), FORBIDDEN[name])
 
 
-def heaps_within_heaps(path: Path) -> None:
-    """Each looked through again would take time by the square of the file."""
-    with path.open("ab") as file:
-        file.write((hdf5_structure.HEAP + struct.pack("<Q", 2**19)) * 2**16)
-
-
 def large_chunks(path: Path) -> None:
     """HDF5 unfolds a chunk as a whole."""
     with h5py.File(path, "a") as file:
@@ -159,7 +152,6 @@ def a_sparse_file(path: Path) -> None:
 
 
 CHANGED: dict[Callable[[Path], Any], str] = {
-    heaps_within_heaps: "damaged heap at byte",
     large_chunks: "with it the file's arrays take .* above",
     one_text_repeated: "texts brings its texts .* above 128 MiB",
     partial(one_text_repeated, chunks=(REPEATED,)): "texts brings its texts .* above 128 MiB",
@@ -234,14 +226,6 @@ def test_files_larger_than_their_kind(name: str, tmp_path: Path) -> None:
 
 def scene_text(**changes: Any) -> str:
     return json.dumps(json.loads((CORPUS / "scene" / "every-kind").read_bytes()) | changes)
-
-
-def test_keys_that_occur_twice_among_many(tmp_path: Path) -> None:
-    """60,000 keys, of which the last two are one: looked for once, not once for each."""
-    keys = ",".join(f'"k{i}":0' for i in [*range(60_000), 59_999])
-    (tmp_path / "scene.json").write_text(scene_text(notes={}).replace('"notes": {}', f'"notes": {{{keys}}}'))
-    with bounded((tmp_path / "scene.json").stat().st_size):
-        refused(lambda: Scene.load(tmp_path / "scene.json"), "key 'k59999' occurs twice")
 
 
 @pytest.mark.parametrize("entry", ["{}", '{"":0}', "0", '"\u0100"'])

@@ -13,7 +13,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, cases, simulate
 from seacrane.analysis.scene_report import scene_report
-from seacrane.description.description import KINDS
 from seacrane.inputs.frames import rotation_matrix
 
 QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # 90 deg about z
@@ -73,18 +72,6 @@ def test_what_is_handed_out_is_a_copy_and_a_compiled_model_stays() -> None:
     added = scene.add_body("c", mass=1.0, inertia=[1.0, 2.0, 2.5])
     assert_array_equal(added.inertia, np.diag([1.0, 2.0, 2.5]))
     assert model.bodies == ["a", "b"] and scene.compile().bodies == ["a", "b", "c"]
-
-
-def test_a_copy_may_be_changed_alone() -> None:
-    scene = mass_on_rail()
-    scene.notes["kind"] = "rail"
-    other = scene.copy(name="other", gravity=1.0)
-    other.add_body("extra", mass=1.0, inertia=[1, 1, 1])
-    other.notes["kind"] = "changed"
-    other.actuators.clear()
-    other.recorded.clear()
-    held = [*scene.bodies], [*scene.actuators], [*scene.recorded], scene.notes, scene.name, scene.gravity
-    assert held == (["cart"], ["motor"], ["rail"], {"kind": "rail"}, "cart", 0.0)
 
 
 def test_default_coordinates_and_names() -> None:
@@ -172,14 +159,6 @@ def hung() -> Scene:
     scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
     scene.record_coordinate(joint="rail")
     return scene
-
-
-def test_a_name_that_is_not_there_says_what_is() -> None:
-    scene = hung()
-    for table, kind in KINDS.items():
-        with pytest.raises(KeyError, match=f"no {kind} 'lost'; the scene has"):
-            getattr(scene, table)["lost"]
-        assert getattr(scene, table).get("lost") is None and "lost" not in getattr(scene, table)
 
 
 def test_a_replaced_element_takes_the_place_of_the_old_one() -> None:
