@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 from fuzz.limits import bounded
 from fuzz.netcdf_spec import build
-from fuzz.targets import CORPUS, TARGETS, Target
+from fuzz.targets import CORPUS, TARGETS
+from test_fuzz import placed
 
 from seacrane import Lift, Result, Scene
 from seacrane.crane.data_file import load as load_crane
@@ -45,17 +46,9 @@ def refused(action: Callable[[], Any], match: str) -> None:
         tracemalloc.stop()
 
 
-def placed(name: str, folder: Path) -> tuple[Target, Path]:
-    target = TARGETS[name]
-    if target.reader == "orcaflex":
-        pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
-    target.place(folder)
-    return target, folder / target.file
-
-
 @pytest.mark.parametrize("kind", ["re7", "re8", "re1"])
 def test_veres_counts(kind: str, tmp_path: Path) -> None:
-    _, path = placed(f"veres-{kind}", tmp_path)
+    path = tmp_path / placed(f"veres-{kind}", tmp_path).file
     text = (CORPUS / "veres" / path.name).read_text()
     assert "1 2 2 6" in text
     for counts in ("1 1 1000000000 6", "1 1000000000 1 6", "1000000000 1 1 6", "1 1 1e300 6"):
@@ -213,7 +206,8 @@ SET_FILES = ["veres-re7", "veres-re8", "veres-re1", "veres-re2", "veres-hyd", "w
 @pytest.mark.parametrize("name", [*SET_FILES, "stl", "offsets", "orcaflex", "scene", "crane", "lift"])
 def test_files_larger_than_their_kind(name: str, tmp_path: Path) -> None:
     """A sparse file of 64 GiB is refused before any of it is read; so is /dev/zero, which has no end."""
-    target, path = placed(name, tmp_path)
+    target = placed(name, tmp_path)
+    path = tmp_path / target.file
     with path.open("wb") as file:
         file.truncate(2**36)
     refused(lambda: target.read(path), r"is larger than \d+ bytes")
@@ -244,6 +238,6 @@ def test_memory_of_a_scene_file(entry: str, tmp_path: Path) -> None:
 
 def test_a_number_of_many_digits_in_a_hydrostatics_file(tmp_path: Path) -> None:
     """Its pattern tried every way to part the digits."""
-    target, _ = placed("veres-hyd", tmp_path)
+    target = placed("veres-hyd", tmp_path)
     text = (CORPUS / "veres" / "box.hyd").read_text().replace("60.000", "6" * 200_000 + "x")
     assert target.run(text.encode(), tmp_path) == "refused"

@@ -21,17 +21,6 @@ from seacrane.scene import HullLoads, SeaProvenance, VesselProvenance, Waves
 THIRD = 1.0 / 3.0
 
 
-def waves(body: str) -> Waves:
-    draw = np.random.default_rng(3)
-    omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
-    phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
-    transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
-    return Waves(omega=omega, amplitude=amplitude, phase=phase, direction=direction, evaluation="exact",
-                 hulls={body: HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)},
-                 provenance=SeaProvenance(seed=3, repeat_period_s=math.inf,
-                                          realised_hs=np.float64(THIRD)))  # fmt: skip
-
-
 def every_kind() -> Scene:
     """One of each element that a file can hold, with numbers that have no short decimal form."""
     scene = Scene(name="every kind", gravity=9.8 + THIRD / 100, baumgarte=THIRD, length_scale=1.1)
@@ -69,7 +58,14 @@ def every_kind() -> Scene:
     scene.add_vessel(body="hull", name="water", added_mass=matrix, linear_damping=matrix / 10,
                      restoring=restoring, quadratic_damping=np.arange(6.0), mooring_stiffness=(1e4, 2e4, 3e4),
                      mooring_damping=(1, 2, THIRD), memory=memory)  # fmt: skip
-    scene.waves = waves("hull")
+    draw = np.random.default_rng(3)
+    omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
+    phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
+    transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
+    hull = HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)
+    told = SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD))
+    scene.waves = Waves(omega=omega, amplitude=amplitude, phase=phase, direction=direction,
+                        hulls={"hull": hull}, provenance=told, evaluation="exact")  # fmt: skip
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
     scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
