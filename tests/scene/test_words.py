@@ -34,28 +34,26 @@ def replaced(place: str, word: str, refused: dict[str, list[str]]) -> bool:
 
 def keywords_of(name: str, call: Any) -> Iterator[tuple[str, str]]:
     try:
-        parameters = inspect.signature(call).parameters.values()
+        parameters = inspect.signature(call).parameters
     except (TypeError, ValueError):  # of the core, whose keywords are those of Scene
         return
-    yield from ((f"{name}({one.name}=)", one.name) for one in parameters)
+    yield from ((f"{name}({one}=)", one) for one in parameters)
 
 
 def public(module: ModuleType, prefix: str = "") -> Iterator[tuple[str, str]]:
-    for name in dir(module):
+    """Keywords of what a module shows, of its modules, and of the methods of its classes."""
+    for name in (name for name in dir(module) if not name.startswith("_")):
         one = getattr(module, name)
-        if name.startswith("_") or not str(getattr(one, "__module__", "seacrane")).startswith("seacrane"):
-            continue
         if isinstance(one, ModuleType):
             if one.__name__.startswith("seacrane.") and not prefix:
                 yield from public(one, f"{name}.")
-        elif isinstance(one, type):
-            if issubclass(one, BaseException):
-                continue
+        elif not str(getattr(one, "__module__", "")).startswith("seacrane") or not callable(one):
+            continue
+        elif not (isinstance(one, type) and issubclass(one, BaseException)):
             yield from keywords_of(prefix + name, one)
-            for method in (method for method in vars(one) if not method.startswith("_")):
-                yield from keywords_of(f"{prefix}{name}.{method}", getattr(one, method))
-        elif callable(one):
-            yield from keywords_of(prefix + name, one)
+            for method in vars(one) if isinstance(one, type) else ():
+                if not method.startswith("_"):
+                    yield from keywords_of(f"{prefix}{name}.{method}", getattr(one, method))
 
 
 def keys_in(path: str, keys: Iterable[Key]) -> Iterator[tuple[str, str]]:
