@@ -32,8 +32,8 @@ def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     scene.add_body("rotor", mass=1e5, inertia=(2e7,) * 3)
     scene.add_body("payload", mass=2e4, inertia=(1e3,) * 3, position=(25, 0, 12))
     scene.add_joint("slew", kind="revolute", first="ground", second="rotor", point=(0, 0, 0), axis=(0, 0, 1))
-    scene.add_joint("wire", kind="distance", first="rotor", second="payload", point=(25, 0, 30),
-                    second_point=(25, 0, 12))  # fmt: skip
+    ends = {"point": (25, 0, 30), "second_point": (25, 0, 12)}
+    scene.add_joint("wire", kind="distance", first="rotor", second="payload", **ends)
     scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)
     return scene
 
@@ -48,9 +48,9 @@ def driven_by(element: str, curve: Curve) -> Scene:
         scene.add_spring("hold", first="ground", second="cart", first_point=(-20, 0, 0), stiffness=6.0,
                          damping=1.0, natural_length=20.0)  # fmt: skip
     if element == "feed-forward":
-        scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
+        scene.add_actuator("rail", name="drive", feed_forward=curve)
     elif element == "reference":
-        scene.add_actuator(name="drive", joint="rail", stiffness=40.0, damping=12.0, reference=curve)
+        scene.add_actuator("rail", name="drive", stiffness=40.0, damping=12.0, reference=curve)
     elif element == "driver":
         scene.add_driver("rail", curve=curve)
     elif element == "force table":  # takes the curve at every half second
@@ -58,11 +58,9 @@ def driven_by(element: str, curve: Curve) -> Scene:
         loads[:, 0] = curve.evaluate(times)[:, 0]
         scene.add_force_table(name="push", body="cart", times=times, loads=loads)
     else:
-        angle = np.linspace(0.0, np.pi, 13)
-        zero = np.zeros_like(angle)
-        scene.add_wind(coefficients=FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero),
-                       speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5, lateral_area=0.5,
-                       length=1.0)  # fmt: skip
+        angle, areas = np.linspace(0.0, np.pi, 13), {"frontal_area": 0.5, "lateral_area": 0.5, "length": 1.0}
+        drag = FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=0.0 * angle, yaw=0.0 * angle)
+        scene.add_wind(coefficients=drag, speed=curve, direction_deg=0.0, body="cart", **areas)
     return scene
 
 
@@ -105,9 +103,9 @@ def random_slew(rng: np.random.Generator) -> Scene:
     kind = rng.integers(4)
     if kind == 0:
         scene.add_soft_stop(joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
-    if kind == 1:
+    elif kind == 1:
         scene.add_end_stop(joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
-    if kind == 2:
+    elif kind == 2:
         scene.add_friction(joint="slew", load=3e5, speed=0.02)
     return scene
 
@@ -126,13 +124,12 @@ def random_cart(rng: np.random.Generator) -> Scene:
 
 def random_snatch(rng: np.random.Generator) -> Scene:
     """A ball on a wire, thrown so that it may go slack and snatch."""
-    scene = Scene(name="snatch")
-    length = rng.uniform(1.0, 4.0)
-    scene.add_body("ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -length),
-                   velocity=(np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(),
-                             0.0))  # fmt: skip
-    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0, 0, 0),
-                    second_point=(0.0, 0.0, -length))  # fmt: skip
+    scene, length = Scene(name="snatch"), rng.uniform(1.0, 4.0)
+    velocity = (np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(), 0.0)
+    low = (0.0, 0.0, -length)
+    scene.add_body("ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=low, velocity=velocity)
+    ends = {"point": (0, 0, 0), "second_point": low}
+    scene.add_joint("wire", kind="distance", first="ground", second="ball", **ends)
     scene.add_line(joint="wire", rung="rigid")
     return scene
 
