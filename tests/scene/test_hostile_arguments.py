@@ -129,14 +129,6 @@ def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
             getattr(scene, call)(**CALLS[call])
 
 
-@pytest.mark.parametrize("name", ["Ladekran 🏗", "é" * 200])
-def test_names_of_any_script(name: str) -> None:
-    scene = Scene(name=name)
-    scene.add_body(name, mass=1.0, inertia=[1, 1, 1])
-    refused(lambda: scene.add_body(name, mass=1.0, inertia=[1, 1, 1]))
-    assert simulate(scene, t_end=0.1, dt_out=0.1).coords["body"] == (name,)
-
-
 SIMULATE: dict[str, Any] = {
     "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "maximum_step": 0.05, "channels": None,
     "spectral_radius": None, "formulation": "auto", "controllers": (), "start": None, "accuracy": None,

@@ -274,19 +274,6 @@ def test_assembly_tells_what_it_moved() -> None:
     assert found["body moved most"] == "block"
 
 
-def test_what_is_absent() -> None:
-    alone = Scene(gravity=0.0)
-    alone.add_body("stone", mass=1.0, inertia=[1, 1, 1])
-    alone.add_joint("air", kind="free", first="ground", second="stone")
-    left = section(alone, "left out")
-    assert left["absent"] == ["drivers", "actuators", "vessels", "waves", "fluid memory", "gravity"]
-    assert left["joints that constrain nothing"] == ["air"]
-    vessel = section(cases.vessel(hs=0.0, memory="none"), "left out")
-    assert {"waves", "fluid memory"} <= set(vessel["absent"])
-    assert vessel["vessels without memory"] == vessel["bodies without weight of their own"] == ["vessel"]
-    assert "vessels without memory" not in section(cases.vessel(hs=0.0), "left out")
-
-
 def test_fastest_mode_of_a_spring_and_a_mass() -> None:
     scene = on_joint("mass", mass=2.0, gravity=0.0)
     scene.add_actuator("rail", stiffness=5000.0)
