@@ -37,9 +37,12 @@ def _described(group: Any) -> dict[str, Any]:
         }
         for name, variable in group.variables.items()
     }
-    return {"attrs": {key: _plain(group.getncattr(key)) for key in group.ncattrs()},
-            "dims": {name: len(dimension) for name, dimension in group.dimensions.items()}, "vars": variables,
-            "groups": {name: _described(inner) for name, inner in group.groups.items()}}  # fmt: skip
+    return {
+        "attrs": {key: _plain(group.getncattr(key)) for key in group.ncattrs()},
+        "dims": {name: len(dimension) for name, dimension in group.dimensions.items()},
+        "vars": variables,
+        "groups": {name: _described(inner) for name, inner in group.groups.items()},
+    }
 
 
 def _plain(value: Any) -> Any:
@@ -95,8 +98,10 @@ def _entries(spec: dict[str, Any], key: str) -> list[tuple[str, Any]]:
 
 def _left_out() -> contextlib.suppress:
     """Whatever cannot be written is no case for a reader."""
-    return contextlib.suppress(AttributeError, LookupError, MemoryError, OSError, OverflowError,
-                               RecursionError, RuntimeError, TypeError, ValueError)  # fmt: skip
+    return contextlib.suppress(
+        AttributeError, LookupError, MemoryError, OSError, OverflowError, RecursionError, RuntimeError,
+        TypeError, ValueError,
+    )  # fmt: skip
 
 
 def _variable(group: Any, name: str, spec: dict[str, Any]) -> None:

@@ -261,8 +261,10 @@ def _under(folder: str, names: str) -> tuple[str, ...]:
 
 
 _NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
-_SCENE = (*_under("description", "file file_waves file_text file_origin file_elements"),
-          *_under("inputs", "node plain_data"))  # fmt: skip
+_SCENE = (
+    *_under("description", "file file_waves file_text file_origin file_elements"),
+    *_under("inputs", "node plain_data"),
+)
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
 _VERES = _under(_HYDRO, "veres veres_files veres_set veres_hydrostatics text_records")
@@ -284,8 +286,10 @@ def _set_targets(name: str, files: str, read: Reader, modules: tuple[str, ...]) 
 
 def _netcdf_targets(name: str, file: str, read: Reader, *modules: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
-    return [Target(name, name, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
-            Target(f"{name}-bytes", name, file, read, (*modules, *_NETCDF), None, unfolds=True)]  # fmt: skip
+    return [
+        Target(name, name, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
+        Target(f"{name}-bytes", name, file, read, (*modules, *_NETCDF), None, unfolds=True),
+    ]
 
 
 def _asked_of_several(path: Path) -> None:
